@@ -1,0 +1,36 @@
+# `make check` and `make test` need Python 3.11 or newer, git and make, and nothing else.
+PYTHON ?= python3
+VENV ?= .venv
+BIN := $(VENV)/bin
+JOBS ?= 2
+
+.PHONY: check test lint models schema clean
+
+check: $(VENV)/.check  ## run the catalogue against every engine; writes furiko-report/
+	$(BIN)/furiko check
+
+test: $(VENV)/.test  ## run the tests
+	$(BIN)/python -m pytest -n $(JOBS)
+
+lint: $(VENV)/.test  ## ruff and mypy --strict
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	rm -rf build/lint && $(BIN)/pip install --quiet --no-deps --target build/lint .
+	cd build/lint && ../../$(BIN)/mypy --config-file ../../pyproject.toml
+
+models:  ## write the catalogue's model files and the stream's schema again
+	$(BIN)/python -m furiko.models.write_files
+	$(BIN)/python -m furiko.reports.schema
+
+clean:
+	rm -rf $(VENV) build dist furiko.egg-info
+
+$(VENV)/.check: pyproject.toml constraints.txt
+	@$(PYTHON) -c 'import sys; v = sys.version_info; sys.exit(v < (3, 11) and "furiko needs Python 3.11 or newer; this is %d.%d: make PYTHON=python3.12" % v[:2])'
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/pip install --quiet --constraint constraints.txt --editable .
+	@touch $@
+
+$(VENV)/.test: $(VENV)/.check
+	$(BIN)/pip install --quiet --constraint constraints.txt --editable '.[dev]'
+	@touch $@

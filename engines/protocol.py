@@ -1,0 +1,107 @@
+"""What an engine is to furiko: data that says what it can do, and six questions it may be asked.
+
+Angles and rates are absolute and along the last axis, batches along the first: ``theta`` [rad] and ``omega`` [rad/s]
+have shape (B, n). Forces and torques are those of the planar mechanism; x is to the right, z up.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..models import System
+
+Array = NDArray[np.float64]
+Quantity = Literal["fields", "accelerations", "inverse_dynamics", "joint_forces", "energy", "trajectory"]
+
+
+@dataclass(frozen=True)
+class Integrator:
+    """One of an engine's own time-stepping schemes: its name there, and the order its makers give it."""
+
+    name: str
+    order: int
+
+
+@dataclass(frozen=True)
+class EngineInfo:
+    """An engine's name and capabilities, known without importing it.
+
+    ``adapter``: where its class is, ``module:Class``; ``module``: what it imports; ``package``: what to pip install.
+    ``coordinates``: those in which it forms and solves the equations, hence where its rounding arises. ``missing``:
+    for each quantity it cannot give, the sentence that says why. ``accuracy``: relative accuracy of one operation,
+    and ``accuracy_reason`` where that is more than double precision's rounding.
+    """
+
+    name: str
+    formulation: str
+    adapter: str
+    module: str
+    package: str
+    homepage: str
+    coordinates: Literal["relative", "absolute", "maximal"]
+    integrators: tuple[Integrator, ...] = ()
+    missing: Mapping[str, str] = field(default_factory=dict)
+    largest_n: int = 10_000
+    largest_n_reason: str = ""
+    accuracy: float = 2.0**-52
+    accuracy_reason: str = ""
+
+
+@dataclass(frozen=True)
+class ModelFields:
+    """What the engine holds after it has read the model, in the order of the mechanism's links.
+
+    ``dofs``: degrees of freedom; ``parents``: index of each link's parent, -1 for the support; ``hinges`` and
+    ``centres``: hinge in the parent's frame and centre of mass in its own, (along, across) [m], shape (n, 2);
+    ``masses`` [kg]; ``inertias`` about the centre of mass and the hinge axis [kg m²]; ``gravity``: the vector (x, y,
+    z) [m/s²] in the world where z is up and y into the plane; ``armature`` [kg m²] and ``damping`` [N m s] of each hinge.
+    """
+
+    dofs: int
+    parents: tuple[int, ...]
+    hinges: Array
+    centres: Array
+    masses: Array
+    inertias: Array
+    gravity: Array
+    armature: Array
+    damping: Array
+
+
+class Engine(Protocol):
+    """An adapter: made for one system, asked in absolute angles. It need not answer what its info calls missing."""
+
+    def __init__(self, system: System) -> None: ...
+
+    def fields(self) -> ModelFields:
+        """The model as the engine compiled it."""
+        ...
+
+    def accelerations(self, theta: Array, omega: Array) -> Array:
+        """θ̈ [rad/s²], shape (B, n)."""
+        ...
+
+    def inverse_dynamics(self, theta: Array, omega: Array, alpha: Array, *, gravity: bool = True) -> Array:
+        """Generalised forces [N m] that the absolute angles need for the accelerations ``alpha``, shape (B, n)."""
+        ...
+
+    def joint_forces(self, theta: Array, omega: Array, alpha: Array) -> Array:
+        """Force (x, z) [N] that each link exerts on what carries it, at its hinge, in that motion; shape (B, n, 2).
+
+        For a rod chain row j is Takeno's T_j, j = 0 … n-1: the force of A_{j+1} on A_j at their joint. An engine that
+        only solves for forces along with its own accelerations may pass over ``alpha``.
+        """
+        ...
+
+    def energy(self, theta: Array, omega: Array) -> Array:
+        """Kinetic and potential energy [J], the latter zero at the support's height; shape (B, 2)."""
+        ...
+
+    def trajectory(self, theta: Array, omega: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
+        """θ and ω, shape (n,) each, after ``steps`` steps of ``step`` seconds from one state (n,), (n,)."""
+        ...

@@ -1,0 +1,3 @@
+"""furiko: cross-checks hand-derived equations of motion and physics engines."""
+
+__version__ = "0.1.0"

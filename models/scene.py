@@ -1,0 +1,218 @@
+"""A scene: a mechanism, the states it is looked at in, and how long it moves; read from a TOML file.
+
+The catalogue's own scenes stand in ``catalogue/`` beside this file, one a file, in the format that a user's own have.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import tomllib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+import msgspec
+
+from .errors import InvalidInput, nearest
+from .systems import NLegPendulum, RodChain, number
+
+CATALOGUE = Path(__file__).parent / "catalogue"
+LARGEST_FILE = 2_000_000  # bytes; ten thousand links fit several times over
+LARGEST_N = 10_000
+LARGEST_ANGLE = 1e15  # beyond it neighbouring doubles are more than a tenth of a radian apart
+NAMED_STATES = ("hanging", "horizontal", "inverted", "small", "whirling", "straight")
+RANDOM_STATES = 200
+
+
+@dataclass(frozen=True)
+class Scene:
+    """One row of the catalogue, or one file of a user's.
+
+    ``theta`` [rad] and ``omega`` [rad/s] are the state that a trajectory starts from, n each, or None where the file
+    gives none; ``duration`` [s], 0 for no trajectory. ``random`` and ``named`` say in which further states
+    instantaneous quantities are compared (:func:`furiko.models.states.states`). ``equations`` names what of the
+    documents this scene exercises.
+    """
+
+    name: str
+    system: NLegPendulum | RodChain
+    theta: tuple[float, ...] | None = None
+    omega: tuple[float, ...] | None = None
+    duration: float = 0.0
+    random: int = RANDOM_STATES
+    named: tuple[str, ...] = NAMED_STATES
+    tags: tuple[str, ...] = ()
+    equations: tuple[str, ...] = ()
+    description: str = ""
+
+
+class _System(msgspec.Struct, forbid_unknown_fields=True):
+    kind: Literal["n-leg", "rod-chain"]
+    lengths: list[Any]  # numbers: the mechanism's own check names the one that is not
+    masses: list[Any] | None = None
+    density: Any = None
+    gravity: Any = 9.81
+
+
+class _State(msgspec.Struct, forbid_unknown_fields=True):
+    theta: list[Any]
+    omega: list[Any] | None = None
+    duration: float = 0.0
+
+
+class _Samples(msgspec.Struct, forbid_unknown_fields=True):
+    random: int = RANDOM_STATES
+    named: list[str] = msgspec.field(default_factory=lambda: list(NAMED_STATES))
+
+
+class _File(msgspec.Struct, forbid_unknown_fields=True):
+    system: _System
+    state: _State | None = None
+    samples: _Samples = msgspec.field(default_factory=_Samples)
+    tags: list[str] = []
+    equations: list[str] = []
+    description: str = ""
+
+
+def catalogue() -> tuple[str, ...]:
+    """Names of the catalogue's scenes, smaller systems first."""
+    return tuple(sorted((path.stem for path in CATALOGUE.glob("*.toml")), key=_natural))
+
+
+def find_scene(name: str) -> Scene:
+    """The catalogue's scene of this name, or the scene in this TOML file. Raises :class:`InvalidInput`."""
+    if name in catalogue():
+        return read_scene(CATALOGUE / f"{name}.toml")
+    if name.endswith(".toml") or "/" in name:
+        return read_scene(Path(name))
+    raise InvalidInput(f"scene {name!r}: not in the catalogue{nearest(name, catalogue())}; 'furiko scenes' lists it")
+
+
+def read_scene(path: Path) -> Scene:
+    """Read one scene file. Raises :class:`InvalidInput` naming the file, the field, and what would be right."""
+    try:
+        return scene_from_toml(_text(path), name=path.stem)
+    except InvalidInput as error:
+        raise InvalidInput(f"{path}: {error}") from None
+
+
+def scene_from_toml(text: str, name: str) -> Scene:
+    """The scene that a TOML text describes. Raises :class:`InvalidInput`."""
+    try:
+        file = msgspec.convert(tomllib.loads(text), _File)
+    except tomllib.TOMLDecodeError as error:
+        raise InvalidInput(f"not valid TOML: {error}") from None
+    except (RecursionError, MemoryError):
+        raise InvalidInput("not valid TOML: nested too deeply") from None
+    except msgspec.ValidationError as error:
+        raise InvalidInput(_field_first(str(error))) from None
+    system = _system(file.system)
+    theta, omega, duration = _state(file.state, system.n)
+    if not 0 <= file.samples.random <= 100_000:
+        raise InvalidInput(f"samples.random: from 0 to 100000 states, got {file.samples.random}")
+    for word in file.samples.named:
+        if word not in NAMED_STATES:
+            raise InvalidInput(
+                f"samples.named: {word!r} is none of {', '.join(NAMED_STATES)}{nearest(word, NAMED_STATES)}"
+            )
+    if theta is None and not file.samples.random and not file.samples.named:
+        raise InvalidInput("samples: no state is left to look at; give a [state], or ask for some random or named ones")
+    return Scene(
+        name=name,
+        system=system,
+        theta=theta,
+        omega=omega,
+        duration=duration,
+        random=file.samples.random,
+        named=tuple(file.samples.named),
+        tags=tuple(file.tags),
+        equations=tuple(file.equations),
+        description=file.description,
+    )
+
+
+def _text(path: Path) -> str:
+    try:
+        with path.open("rb") as stream:
+            content = stream.read(LARGEST_FILE + 1)
+    except OSError as error:
+        raise InvalidInput(f"cannot be read: {error.strerror or error}") from None
+    if len(content) > LARGEST_FILE:
+        raise InvalidInput(f"larger than {LARGEST_FILE // 1_000_000} MB, which no scene needs")
+    try:
+        return content.decode()
+    except UnicodeDecodeError as error:
+        raise InvalidInput(f"not UTF-8 text: {error.reason} at byte {error.start}") from None
+
+
+def _system(given: _System) -> NLegPendulum | RodChain:
+    if len(given.lengths) > LARGEST_N:
+        raise InvalidInput(f"system.lengths: at most {LARGEST_N} links, got {len(given.lengths)}")
+    try:
+        if given.kind == "rod-chain":
+            if given.masses is not None:
+                raise InvalidInput("masses: a rod chain takes density [kg/m] instead, and m_j = density × l_j")
+            density = 1.0 if given.density is None else given.density
+            return RodChain(tuple(given.lengths), density, given.gravity)
+        if given.density is not None:
+            raise InvalidInput("density: an N-leg pendulum takes masses [kg] instead")
+        if given.masses is None:
+            raise InvalidInput("masses: missing; one mass [kg] for each length is needed")
+        return NLegPendulum(tuple(given.lengths), tuple(given.masses), given.gravity)
+    except InvalidInput as error:
+        raise InvalidInput(f"system.{error}") from None
+
+
+def _state(given: _State | None, n: int) -> tuple[tuple[float, ...] | None, tuple[float, ...] | None, float]:
+    if given is None:
+        return None, None, 0.0
+    theta = _angles("theta", given.theta, n, "rad")
+    omega = _angles("omega", [0.0] * n if given.omega is None else given.omega, n, "rad/s")
+    if not (math.isfinite(given.duration) and given.duration >= 0):
+        raise InvalidInput(f"state.duration: must be zero or positive and finite, in s, got {given.duration!r}")
+    return theta, omega, given.duration
+
+
+def _angles(field: str, values: list[Any], n: int, unit: str) -> tuple[float, ...]:
+    if len(values) != n:
+        raise InvalidInput(f"state.{field}: {len(values)} values given, the system has {n} angles")
+    numbers = tuple(number(f"state.{field}[{i}]", value) for i, value in enumerate(values))
+    for i, value in enumerate(numbers):
+        if not abs(value) <= LARGEST_ANGLE:
+            raise InvalidInput(f"state.{field}[{i}]: must be finite, at most {LARGEST_ANGLE:g} {unit}, got {value!r}")
+    return numbers
+
+
+def _field_first(message: str) -> str:
+    """msgspec's ``Expected `float`, got `str` - at `$.system.lengths[0]``` with the field in front."""
+    unknown = re.fullmatch(r"Object contains unknown field `(.*?)`(?: - at `\$\.?(.*)`)?", message)
+    if unknown:
+        field, table = unknown[1], unknown[2] or ""
+        fields = {"system": _System, "state": _State, "samples": _Samples}.get(table, _File).__struct_fields__
+        where = f"{table}.{field}" if table else field
+        return f"{where}: unknown field{nearest(field, fields)}; known are {', '.join(fields)}"
+    what, _, where = message.partition(" - at `$.")
+    return f"{where.rstrip('`')}: {_lower(what)}" if where else _lower(message)
+
+
+def _lower(sentence: str) -> str:
+    return (sentence[:1].lower() + sentence[1:]).replace("`", "'")
+
+
+def _natural(name: str) -> tuple[str | int, ...]:
+    """Sort key that puts rods-2 before rods-10."""
+    return tuple(int(part) if part.isdigit() else part for part in re.split(r"(\d+)", name))
+
+
+def find_scenes(names: Sequence[str] | None) -> tuple[Scene, ...]:
+    """The scenes of these names and files, each once, in the order given; the whole catalogue for None."""
+    chosen = dict.fromkeys(catalogue() if names is None else names)
+    scenes = tuple(find_scene(name) for name in chosen)
+    seen: dict[str, str] = {}
+    for scene, given in zip(scenes, chosen, strict=True):
+        if scene.name in seen:
+            raise InvalidInput(f"two scenes are called {scene.name!r}: {seen[scene.name]} and {given}; rename one")
+        seen[scene.name] = given
+    return scenes
