@@ -1,0 +1,162 @@
+"""Two runs side by side: what began to differ, what agrees again, and where errors grew or shrank."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+from ..models.result import Result
+from .report import Report
+from .words import count, figure, one_line
+
+# ! agreed, or was not there, and now differs or fails     * differed or failed and now agrees
+# + error grew     - error shrank     x the bound or the unit is another, so errors cannot be compared
+# ~ the outcome is another in some other way (to or from skipped)     > only in the second run     < only in the first
+Mark = Literal["!", "*", "+", "-", "x", "~", ">", "<", " "]
+SAYS: dict[Mark, str] = {
+    "!": "broke",
+    "+": "error grew",
+    "x": "not comparable",
+    "~": "outcome changed",
+    "*": "mended",
+    "-": "error shrank",
+    ">": "appeared",
+    "<": "disappeared",
+}
+BAD = ("differs", "error")
+FACTOR = 2.0  # errors of two machines, or of two orders of summation, lie this far apart with nothing wrong
+
+
+@dataclass(frozen=True)
+class Change:
+    """One comparison in both runs; ``before`` or ``after`` is None where a run has no such comparison."""
+
+    before: Result | None
+    after: Result | None
+    mark: Mark
+
+    @property
+    def result(self) -> Result:
+        """Whichever there is, the later first: for names."""
+        result = self.after or self.before
+        assert result is not None
+        return result
+
+    @property
+    def ratio(self) -> float | None:
+        """Error after as a multiple of error before; None where either is missing or there was none before."""
+        if self.before is None or self.after is None or self.before.measured is None or self.after.measured is None:
+            return None
+        return abs(self.after.measured / self.before.measured) if self.before.measured else None
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """All comparisons of two runs, those of the second run in its order, then those that it no longer has."""
+
+    before: Report
+    after: Report
+    changes: tuple[Change, ...]
+
+    def marked(self, *marks: Mark) -> list[Change]:
+        """The changes with one of these marks."""
+        return [change for change in self.changes if change.mark in marks]
+
+    @cached_property
+    def exit_status(self) -> int:
+        """0: nothing broke; 1: something that agreed differs or fails now, or is gone; 3: a run is not whole."""
+        if self.marked("!"):
+            return 1
+        return 0 if self.before.complete and self.after.complete else 3
+
+    def text(self) -> str:
+        """What changed, a line each under a heading; unchanged comparisons are only counted."""
+        lines = [
+            f"{name} run: {flaw}"
+            for name, run in (("first", self.before), ("second", self.after))
+            for flaw in run.flaws
+        ]
+        for mark, says in SAYS.items():
+            found = self.marked(mark)
+            if found:
+                lines += [f"{says} ({len(found)})", *(f"  {mark} {_line(change)}" for change in found), ""]
+        tally = Counter(change.mark for change in self.changes)
+        said = [f"{tally[mark]} {says}" for mark, says in SAYS.items() if tally[mark]]
+        return "\n".join([*lines, "; ".join([*said, f"{count(tally[' '], 'comparison')} unchanged"]) + "."])
+
+
+def compare(before: Report, after: Report, factor: float = FACTOR) -> Comparison:
+    """Pair the comparisons of two runs by scene, engine and check.
+
+    An error that grew or shrank by less than ``factor`` (over 1) is unchanged, as is one that is under one rounding
+    in both runs.
+    """
+    old, new = _keyed(before), _keyed(after)
+    changes = [_change(old.get(key), result, factor) for key, result in new.items()]
+    changes += [_change(result, None, factor) for key, result in old.items() if key not in new]
+    return Comparison(before, after, tuple(changes))
+
+
+def _keyed(report: Report) -> dict[tuple[str, str, str, int], Result]:
+    """Results by scene, engine, check, and how many of that name came before."""
+    seen: Counter[tuple[str, str, str]] = Counter()
+    found = {}
+    for result in report.results:
+        key = (result.scene, result.engine, result.check)
+        found[(*key, seen[key])] = result
+        seen[key] += 1
+    return found
+
+
+def _change(before: Result | None, after: Result | None, factor: float) -> Change:
+    return Change(before, after, _mark(before, after, factor))
+
+
+def _mark(before: Result | None, after: Result | None, factor: float) -> Mark:  # noqa: PLR0911
+    if after is None:
+        return "<"
+    if after.outcome in BAD and (before is None or before.outcome != after.outcome):
+        return "!"
+    if before is None:
+        return ">"
+    if before.outcome in BAD and after.outcome == "agrees":
+        return "*"
+    if before.outcome != after.outcome:
+        return "~"
+    if after.measured is None and before.measured is None:
+        return " "
+    if (
+        before.unit != after.unit
+        or before.allowed != after.allowed
+        or after.measured is None
+        or before.measured is None
+    ):
+        return "x"
+    return _growth(abs(before.measured), abs(after.measured), 1.0 if after.unit == "ε" else 0.0, factor)
+
+
+def _growth(before: float, after: float, floor: float, factor: float) -> Mark:
+    before, after = max(before, floor), max(after, floor)
+    if after > factor * before:
+        return "+"
+    return "-" if before > factor * after else " "
+
+
+def _line(change: Change) -> str:
+    result = change.result
+    said = f"{result.scene} × {result.engine}, {result.check}: {_figures(change.before)} → {_figures(change.after)}"
+    if change.ratio is not None:
+        said += f" ({figure(change.ratio)} ×)"
+    if change.after is not None and change.after.outcome != "agrees" and change.after.reason:
+        said += f": {change.after.reason}"
+    return one_line(said)
+
+
+def _figures(result: Result | None) -> str:
+    if result is None:
+        return "none"
+    if result.measured is None:
+        return result.outcome
+    return f"{result.outcome} {figure(result.measured)} {result.unit}".rstrip()

@@ -1,0 +1,73 @@
+"""JUnit XML as GitHub, GitLab and Jenkins read it: a test suite a scene, a test case a comparison."""
+
+from __future__ import annotations
+
+from xml.etree import ElementTree as XML
+
+from ..models.result import Outcome, Result
+from .report import Report
+from .words import figure, last_line, one_line, printable
+
+# What JUnit calls an outcome, as the element inside a test case. One that agrees has none.
+ELEMENTS: dict[Outcome, str] = {"differs": "failure", "error": "error", "skipped": "skipped"}
+
+
+def to_junit(report: Report) -> str:
+    """The XML document. A run that is not whole gets a failing suite of its own, so that no CI takes it for green."""
+    suites = XML.Element("testsuites", {"name": "furiko"})
+    by_scene: dict[str, list[Result]] = {scene: [] for scene in report.scenes}
+    for result in report.results:
+        by_scene[result.scene].append(result)
+    for scene, results in by_scene.items():
+        if results:
+            suite = _suite(suites, scene, report)
+            for result in results:
+                _case(suite, result)
+            _count(suite)
+    if report.flaws:
+        suite = _suite(suites, "furiko", report)
+        for flaw in report.flaws:
+            case = XML.SubElement(
+                suite, "testcase", {"classname": "furiko.run", "name": "the run is whole", "time": "0"}
+            )
+            XML.SubElement(case, "error", {"message": flaw, "type": "incomplete"})
+        _count(suite)
+    for field in ("tests", "failures", "errors", "skipped"):
+        suites.set(field, str(sum(int(suite.get(field, "0")) for suite in suites)))
+    suites.set("time", _seconds(sum(result.seconds for result in report.results)))
+    XML.indent(suites)
+    return '<?xml version="1.0" encoding="UTF-8"?>\n' + XML.tostring(suites, encoding="unicode") + "\n"
+
+
+def _suite(suites: XML.Element, name: str, report: Report) -> XML.Element:
+    started = report.header.started.removesuffix("Z").partition("+")[0].partition(".")[0]
+    return XML.SubElement(suites, "testsuite", {"name": printable(name), "timestamp": printable(started)})
+
+
+def _case(suite: XML.Element, result: Result) -> None:
+    where = {"classname": printable(f"{result.scene}.{result.engine}"), "name": printable(result.check)}
+    case = XML.SubElement(suite, "testcase", where | {"time": _seconds(result.seconds)})
+    element = ELEMENTS.get(result.outcome)
+    if element is None:
+        return
+    message = one_line(last_line(result.reason)) or "no reason was given"
+    if result.measured is not None and result.outcome == "differs":
+        message = one_line(
+            f"measured {figure(result.measured)} {result.unit}, allowed {figure(result.allowed)}: {message}"
+        )
+    said = XML.SubElement(case, element, {"message": message})
+    if result.outcome != "skipped":
+        said.set("type", printable(result.cause or result.outcome))
+        said.text = printable(result.reason)
+
+
+def _count(suite: XML.Element) -> None:
+    """The tallies that readers of JUnit take from the suite's attributes."""
+    suite.set("tests", str(len(suite)))
+    for field, element in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
+        suite.set(field, str(len(suite.findall(f"testcase/{element}"))))
+    suite.set("time", _seconds(sum(float(case.get("time", "0")) for case in suite)))
+
+
+def _seconds(seconds: float) -> str:
+    return f"{seconds:.6f}"

@@ -1,0 +1,122 @@
+"""The summary for a CI step (GITHUB_STEP_SUMMARY) or a comment: what differs first, the table, details folded."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from ..models.result import Result
+from .report import Cell, Report
+from .words import GLYPHS, LEGEND, figure, last_line, one_line
+
+MOST_LISTED = 50  # a step summary may hold 1 MiB
+LONGEST_REASON = 400  # characters
+_SAFE = frozenset(" .,;'()/+=-%–…·×≤≥²³√°✓✗") | frozenset("\n")
+
+
+def to_markdown(report: Report) -> str:
+    """GitHub-flavoured Markdown in which all that came from the stream is text and nothing else."""
+    sections = [
+        _top(report),
+        _findings(report.having("differs"), "What differs"),
+        _findings(report.having("error"), "What failed"),
+        _table(report),
+        _skips(report),
+        _facts(report),
+    ]
+    return "\n\n".join(section for section in sections if section) + "\n"
+
+
+def escape(text: str, longest: int = LONGEST_REASON) -> str:
+    """One line of text that Markdown shows as it is: all but letters, digits and a few signs as character references.
+
+    A reference never acts as markup (CommonMark 6.2), so one rule covers emphasis, links, tables, code and HTML.
+    """
+    return "".join(c if c.isalnum() or c in _SAFE else f"&#{ord(c)};" for c in one_line(text, longest))
+
+
+def _top(report: Report) -> str:
+    mark = {0: GLYPHS["agrees"], 1: GLYPHS["differs"]}.get(report.exit_status, GLYPHS["error"])
+    flaws = [f"> [!WARNING]\n> {escape(flaw)}" for flaw in report.flaws]
+    return "\n\n".join([f"## furiko {mark} {escape(report.verdict)}", *flaws])
+
+
+def _findings(results: Sequence[Result], title: str) -> str:
+    if not results:
+        return ""
+    rows = [
+        [
+            escape(result.scene),
+            escape(result.engine),
+            escape(result.check),
+            _measured(result.measured, result.unit),
+            _measured(result.allowed, result.unit),
+            escape(result.cause or ""),
+            escape(last_line(result.reason)),
+        ]
+        for result in results[:MOST_LISTED]
+    ]
+    table = _rows(["scene", "engine", "check", "measured", "allowed", "cause", "reason"], rows)
+    more = len(results) - MOST_LISTED
+    left = f"\n\n… and {more} more, which report.html lists." if more > 0 else ""
+    return f"### {title}\n\n{table}{left}"
+
+
+def _table(report: Report) -> str:
+    if not report.results:
+        return ""
+    rows = [
+        [escape(scene), *(_said(report.table[scene, engine]) for engine in report.engines)] for scene in report.scenes
+    ]
+    return f"### Scene × engine\n\n{_rows(['scene', *map(escape, report.engines)], rows)}\n\n{LEGEND}."
+
+
+def _said(cell: Cell) -> str:
+    if cell.outcome is None:
+        return "no result"
+    said = f"{GLYPHS[cell.outcome]} {cell.outcome}"
+    if cell.outcome == "differs":
+        said = f"**{said}**"
+    return f"{said} {cell.error}".rstrip()
+
+
+def _skips(report: Report) -> str:
+    skips = report.reasons("skipped")
+    if not skips:
+        return ""
+    rows = [
+        [
+            str(len(results)),
+            _names(result.engine for result in results),
+            _names(result.check for result in results),
+            escape(reason),
+        ]
+        for reason, results in skips[:MOST_LISTED]
+    ]
+    table = _rows(["skipped", "engines", "checks", "reason"], rows)
+    return _folded(f"{report.counts['skipped']:,} skipped, and why", table)
+
+
+def _facts(report: Report) -> str:
+    header = report.header
+    facts = {"command": header.command, "profile": header.profile, "started": header.started, "seed": header.seed}
+    facts |= {"furiko": header.furiko} | header.versions | header.machine
+    rows = [[escape(name), escape(value)] for name, value in facts.items() if value]
+    return _folded("How this was run", _rows(["", ""], rows))
+
+
+def _folded(title: str, inside: str) -> str:
+    return f"<details><summary>{title}</summary>\n\n{inside}\n\n</details>"
+
+
+def _rows(heading: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    lines = [heading, ["---"] * len(heading), *rows]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+
+def _names(names: Iterable[str]) -> str:
+    known = sorted(set(names))
+    return escape(", ".join(known)) if len(known) <= 3 else str(len(known))
+
+
+def _measured(value: float | None, unit: str) -> str:
+    return "" if value is None else f"{figure(value)} {escape(unit)}".rstrip()

@@ -1,0 +1,228 @@
+"""A run that was read back, and what all its renderings ask of it."""
+
+from __future__ import annotations
+
+import math
+import shlex
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+from ..models.result import OUTCOMES, EngineEntry, Footer, Header, Outcome, Result, SceneEntry
+from .words import count, figure, last_line
+
+# What a cell of several checks says: the worst of them, where that something differs outweighs that something
+# failed, and that one check was skipped says little where others ran.
+GRAVEST: tuple[Outcome, ...] = ("differs", "error", "agrees", "skipped")
+AGREES, DIFFERS, FAILED = 0, 1, 3  # exit statuses
+
+
+@dataclass(frozen=True)
+class Cell:
+    """All comparisons of one scene with one engine."""
+
+    scene: str
+    engine: str
+    results: tuple[Result, ...]
+
+    @cached_property
+    def outcome(self) -> Outcome | None:
+        """The gravest outcome; None where there is no result at all."""
+        found = {result.outcome for result in self.results}
+        return next((outcome for outcome in GRAVEST if outcome in found), None)
+
+    @cached_property
+    def worst(self) -> Result | None:
+        """The result that decides: of those with the cell's outcome, the one with the largest share of the allowed."""
+        deciding = [result for result in self.results if result.outcome == self.outcome]
+        return max(deciding, key=_share_or_nothing, default=None)
+
+    @property
+    def share(self) -> float | None:
+        """Worst error as a multiple of what is allowed; None where nothing was measured."""
+        return share(self.worst) if self.worst else None
+
+    @cached_property
+    def rounding(self) -> float | None:
+        """Worst error as a multiple of rounding [ε], over the checks that measure in it."""
+        errors = [r.measured for r in self.results if r.unit == "ε" and r.measured is not None]
+        return max(errors, default=None)
+
+    @property
+    def error(self) -> str:
+        """The cell's one figure: in roundings where it agrees and some check measures in them, else in the allowed."""
+        if self.outcome == "agrees" and self.rounding is not None:
+            return f"{figure(self.rounding)} ε"
+        if self.outcome in ("agrees", "differs") and self.share is not None:
+            return f"{figure(self.share)} ×"
+        return ""
+
+
+@dataclass(frozen=True)
+class Report:
+    """A result stream: its header, its results in the order they came, and its footer if the run got that far."""
+
+    header: Header
+    results: tuple[Result, ...]
+    footer: Footer | None = None
+
+    @property
+    def complete(self) -> bool:
+        """Whether the stream is whole: it has its footer, and the footer's counts are those of the results."""
+        return self.footer is not None and self._counted == self.counts
+
+    @cached_property
+    def counts(self) -> Mapping[Outcome, int]:
+        """Number of results of each outcome."""
+        found = Counter(result.outcome for result in self.results)
+        return {outcome: found[outcome] for outcome in OUTCOMES}
+
+    @cached_property
+    def scenes(self) -> tuple[str, ...]:
+        """Names of the scenes: the header's in its order, then any that only results name."""
+        return _in_order([scene.name for scene in self.header.scenes], (result.scene for result in self.results))
+
+    @cached_property
+    def engines(self) -> tuple[str, ...]:
+        """Names of the engines: the header's in its order, then any that only results name."""
+        return _in_order([engine.name for engine in self.header.engines], (result.engine for result in self.results))
+
+    @cached_property
+    def checks(self) -> tuple[str, ...]:
+        """Names of the checks in the order in which they first came."""
+        return _in_order([], (result.check for result in self.results))
+
+    @cached_property
+    def table(self) -> Mapping[tuple[str, str], Cell]:
+        """One cell for each scene and engine."""
+        found: dict[tuple[str, str], list[Result]] = {}
+        for result in self.results:
+            found.setdefault((result.scene, result.engine), []).append(result)
+        return {
+            (scene, engine): Cell(scene, engine, tuple(found.get((scene, engine), ())))
+            for scene in self.scenes
+            for engine in self.engines
+        }
+
+    @cached_property
+    def unrun(self) -> tuple[Cell, ...]:
+        """Cells of the header's scenes and engines for which the stream has no result, not even a reason for none."""
+        return tuple(
+            cell
+            for scene in self.header.scenes
+            for engine in self.header.engines
+            if not (cell := self.table[scene.name, engine.name]).results
+        )
+
+    @cached_property
+    def flaws(self) -> tuple[str, ...]:
+        """Why this is not the whole of a run, a sentence each; every rendering says them. Empty for a whole run."""
+        found = []
+        if self.footer is None:
+            found.append(
+                "This run was cut off: its stream has no footer, so what is shown is only what came before the end."
+            )
+        elif not self.complete:
+            wrong = ", ".join(
+                f"{outcome} {self._counted[outcome]} (found {self.counts[outcome]})"
+                for outcome in OUTCOMES
+                if self._counted[outcome] != self.counts[outcome]
+            )
+            found.append(f"This stream was altered or damaged: its footer counts other results than it holds: {wrong}.")
+        if self.footer is not None and self.unrun:
+            first = self.unrun[0]
+            found.append(
+                f"{count(len(self.unrun), 'pair')} of scene and engine that should have run left no result, "
+                f"the first {first.scene} × {first.engine}."
+            )
+        return tuple(found)
+
+    @property
+    def exit_status(self) -> int:
+        """0: all that ran agrees and all that was asked for ran; 1: something differs; 3: something failed to run."""
+        if self.counts["differs"]:
+            return DIFFERS
+        if self.counts["error"] or self.flaws:
+            return FAILED
+        return AGREES
+
+    @cached_property
+    def verdict(self) -> str:
+        """One sentence for people: how many comparisons differ, failed, agree and were left out."""
+        ran = self.counts["agrees"] + self.counts["differs"]
+        if not ran and not self.counts["error"]:
+            said = ["Nothing was compared"]
+        elif self.counts["differs"]:
+            said = [f"{self.counts['differs']:,} of {count(ran, 'comparison')} {_verb(self.counts['differs'])}"]
+        else:
+            said = [f"All {count(ran, 'comparison')} agree" if ran != 1 else "The one comparison agrees"]
+            if not ran:
+                said = ["No comparison came to an end"]
+        if self.counts["error"]:
+            said.append(f"{self.counts['error']:,} failed")
+        if self.counts["skipped"]:
+            said.append(f"{self.counts['skipped']:,} skipped, each with its reason")
+        return ("As far as it got: " if self.footer is None else "") + "; ".join(said) + "."
+
+    def having(self, *outcomes: Outcome) -> list[Result]:
+        """The results with these outcomes, largest share of the allowed first."""
+        chosen = [result for result in self.results if result.outcome in outcomes]
+        return sorted(chosen, key=_share_or_nothing, reverse=True)
+
+    def reasons(self, outcome: Outcome) -> list[tuple[str, list[Result]]]:
+        """Each reason that this outcome was given for, and the results it stands at; the most frequent first."""
+        found: dict[str, list[Result]] = {}
+        for result in self.results:
+            if result.outcome == outcome:
+                found.setdefault(last_line(result.reason) or "no reason was given", []).append(result)
+        return sorted(found.items(), key=lambda item: -len(item[1]))
+
+    def scene(self, name: str) -> SceneEntry | None:
+        """What the header says of this scene."""
+        return next((scene for scene in self.header.scenes if scene.name == name), None)
+
+    def engine(self, name: str) -> EngineEntry | None:
+        """What the header says of this engine."""
+        return next((engine for engine in self.header.engines if engine.name == name), None)
+
+    def again(self, scene: str, engine: str | None = None) -> str:
+        """The command line that runs this row, or this one cell, again."""
+        entry = self.scene(scene)
+        words = ["furiko", "check", (entry.source if entry else "") or scene]
+        if engine is not None:
+            words += ["--engine", engine]
+        return shlex.join([*words, "--profile", self.header.profile])
+
+    @property
+    def _counted(self) -> Mapping[Outcome, int]:
+        if self.footer is None:
+            return {}
+        return {
+            "agrees": self.footer.agrees,
+            "differs": self.footer.differs,
+            "skipped": self.footer.skipped,
+            "error": self.footer.error,
+        }
+
+
+def share(result: Result) -> float | None:
+    """Measured as a multiple of allowed: at most 1 agrees. Infinite for an error where none is allowed."""
+    if result.measured is None or result.allowed is None:
+        return None
+    if result.allowed == 0:
+        return math.inf if result.measured else 0.0
+    return abs(result.measured / result.allowed)
+
+
+def _share_or_nothing(result: Result) -> float:
+    value = share(result)
+    return -1.0 if value is None else value
+
+
+def _in_order(first: Iterable[str], then: Iterable[str]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys([*first, *then]))
+
+
+def _verb(number: int) -> str:
+    return "differs" if number == 1 else "differ"

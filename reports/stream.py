@@ -1,0 +1,281 @@
+"""The result stream, ``report.jsonl``: written line by line as results come, read back with every line checked.
+
+A stream is whole only with its footer, and only :meth:`StreamWriter.finish` writes one. JSON has no NaN and no
+infinity: a figure that is not finite is written as null, and the result's reason says which it was.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import math
+import os
+from collections import Counter
+from collections.abc import Iterator
+from io import FileIO
+from pathlib import Path
+from types import TracebackType
+from typing import Any, BinaryIO
+
+import msgspec
+
+from ..models.errors import InvalidInput
+from ..models.result import FORMAT, Footer, Header, Outcome, Record, Result
+from .report import Report
+
+STREAM = "report.jsonl"
+
+# Bounds for what is read and written, so that a hostile or runaway file costs a message and not the memory. A full
+# run of the catalogue is 2 MB, and the header of a scene with ten thousand links half a megabyte.
+LARGEST_LINE = 8_000_000  # bytes
+LARGEST_STREAM = 256_000_000  # bytes
+LONGEST_REASON = 20_000  # characters; a traceback fits
+
+_decoder = msgspec.json.Decoder(Header | Result | Footer)
+
+
+class StreamWriter:
+    """Writes one stream: the header on entering, each result at once, the footer only on :meth:`finish`.
+
+    A run that is interrupted, fails, or cannot write leaves a stream without a footer, and readers say so. Raises
+    :class:`InvalidInput` with the path where the file cannot be written or another run is writing it.
+
+    >>> with StreamWriter("report.jsonl", header) as stream:
+    ...     for result in results:
+    ...         stream.write(result)
+    ...     stream.finish()
+    """
+
+    def __init__(self, path: str | Path, header: Header) -> None:
+        self.path = Path(path)
+        self._header = header
+        self._file: FileIO | None = None
+        self._counts: Counter[Outcome] = Counter()
+        self._size = 0
+
+    def __enter__(self) -> StreamWriter:
+        try:
+            self._file = _alone(self.path)
+        except OSError as error:
+            raise self._unwritable(error) from None
+        self._line(self._header)
+        return self
+
+    def write(self, result: Result) -> Result:
+        """Append one result, on disk when this returns. Returns it as it was written: with figures that are finite."""
+        written = _finite(result)
+        self._line(written)
+        self._counts[written.outcome] += 1
+        return written
+
+    def finish(self, seconds: float = 0.0) -> Footer:
+        """Append the footer, with the counts of what was written, and close. ``seconds``: how long the run took."""
+        footer = Footer(
+            agrees=self._counts["agrees"],
+            differs=self._counts["differs"],
+            skipped=self._counts["skipped"],
+            error=self._counts["error"],
+            seconds=seconds,
+        )
+        self._line(footer)
+        self._close()
+        return footer
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._close()
+
+    def _line(self, record: Record) -> None:
+        if self._file is None:
+            raise ValueError(f"{self.path}: the stream is closed, or an earlier line of it could not be written")
+        line = _encode(record) + b"\n"
+        self._size += len(line)
+        if len(line) > LARGEST_LINE or self._size > LARGEST_STREAM:
+            self._close()
+            raise InvalidInput(f"{self.path}: would be larger than can be read back; run fewer scenes at a time")
+        rest = memoryview(line)
+        try:
+            while rest:
+                rest = rest[self._file.write(rest) :]
+        except OSError as error:
+            self._close()
+            raise self._unwritable(error) from None
+        except BaseException:  # an interrupt may have left half a line: nothing may follow it
+            self._close()
+            raise
+
+    def _close(self) -> None:
+        file, self._file = self._file, None
+        if file is not None:
+            file.close()
+
+    def _unwritable(self, error: OSError) -> InvalidInput:
+        if isinstance(error, BlockingIOError):
+            return InvalidInput(f"{self.path}: another run is writing it; give this one a folder of its own")
+        return InvalidInput(f"{self.path}: cannot be written: {error.strerror or error}")
+
+
+def read_stream(source: str | Path | BinaryIO) -> Report:
+    """Read a stream from its path, the folder it is in, or an open binary file, checking every line.
+
+    A stream that was cut off is read as far as it goes and is not ``complete``. Raises :class:`InvalidInput` naming
+    file and line for one that cannot be read, is no such stream, has a line that is none of its records or stands
+    where it must not, or is of a format not known here.
+    """
+    if not isinstance(source, str | Path):
+        return _read(source, str(getattr(source, "name", "stream")))
+    path = Path(source)
+    try:
+        path = path / STREAM if path.is_dir() else path
+        with path.open("rb") as file:
+            return _read(file, str(path))
+    except OSError as error:
+        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from None
+
+
+def _read(file: BinaryIO, name: str) -> Report:
+    header: Header | None = None
+    footer: Footer | None = None
+    results: list[Result] = []
+    for number, line in enumerate(_whole_lines(file, name), start=1):
+        where = f"{name}, line {number}"
+        record = _decode(line, where)
+        if header is None:
+            if not isinstance(record, Header):
+                raise InvalidInput(f"{where}: a result stream begins with its header, this one does not")
+            header = record
+        elif isinstance(record, Header):
+            raise InvalidInput(f"{where}: a second header; one file holds one run")
+        elif footer is not None:
+            raise InvalidInput(f"{where}: something follows the footer, which is the last line of a run")
+        elif isinstance(record, Footer):
+            footer = record
+        else:
+            results.append(record)
+    if header is None:
+        raise InvalidInput(f"{name}: empty, or cut off within its header; it holds no result")
+    return Report(header, tuple(results), footer)
+
+
+def _whole_lines(file: BinaryIO, name: str) -> Iterator[bytes]:
+    """Lines that have their line end; what a cut-off run left after the last of them is passed over."""
+    size = number = 0
+    while line := file.readline(LARGEST_LINE + 1):
+        number += 1
+        size += len(line)
+        if len(line) > LARGEST_LINE:
+            raise InvalidInput(f"{name}, line {number}: longer than {LARGEST_LINE // 1_000_000} MB, no record is")
+        if size > LARGEST_STREAM:
+            raise InvalidInput(f"{name}: larger than {LARGEST_STREAM // 1_000_000} MB, no run is")
+        if line.endswith(b"\n"):
+            yield line
+
+
+def _decode(line: bytes, where: str) -> Record:
+    if not line.strip():
+        raise InvalidInput(f"{where}: empty; every line of a result stream is one JSON object")
+    try:
+        record: Record = _decoder.decode(line)
+    except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as error:
+        _refuse_other_formats(line, where)
+        raise InvalidInput(f"{where}: {_told(error)}") from None
+    if isinstance(record, Header):
+        _refuse_other_formats(line, where)
+    return record
+
+
+def _refuse_other_formats(line: bytes, where: str) -> None:
+    """Say that a header is of another format, before saying that it lacks some field of this one."""
+    try:
+        head = msgspec.json.decode(line)
+    except (ValueError, RecursionError):
+        return
+    if isinstance(head, dict) and head.get("kind") == "header" and head.get("format", FORMAT) != FORMAT:
+        raise InvalidInput(
+            f"{where}: format {head['format']!r:.40} is not known here; "
+            f"this furiko reads format {FORMAT}, another release of it may read this one"
+        )
+
+
+def _told(error: Exception) -> str:
+    if isinstance(error, RecursionError):
+        return "nested too deeply"
+    if isinstance(error, UnicodeDecodeError):
+        return f"not UTF-8 text: {error.reason}"
+    sentence = str(error).replace("`", "'")
+    return f"not a record of a result stream: {sentence[:1].lower()}{sentence[1:]}"
+
+
+def _alone(path: Path) -> FileIO:
+    """The file, emptied, that this process alone writes until it closes it."""
+    descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o666)
+    file = FileIO(descriptor, "wb")
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        if path.is_file():  # a device or a pipe has nothing to empty
+            os.ftruncate(descriptor, 0)
+    except BaseException:
+        file.close()
+        raise
+    return file
+
+
+def _finite(result: Result) -> Result:
+    """The result with null for a figure that is not finite, and the reason saying so.
+
+    Nothing agrees by not being a number: a result that claims so is an error of the check's.
+    """
+    said = [
+        f"{field} is {float(value)}"
+        for field in ("measured", "allowed")
+        if (value := getattr(result, field)) is not None and not math.isfinite(value)
+    ]
+    reason = _clipped("; ".join([*said, *([result.reason] if result.reason else [])]))
+    if not said:
+        return result if reason == result.reason else msgspec.structs.replace(result, reason=reason)
+    return msgspec.structs.replace(
+        result,
+        measured=_finite_or_none(result.measured),
+        allowed=_finite_or_none(result.allowed),
+        reason=reason,
+        outcome="error" if result.outcome == "agrees" else result.outcome,
+    )
+
+
+def _finite_or_none(value: float | None) -> float | None:
+    return value if value is not None and math.isfinite(value) else None
+
+
+def _clipped(reason: str) -> str:
+    """A reason that is too long keeps its beginning and its end, where a traceback names the exception."""
+    if len(reason) <= LONGEST_REASON:
+        return reason
+    half = LONGEST_REASON // 2
+    return f"{reason[:half]}\n… {len(reason) - 2 * half} characters left out …\n{reason[-half:]}"
+
+
+def _encode(record: Record) -> bytes:
+    try:
+        return _encoder.encode(record)
+    except UnicodeEncodeError:  # a file name that is not UTF-8 comes as lone surrogates, which JSON text cannot hold
+        return _encoder.encode(_speakable(msgspec.to_builtins(record, enc_hook=_plain)))
+
+
+def _speakable(value: Any) -> Any:
+    if isinstance(value, str):
+        return value.encode("utf-8", "backslashreplace").decode()
+    if isinstance(value, dict):
+        return {_speakable(key): _speakable(entry) for key, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [_speakable(entry) for entry in value]
+    return value
+
+
+def _plain(value: Any) -> Any:
+    """Numpy's scalars and arrays as Python's own, without importing numpy."""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    raise NotImplementedError(f"{type(value).__name__} has no place in a result stream")
+
+
+_encoder = msgspec.json.Encoder(enc_hook=_plain)

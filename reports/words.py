@@ -1,0 +1,54 @@
+"""How every report writes a figure, a count, and text that came from outside."""
+
+from __future__ import annotations
+
+from ..models.result import Outcome
+
+# A glyph beside the word, so that no outcome is told by colour alone.
+GLYPHS: dict[Outcome, str] = {"agrees": "✓", "differs": "✗", "skipped": "–", "error": "!"}
+LEGEND = "ε: worst error as a multiple of rounding; ×: as a multiple of what is allowed"
+
+
+def figure(value: float | None) -> str:
+    """Two significant digits, which is all that an error has to say: ``0.031``, ``3.1``, ``340``, ``1.2e-14``."""
+    if value is None:
+        return "–"
+    if value == 0:
+        return "0"
+    if 1e-2 <= abs(value) < 1e4:
+        text = f"{value:.2g}" if abs(value) < 99.5 else f"{value:.0f}"
+        return text.replace("e+0", "e")
+    mantissa, _, exponent = f"{value:.1e}".partition("e")
+    return f"{mantissa}e{int(exponent)}" if exponent else mantissa
+
+
+def count(number: int, noun: str) -> str:
+    """``1 check``, ``3 checks``, ``1,200 checks``."""
+    return f"{number:,} {noun}" if number == 1 else f"{number:,} {noun}s"
+
+
+def printable(text: str) -> str:
+    """The text with everything that a terminal, a browser or an XML reader might act on written out as an escape.
+
+    Kept are letters, marks, digits, signs, spaces and line ends; control and formatting characters (ANSI escapes,
+    right-to-left overrides), lone surrogates and code points without a meaning become ``\\x1b``, ``\\u202e``.
+    """
+    if text.isprintable():
+        return text
+    text = text.replace("\r\n", "\n").replace("\t", "    ")
+    return "".join(c if c.isprintable() or c == "\n" else " " if c.isspace() else _escaped(c) for c in text)
+
+
+def one_line(text: str, longest: int = 300) -> str:
+    """:func:`printable`, on one line, at most ``longest`` characters long."""
+    line = " ".join(printable(text[: 8 * longest]).split())
+    return line if len(line) <= longest else line[: longest - 1] + "…"
+
+
+def last_line(reason: str) -> str:
+    """The line of a traceback that names the exception; another reason as it is."""
+    return reason.strip().splitlines()[-1] if reason.startswith("Traceback") else reason
+
+
+def _escaped(character: str) -> str:
+    return character.encode("unicode_escape").decode()
