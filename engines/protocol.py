@@ -34,7 +34,8 @@ class EngineInfo:
     ``adapter``: where its class is, ``module:Class``; ``module``: what it imports; ``package``: what to pip install.
     ``coordinates``: those in which it forms and solves the equations, hence where its rounding arises. ``missing``:
     for each quantity it cannot give, the sentence that says why. ``accuracy``: relative accuracy of one operation,
-    and ``accuracy_reason`` where that is more than double precision's rounding.
+    and ``accuracy_reason`` where that is more than double precision's rounding. ``largest_n`` links it takes, and
+    masses of ``least_mass`` [kg] or more; the reasons say what stands in the way.
     """
 
     name: str
@@ -48,6 +49,8 @@ class EngineInfo:
     missing: Mapping[str, str] = field(default_factory=dict)
     largest_n: int = 10_000
     largest_n_reason: str = ""
+    least_mass: float = 0.0
+    least_mass_reason: str = ""
     accuracy: float = 2.0**-52
     accuracy_reason: str = ""
 
@@ -58,8 +61,9 @@ class ModelFields:
 
     ``dofs``: degrees of freedom; ``parents``: index of each link's parent, -1 for the support; ``hinges`` and
     ``centres``: hinge in the parent's frame and centre of mass in its own, (along, across) [m], shape (n, 2);
-    ``masses`` [kg]; ``inertias`` about the centre of mass and the hinge axis [kg m²]; ``gravity``: the vector (x, y,
-    z) [m/s²] in the world where z is up and y into the plane; ``armature`` [kg m²] and ``damping`` [N m s] of each hinge.
+    ``masses`` [kg]; ``inertias`` about the centre of mass and the hinge axis [kg m²]; ``gravity``: the vector
+    (x, y, z) [m/s²] in the world where z is up and y into the plane; ``armature`` [kg m²] and ``damping`` [N m s] of
+    each hinge.
     """
 
     dofs: int

@@ -1,0 +1,200 @@
+"""Exudyn in maximal coordinates: a free body (x, y, angle) for each link, held together by revolute joints.
+
+* Exudyn's plane is x-y with y up. Each body's origin is its centre of mass, its angle the absolute one.
+* Joints are constraints; their forces are Lagrange multipliers, the force on the carrying body being positive.
+* Accelerations are the initial accelerations that the implicit solver computes. For them it differentiates the velocity
+  constraint numerically, one coordinate at a time, by a single forward difference: with the default step they are
+  wrong by up to 1e-6. A revolute joint's velocity constraint is a·cos φ + b·sin φ + c in each body's angle φ, though,
+  so that three forward differences, with steps of a quarter turn, three quarters and a whole one, give its derivative
+  exactly: see :data:`STEPS`.
+* Linear solver: Eigen's sparse LU; the dense ones cost a hundred times as much at a hundred links.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import exudyn
+import numpy as np
+from exudyn.itemInterface import (
+    LoadMassProportional,
+    MarkerBodyMass,
+    MarkerBodyPosition,
+    NodeRigidBody2D,
+    ObjectGround,
+    ObjectJointRevolute2D,
+    ObjectRigidBody2D,
+)
+
+from ..models import PlanarTree, System
+from ..models.tree import SUPPORT
+from .exudyn_settings import Current, Initial, quiet_settings, run
+from .protocol import Array, ModelFields
+
+_SOLVER = exudyn.LinearSolverType.EigenSparse
+
+# For f(φ) = a cos φ + b sin φ + c let D(h) = (f(φ+h) - f(φ))/h. Then f'(φ) = (f(φ+π/2) - f(φ+3π/2))/2
+# = π/4 D(π/2) - 3π/4 D(3π/2), and D(2π) = 0. What the solver returns is x₀ + K D(h); the weights below, whose sum is 1,
+# make x₀ + K f' of three such answers.
+STEPS = np.pi * np.array([0.5, 1.5, 2.0])
+WEIGHTS = np.array([np.pi / 4, -3 * np.pi / 4, 1 + np.pi / 2])
+
+
+class ExudynRedundant:
+    """The mechanism as bodies and joints."""
+
+    def __init__(self, system: System) -> None:
+        self._links = _Links(system.tree())
+        self._mbs = exudyn.SystemContainer().AddSystem()
+        self._bodies: list[Any] = []
+        self._loads: list[Any] = []
+        self._joints: list[Any] = []
+        self._build(system.tree())
+        self._settings = quiet_settings(_SOLVER)
+
+    def _build(self, tree: PlanarTree) -> None:
+        mbs = self._mbs
+        ground = mbs.AddObject(ObjectGround())
+        for link in tree.links:
+            node = mbs.AddNode(NodeRigidBody2D(referenceCoordinates=[0.0, 0.0, 0.0]))
+            body = mbs.AddObject(ObjectRigidBody2D(nodeNumber=node, mass=link.mass, inertia=link.inertia))
+            load = LoadMassProportional(
+                markerNumber=mbs.AddMarker(MarkerBodyMass(bodyNumber=body)), loadVector=[0.0, -tree.gravity, 0.0]
+            )
+            carrier, centre = (
+                (ground, (0.0, 0.0))
+                if link.parent == SUPPORT
+                else (self._bodies[link.parent], tree.links[link.parent].com)
+            )
+            on_carrier = MarkerBodyPosition(bodyNumber=carrier, localPosition=_point(link.hinge, centre))
+            on_body = MarkerBodyPosition(bodyNumber=body, localPosition=_point((0.0, 0.0), link.com))
+            markers = [mbs.AddMarker(on_carrier), mbs.AddMarker(on_body)]
+            self._joints.append(mbs.AddObject(ObjectJointRevolute2D(markerNumbers=markers)))
+            self._loads.append(mbs.AddLoad(load))
+            self._bodies.append(body)
+        mbs.Assemble()
+
+    def fields(self) -> ModelFields:
+        mbs = self._mbs
+        bodies = [mbs.GetObject(body) for body in self._bodies]
+        link_of_body = {int(body): link for link, body in enumerate(self._bodies)}
+        centres = np.empty((len(bodies), 2))
+        hinges = np.empty((len(bodies), 2))
+        parents = []
+        for row, joint in enumerate(self._joints):
+            on_carrier, on_body = (mbs.GetMarker(marker) for marker in mbs.GetObject(joint)["markerNumbers"])
+            parent = link_of_body.get(int(on_carrier["bodyNumber"]), SUPPORT)
+            parents.append(parent)
+            centres[row] = -_along_across(on_body["localPosition"])
+            # Both are measured from a centre of mass; the parent's comes before its children's.
+            hinges[row] = _along_across(on_carrier["localPosition"]) + (centres[parent] if parent != SUPPORT else 0.0)
+        size = mbs.systemData
+        return ModelFields(
+            dofs=size.ODE2Size() - size.AEsize(),
+            parents=tuple(parents),
+            hinges=hinges,
+            centres=centres,
+            masses=np.array([body["mass"] for body in bodies]),
+            inertias=np.array([body["inertia"] for body in bodies]),
+            gravity=self._gravity(),
+            armature=np.zeros(len(bodies)),  # a revolute joint has neither
+            damping=np.zeros(len(bodies)),
+        )
+
+    def _gravity(self) -> Array:
+        """The load on a unit of mass, the same for every body or else there is no one gravity to speak of."""
+        loads = np.array([self._mbs.GetLoad(load)["loadVector"] for load in self._loads])
+        x, y, z = loads[0] if (loads == loads[0]).all() else np.full(3, np.nan)
+        return np.array([x, -z, y])
+
+    def accelerations(self, theta: Array, omega: Array) -> Array:
+        return self._solve(theta, omega)[0]
+
+    def joint_forces(self, theta: Array, omega: Array, alpha: Array) -> Array:
+        """The multipliers come with Exudyn's own accelerations: ``alpha`` is passed over."""
+        return self._solve(theta, omega)[1]
+
+    def energy(self, theta: Array, omega: Array) -> Array:
+        """Kinetic: Exudyn's output for each body. Potential: it has none for loads; each load times its height."""
+        mbs, outputs = self._mbs, exudyn.OutputVariableType
+        mass = np.array([mbs.GetObjectParameter(body, "mass") for body in self._bodies])
+        loads = np.array([mbs.GetLoad(load)["loadVector"] for load in self._loads])
+        energies = np.empty((len(theta), 2))
+        positions, rates = self._links.states(theta, omega)
+        for row, (q, v) in enumerate(zip(positions, rates, strict=True)):
+            mbs.systemData.SetODE2Coordinates(q, Current)
+            mbs.systemData.SetODE2Coordinates_t(v, Current)
+            kinetic, centre = (
+                np.array([mbs.GetObjectOutputBody(body, kind, [0.0, 0.0, 0.0], Current) for body in self._bodies])
+                for kind in (outputs.KineticEnergy, outputs.Position)
+            )
+            energies[row] = kinetic.sum(), -(mass * (loads * centre).sum(axis=1)).sum()
+        return energies
+
+    def trajectory(self, theta: Array, omega: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
+        data = self._mbs.systemData
+        ((position,), (rate,)) = self._links.states(theta[None], omega[None])
+        data.SetODE2Coordinates(position, Initial)
+        data.SetODE2Coordinates_t(rate, Initial)
+        run(self._mbs, _SOLVER, integrator, step, steps)
+        return np.array(data.GetODE2Coordinates(Current))[2::3], np.array(data.GetODE2Coordinates_t(Current))[2::3]
+
+    def _solve(self, theta: Array, omega: Array) -> tuple[Array, Array]:
+        """Angular accelerations (B, n) and the joints' multipliers (B, n, 2)."""
+        mbs, data, settings = self._mbs, self._mbs.systemData, self._settings
+        differencing = settings.timeIntegration.newton.numericalDifferentiation
+        solver = exudyn.MainSolverImplicitSecondOrder()
+        accelerations = np.zeros_like(theta)
+        forces = np.zeros((*theta.shape, 2))
+        positions, rates = self._links.states(theta, omega)
+        # A step is relativeEpsilon times the coordinate, or times minimumCoordinateSize where that is more.
+        sizes = np.maximum(np.abs(theta).max(axis=1, initial=0.0), 1.0)
+        for row, (position, rate, size) in enumerate(zip(positions, rates, sizes, strict=True)):
+            data.SetODE2Coordinates(position, Initial)
+            data.SetODE2Coordinates_t(rate, Initial)
+            differencing.minimumCoordinateSize = size
+            for weight, step in zip(WEIGHTS, STEPS, strict=True):
+                differencing.relativeEpsilon = step / size
+                solver.InitializeSolver(mbs, settings)
+                accelerations[row] += weight * data.GetODE2Coordinates_tt()[2::3]
+                forces[row] += weight * data.GetAECoordinates().reshape(-1, 2)
+                solver.FinalizeSolver(mbs, settings)
+        return accelerations, forces
+
+
+class _Links:
+    """Where the bodies are and how they move, for given angles and rates: what assembles an initial state."""
+
+    def __init__(self, tree: PlanarTree) -> None:
+        self._parents = tree.parents
+        self._hinges = np.array([link.hinge for link in tree.links])
+        self._centres = np.array([link.com for link in tree.links])
+
+    def states(self, theta: Array, omega: Array) -> tuple[Array, Array]:
+        """Coordinates (x, y, angle) of each body's centre of mass and their rates, each of shape (B, 3n)."""
+        # Complex numbers x + iy: a link's (along, across) is along·(-i) + across, turned by its angle.
+        turn = np.exp(1j * theta)
+        hinge, hinge_rate = np.zeros_like(turn), np.zeros_like(turn)
+        for link, parent in enumerate(self._parents):
+            if parent != SUPPORT:
+                arm = turn[:, parent] * _complex(self._hinges[link])
+                hinge[:, link] = hinge[:, parent] + arm
+                hinge_rate[:, link] = hinge_rate[:, parent] + 1j * omega[:, parent] * arm
+        arm = turn * _complex(self._centres.T)
+        centre, rate = hinge + arm, hinge_rate + 1j * omega * arm
+        position = np.stack([centre.real, centre.imag, theta], axis=-1)
+        velocity = np.stack([rate.real, rate.imag, omega], axis=-1)
+        return position.reshape(len(theta), -1), velocity.reshape(len(theta), -1)
+
+
+def _complex(along_across: Array) -> Any:
+    along, across = along_across
+    return across - 1j * along
+
+
+def _point(along_across: tuple[float, float], origin: tuple[float, float]) -> list[float]:
+    return [along_across[1] - origin[1], origin[0] - along_across[0], 0.0]
+
+
+def _along_across(point: Array) -> Array:
+    return np.array([-point[1], point[0]])

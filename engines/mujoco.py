@@ -1,0 +1,181 @@
+"""MuJoCo, driven through ``mj_forward`` and ``mj_inverse`` on one model and one ``MjData``.
+
+* The model is the MJCF document that furiko writes. Readers of XML give up on deep nesting, so that a longer chain is
+  built by ``MjSpec``, body by body; where both ways are open they give the same accelerations to the last bit.
+* The compiler takes no body whose inertia is below 1e-15 kg m², though the equations need none: where a link has less
+  the compiler lifts it, and the exact number is put into the compiled model.
+* ``mj_step`` and the batch module announce a NaN on standard error and in a file MUJOCO_LOG.TXT, the first time that
+  an ``MjData`` meets one. Its warning counters are therefore set before it starts. ``mujoco.batch`` keeps its own
+  ``MjData``, which cannot be quietened; at two hundred states it saves no more than what making it costs.
+* After a NaN ``mj_step`` starts again from the initial state unless ``autoreset`` is off.
+* Joint forces (``cfrc_int``) are only computed for sensors, or when ``mj_rnePostConstraint`` is called.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from ..models import PlanarTree, System, to_mjcf
+from ..models.mjcf import DEEPEST, LEAST_INERTIA
+from .coordinates import RelativeCoordinates
+from .protocol import Array, ModelFields
+
+INTEGRATORS = {
+    "Euler": mujoco.mjtIntegrator.mjINT_EULER,
+    "implicitfast": mujoco.mjtIntegrator.mjINT_IMPLICITFAST,
+    "RK4": mujoco.mjtIntegrator.mjINT_RK4,
+}
+
+
+class Mujoco:
+    """The mechanism in MuJoCo, in relative coordinates."""
+
+    def __init__(self, system: System) -> None:
+        tree = system.tree()
+        deep = tree.depth > DEEPEST or any(0 < link.inertia < LEAST_INERTIA for link in tree.links)
+        self._model = model_from_spec(tree) if deep else mujoco.MjModel.from_xml_string(to_mjcf(system))
+        self._bodies = np.array([self._model.body(name).id for name in tree.names("link")])
+        self._hinges = np.array([self._model.joint(name).id for name in tree.names("hinge")])
+        for body, link in zip(self._bodies, tree.links, strict=True):
+            if link.inertia < LEAST_INERTIA:
+                self._model.body_inertia[body] = link.inertia
+        # The energies are asked for when they are wanted.
+        self._model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_ENERGY)
+        self._data = _quiet_data(self._model)
+        self._coordinates = RelativeCoordinates(tree.parents, self._model.jnt_dofadr[self._hinges])
+
+    def fields(self) -> ModelFields:
+        model, bodies, hinges = self._model, self._bodies, self._hinges
+        link_of_body = {0: -1} | {int(body): link for link, body in enumerate(bodies)}
+        dofs = model.jnt_dofadr[hinges]
+        gravity_off = model.opt.disableflags & int(mujoco.mjtDisableBit.mjDSBL_GRAVITY)
+        return ModelFields(
+            dofs=int(model.nv),
+            parents=tuple(link_of_body[int(parent)] for parent in model.body_parentid[bodies]),
+            hinges=_along_across(model.body_pos[bodies]),
+            centres=_along_across(model.body_ipos[bodies]),
+            masses=model.body_mass[bodies].copy(),
+            inertias=np.array([_inertia_about_y(model, body) for body in bodies]),
+            gravity=np.zeros(3) if gravity_off else model.opt.gravity.copy(),
+            armature=model.dof_armature[dofs].copy(),
+            damping=np.asarray(model.dof_damping[dofs], dtype=np.float64).reshape(len(dofs), -1)[:, 0].copy(),
+        )
+
+    def accelerations(self, theta: Array, omega: Array) -> Array:
+        model, data, forward = self._model, self._data, mujoco.mj_forward
+        position, rate, acceleration = data.qpos, data.qvel, data.qacc
+        found = np.empty_like(theta)
+        for row, (q, v) in enumerate(self._relative(theta, omega)):
+            position[:], rate[:] = q, v
+            forward(model, data)
+            found[row] = acceleration
+        return self._coordinates.absolute(found)
+
+    def inverse_dynamics(self, theta: Array, omega: Array, alpha: Array, *, gravity: bool = True) -> Array:
+        model, data = self._model, self._data
+        forces = np.empty_like(theta)
+        kept = model.opt.disableflags
+        if not gravity:
+            model.opt.disableflags = kept | int(mujoco.mjtDisableBit.mjDSBL_GRAVITY)
+        try:
+            for row, (q, v, a) in enumerate(self._relative(theta, omega, alpha)):
+                data.qpos[:], data.qvel[:], data.qacc[:] = q, v, a
+                mujoco.mj_inverse(model, data)
+                forces[row] = data.qfrc_inverse
+        finally:
+            model.opt.disableflags = kept
+        return self._coordinates.absolute_forces(forces)
+
+    def joint_forces(self, theta: Array, omega: Array, alpha: Array) -> Array:
+        model, data = self._model, self._data
+        forces = np.empty((*theta.shape, 2))
+        for row, (q, v, a) in enumerate(self._relative(theta, omega, alpha)):
+            data.qpos[:], data.qvel[:] = q, v
+            mujoco.mj_fwdPosition(model, data)
+            mujoco.mj_fwdVelocity(model, data)
+            data.qacc[:] = a
+            mujoco.mj_rnePostConstraint(model, data)
+            # Rows are torque, then force, in the world's axes: what the carrying body does to the carried one.
+            forces[row] = -data.cfrc_int[self._bodies][:, [3, 5]]
+        return forces
+
+    def energy(self, theta: Array, omega: Array) -> Array:
+        model, data = self._model, self._data
+        energies = np.empty((len(theta), 2))
+        for row, (q, v) in enumerate(self._relative(theta, omega)):
+            data.qpos[:], data.qvel[:] = q, v
+            mujoco.mj_fwdPosition(model, data)
+            mujoco.mj_fwdVelocity(model, data)
+            mujoco.mj_energyPos(model, data)
+            mujoco.mj_energyVel(model, data)
+            energies[row] = data.energy[1], data.energy[0]
+        return energies
+
+    def trajectory(self, theta: Array, omega: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
+        model, data = self._model, _quiet_data(self._model)
+        ((data.qpos[:], data.qvel[:]),) = self._relative(theta[None], omega[None])
+        option = model.opt
+        kept = option.integrator, option.timestep
+        option.integrator, option.timestep = INTEGRATORS[integrator], step
+        try:
+            mujoco.mj_step(model, data, nstep=steps)
+        finally:
+            option.integrator, option.timestep = kept
+        return self._coordinates.absolute(data.qpos[None])[0], self._coordinates.absolute(data.qvel[None])[0]
+
+    def _relative(self, *absolute: Array) -> Any:
+        return zip(*map(self._coordinates.relative, absolute), strict=True)
+
+
+def model_from_spec(tree: PlanarTree) -> Any:
+    """The model that the written MJCF describes, less what is only seen, made without XML."""
+    spec = mujoco.MjSpec()
+    spec.modelname = "furiko"
+    compiler, option = spec.compiler, spec.option
+    compiler.degree = False
+    compiler.inertiafromgeom = mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_FALSE
+    compiler.balanceinertia = compiler.autolimits = False
+    compiler.boundinertia = LEAST_INERTIA
+    option.gravity = [0.0, 0.0, -tree.gravity]
+    option.disableflags = int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT) | int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
+    bodies: list[Any] = []
+    for link, body_name, hinge_name in zip(tree.links, tree.names("link"), tree.names("hinge"), strict=True):
+        carrier = bodies[link.parent] if link.parent >= 0 else spec.worldbody
+        body = carrier.add_body(
+            name=body_name,
+            pos=_point(link.hinge),
+            mass=link.mass,
+            ipos=_point(link.com),
+            inertia=[link.inertia] * 3,
+            explicitinertial=True,
+        )
+        body.add_joint(name=hinge_name, type=mujoco.mjtJoint.mjJNT_HINGE, axis=[0.0, -1.0, 0.0])
+        bodies.append(body)
+    return spec.compile()
+
+
+def _quiet_data(model: Any) -> Any:
+    """An ``MjData`` that believes to have warned already, and so neither prints nor writes MUJOCO_LOG.TXT."""
+    data = mujoco.MjData(model)
+    for warning in data.warning:
+        warning.number = 1
+    return data
+
+
+def _point(along_across: tuple[float, float]) -> list[float]:
+    along, across = along_across
+    return [across, 0.0, 0.0 - along]
+
+
+def _along_across(points: Array) -> Array:
+    return np.stack([-points[:, 2], points[:, 0]], axis=1)
+
+
+def _inertia_about_y(model: Any, body: int) -> float:
+    """The principal inertias, turned into the body's axes, about the one along the hinge."""
+    turn = np.empty(9)
+    mujoco.mju_quat2Mat(turn, model.body_iquat[body])
+    return float(turn.reshape(3, 3)[1] ** 2 @ model.body_inertia[body])

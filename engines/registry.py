@@ -1,0 +1,172 @@
+"""The engines: what each is and can do, as data; and the only place where one is imported."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.metadata
+from typing import Any
+
+from ..models import EngineMissing, InvalidInput, System
+from ..models.errors import nearest
+from .protocol import EngineInfo, Integrator
+from .shapes import AnyShape
+
+_PINOCCHIO: dict[str, Any] = {
+    "module": "pinocchio",
+    "package": "pin",
+    "homepage": "https://github.com/stack-of-tasks/pinocchio",
+    "coordinates": "relative",
+    "missing": {"trajectory": "Pinocchio computes dynamics; it has no integrator of its own"},
+    "largest_n": 300,
+    "largest_n_reason": "its data hold second derivatives of the kinematics, which grow with n³: 1.7 GB at 300 links",
+}
+_EXUDYN: dict[str, Any] = {
+    "module": "exudyn",
+    "package": "exudyn",
+    "homepage": "https://github.com/jgerstmayr/EXUDYN",
+}
+
+ENGINES: dict[str, EngineInfo] = {
+    info.name: info
+    for info in (
+        EngineInfo(
+            name="mujoco",
+            formulation="composite rigid bodies and factorised mass matrix; model from MJCF",
+            adapter="furiko.engines.mujoco:Mujoco",
+            module="mujoco",
+            package="mujoco",
+            homepage="https://github.com/google-deepmind/mujoco",
+            coordinates="relative",
+            integrators=(Integrator("Euler", 1), Integrator("implicitfast", 1), Integrator("RK4", 4)),
+            largest_n=1000,
+            largest_n_reason="a state costs n³ operations: 0.04 s at 1000 links",
+            least_mass=1e-15,
+            least_mass_reason="its compiler takes no lighter body (mjMINVAL)",
+        ),
+        EngineInfo(
+            name="pinocchio-aba",
+            formulation="articulated-body algorithm; model from URDF",
+            adapter="furiko.engines.pinocchio:PinocchioAba",
+            **_PINOCCHIO,
+        ),
+        EngineInfo(
+            name="pinocchio-aba-mjcf",
+            formulation="articulated-body algorithm; model from MJCF",
+            adapter="furiko.engines.pinocchio:PinocchioAbaMjcf",
+            **_PINOCCHIO,
+        ),
+        EngineInfo(
+            name="pinocchio-crba",
+            formulation="mass matrix by composite rigid bodies, then Cholesky; model from URDF",
+            adapter="furiko.engines.pinocchio:PinocchioCrba",
+            **_PINOCCHIO,
+        ),
+        EngineInfo(
+            name="exudyn-tree",
+            formulation="kinematic tree in minimal coordinates, mass matrix and LU",
+            adapter="furiko.engines.exudyn_tree:ExudynTree",
+            coordinates="relative",
+            integrators=(Integrator("RK44", 4), Integrator("RK67", 6), Integrator("GeneralizedAlpha", 2)),
+            missing={"joint_forces": "a kinematic tree in minimal coordinates never forms the forces in its joints"},
+            largest_n=1000,
+            largest_n_reason="a state costs n³ operations",
+            **_EXUDYN,
+        ),
+        EngineInfo(
+            name="exudyn-redundant",
+            formulation="free bodies and revolute joints, constraints with Lagrange multipliers",
+            adapter="furiko.engines.exudyn_redundant:ExudynRedundant",
+            coordinates="maximal",
+            integrators=(Integrator("GeneralizedAlpha", 2), Integrator("TrapezoidalIndex2", 2)),
+            missing={
+                "inverse_dynamics": "in maximal coordinates Exudyn forms no generalised forces of the hinge angles"
+            },
+            largest_n=1000,
+            largest_n_reason="three coordinates and two constraints a link",
+            accuracy=6 * 2.0**-52,
+            accuracy_reason="three solutions combined with weights whose magnitudes sum to 5.7",
+            **_EXUDYN,
+        ),
+    )
+}
+
+
+def engine_names() -> list[str]:
+    """The engines that furiko knows, installed or not."""
+    return list(ENGINES)
+
+
+def engine_info(name: str) -> EngineInfo:
+    """What an engine is and can do.
+
+    ``name``: one of :func:`engine_names`, or ``package.module:Class`` for an adapter from elsewhere, a class with an
+    :class:`EngineInfo` as its attribute ``info``. Raises :class:`InvalidInput` where there is none such.
+    """
+    if name in ENGINES:
+        return ENGINES[name]
+    if ":" not in name:
+        hint = nearest(name, ENGINES) or f"; there are {', '.join(ENGINES)}, or package.module:Class"
+        raise InvalidInput(f"engine: no engine is called {name!r}{hint}")
+    info = getattr(_adapter(name), "info", None)
+    if not isinstance(info, EngineInfo):
+        raise InvalidInput(f"engine: {name} has no attribute 'info' that is a furiko.engines.EngineInfo")
+    return info
+
+
+def engine_version(name: str) -> str:
+    """The installed version of an engine's package, without importing it; empty where it is not installed."""
+    package = engine_info(name).package
+    try:
+        return importlib.metadata.version(package) if package else ""
+    except importlib.metadata.PackageNotFoundError:
+        return ""
+
+
+def cannot(info: EngineInfo, system: System) -> str | None:
+    """Why an engine cannot take a system, in a sentence; None where it can."""
+    if system.n > info.largest_n:
+        return f"{info.name} takes at most {info.largest_n} links, not {system.n}: {info.largest_n_reason}"
+    lightest = min(system.masses)
+    if lightest < info.least_mass:
+        return f"{info.name} takes masses from {info.least_mass:g} kg, not {lightest:g} kg: {info.least_mass_reason}"
+    return None
+
+
+def load_engine(name: str, system: System) -> AnyShape:
+    """Import an engine and give it a system.
+
+    Raises :class:`InvalidInput` for an unknown engine or a system that it cannot take (before anything is imported or
+    allocated), :class:`EngineMissing` where the engine cannot be imported.
+    """
+    info = engine_info(name)
+    why_not = cannot(info, system)
+    if why_not is not None:
+        raise InvalidInput(why_not)
+    _require(info)
+    adapter = _adapter(info.adapter if name in ENGINES else name)
+    return AnyShape(adapter(system), info, system.n)
+
+
+def _adapter(path: str) -> Any:
+    module, _, attribute = path.partition(":")
+    try:
+        return getattr(importlib.import_module(module), attribute)
+    except ImportError as error:
+        raise InvalidInput(f"engine: {path}: cannot import {module!r}: {error}") from None
+    except (AttributeError, ValueError, TypeError):
+        raise InvalidInput(f"engine: {path}: the module {module!r} has no class {attribute!r}") from None
+
+
+def _require(info: EngineInfo) -> None:
+    """Import the engine's own module, or say how to get it."""
+    if not info.module:
+        return
+    advice = f"{info.name} needs the package {info.package!r}: pip install {info.package}"
+    if info.package == "pin":
+        advice += " (on PyPI Pinocchio is 'pin'; the package called 'pinocchio' there is an unrelated one)"
+    try:
+        module = importlib.import_module(info.module)
+    except ImportError as error:
+        raise EngineMissing(f"{advice} [{error}]") from error
+    if info.package == "pin" and not hasattr(module, "buildModelFromXML"):
+        raise EngineMissing(f"{advice}. It is that unrelated one which is installed here: pip uninstall pinocchio")

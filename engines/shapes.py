@@ -1,0 +1,111 @@
+"""Whatever shape a state comes in, rows for the adapter; and what the adapter gives back, held to its shape."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..models import InvalidInput
+from ..models.errors import nearest
+from .protocol import Array, Engine, EngineInfo, ModelFields, Quantity
+
+
+class AnyShape:
+    """An engine that takes states of any leading shape (..., n), and answers in the same.
+
+    It refuses input that makes no state with :class:`InvalidInput`, and what the engine's ``info`` calls missing with
+    that sentence. An answer of the wrong shape raises RuntimeError: it is the engine's fault. NaN passes.
+    """
+
+    def __init__(self, engine: Engine, info: EngineInfo, n: int) -> None:
+        self.info = info
+        self._engine = engine
+        self._n = n
+
+    def fields(self) -> ModelFields:
+        """The model as the engine compiled it."""
+        self._refuse_missing("fields")
+        return self._engine.fields()
+
+    def accelerations(self, theta: ArrayLike, omega: ArrayLike) -> Array:
+        """θ̈ [rad/s²], shape (..., n)."""
+        self._refuse_missing("accelerations")
+        return self._batched(self._engine.accelerations, (self._n,), theta=theta, omega=omega)
+
+    def inverse_dynamics(self, theta: ArrayLike, omega: ArrayLike, alpha: ArrayLike, *, gravity: bool = True) -> Array:
+        """Generalised forces [N m] that the absolute angles need for ``alpha``, shape (..., n)."""
+        self._refuse_missing("inverse_dynamics")
+
+        def forces(*rows: Array) -> Array:
+            return self._engine.inverse_dynamics(*rows, gravity=gravity)
+
+        return self._batched(forces, (self._n,), theta=theta, omega=omega, alpha=alpha)
+
+    def joint_forces(self, theta: ArrayLike, omega: ArrayLike, alpha: ArrayLike) -> Array:
+        """Force (x, z) [N] of each link on what carries it, shape (..., n, 2)."""
+        self._refuse_missing("joint_forces")
+        return self._batched(self._engine.joint_forces, (self._n, 2), theta=theta, omega=omega, alpha=alpha)
+
+    def energy(self, theta: ArrayLike, omega: ArrayLike) -> Array:
+        """Kinetic and potential energy [J], shape (..., 2)."""
+        self._refuse_missing("energy")
+        return self._batched(self._engine.energy, (2,), theta=theta, omega=omega)
+
+    def trajectory(
+        self, theta: ArrayLike, omega: ArrayLike, integrator: str, step: float, steps: int
+    ) -> tuple[Array, Array]:
+        """θ and ω, shape (n,) each, after ``steps`` steps of ``step`` [s] from one state (n,), (n,)."""
+        self._refuse_missing("trajectory")
+        known = [scheme.name for scheme in self.info.integrators]
+        if integrator not in known:
+            hint = nearest(integrator, known) or f"; it has {', '.join(known)}"
+            raise InvalidInput(f"{self.info.name}: no integrator {integrator!r}{hint}")
+        if not (math.isfinite(step) and step > 0):
+            raise InvalidInput(f"step: a positive number of seconds is needed, got {step!r}")
+        if steps < 1:
+            raise InvalidInput(f"steps: at least 1 is needed, got {steps!r}")
+        start = {name: _numbers(name, value) for name, value in (("theta", theta), ("omega", omega))}
+        for name, values in start.items():
+            if values.shape != (self._n,):
+                raise InvalidInput(f"{name}: shape {values.shape}, where one state of {self._n} angles is needed")
+        angles, rates = self._engine.trajectory(start["theta"], start["omega"], integrator, float(step), int(steps))
+        return self._held(angles, (self._n,)), self._held(rates, (self._n,))
+
+    def _refuse_missing(self, quantity: Quantity) -> None:
+        if quantity in self.info.missing:
+            raise InvalidInput(f"{self.info.name}: no {quantity.replace('_', ' ')}: {self.info.missing[quantity]}")
+
+    def _batched(self, ask: Callable[..., Any], tail: tuple[int, ...], **given: ArrayLike) -> Array:
+        """Ask with rows (B, n) made from every given (..., n); the answer, (B, *tail), as (..., *tail)."""
+        states = {name: _numbers(name, value) for name, value in given.items()}
+        first = next(iter(states.values())).shape
+        for name, values in states.items():
+            if values.shape[-1:] != (self._n,) or values.shape != first:
+                shapes = ", ".join(f"{known} {state.shape}" for known, state in states.items())
+                raise InvalidInput(f"{name}: all must have one shape (..., {self._n}), got {shapes}")
+        rows = [np.ascontiguousarray(values.reshape(-1, self._n)) for values in states.values()]
+        return self._held(ask(*rows), (len(rows[0]), *tail)).reshape(first[:-1] + tail)
+
+    def _held(self, answer: Any, shape: tuple[int, ...]) -> Array:
+        found = np.asarray(answer, dtype=np.float64)
+        if found.shape != shape:
+            raise RuntimeError(f"{self.info.name} gave an answer of shape {found.shape} where {shape} is due")
+        return found
+
+
+def _numbers(name: str, value: ArrayLike) -> Array:
+    try:
+        given = np.asarray(value)
+    except ValueError:
+        raise InvalidInput(f"{name}: an array of numbers is needed, got rows of different lengths") from None
+    if given.dtype.kind not in "iuf":
+        raise InvalidInput(f"{name}: real numbers are needed, got {given.dtype.name}")
+    numbers = np.asarray(given, dtype=np.float64)
+    if not np.isfinite(numbers).all():
+        where = tuple(int(i) for i in np.argwhere(~np.isfinite(numbers))[0])
+        raise InvalidInput(f"{name}[{', '.join(map(str, where))}]: must be finite, got {numbers[where]!r}")
+    return numbers
