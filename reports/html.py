@@ -2,23 +2,128 @@
 
 from __future__ import annotations
 
-from .report import Report
-from .words import GLYPHS, LEGEND, printable
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from ..models.result import Outcome, Result, SceneEntry
+from .drawings import ErrorPlot, Mechanism, draw_errors, draw_mechanism
+from .report import Cell, Report, share
+from .words import GLYPHS, LEGEND, count, few, figure, last_line, printable, tally
+
+TEMPLATES = Path(__file__).parent / "templates"
+
+
+@dataclass(frozen=True)
+class SceneView:
+    """What the page says of one scene; ``anchor`` is the page's own, since a name may hold anything."""
+
+    report: Report
+    name: str
+    anchor: str
+
+    @cached_property
+    def entry(self) -> SceneEntry | None:
+        """What the header says of it; None where only results name it."""
+        return self.report.scene(self.name)
+
+    @cached_property
+    def cells(self) -> list[Cell]:
+        """One for each engine."""
+        return [self.report.table[self.name, engine] for engine in self.report.engines]
+
+    @cached_property
+    def results(self) -> list[Result]:
+        """All of them, engine by engine."""
+        return [result for cell in self.cells for result in cell.results]
+
+    @cached_property
+    def outcomes(self) -> list[Outcome]:
+        """Which of the four there are."""
+        return [outcome for outcome in GLYPHS if any(result.outcome == outcome for result in self.results)]
+
+    @cached_property
+    def rows(self) -> list[tuple[str, list[list[Result]]]]:
+        """Each check, with its results for each engine."""
+        checks = dict.fromkeys(result.check for result in self.results)
+        return [(check, [[r for r in cell.results if r.check == check] for cell in self.cells]) for check in checks]
+
+    @cached_property
+    def mechanism(self) -> Mechanism | None:
+        """Its drawing."""
+        return draw_mechanism(self.entry) if self.entry and self.entry.lengths else None
+
+    @cached_property
+    def errors(self) -> ErrorPlot | None:
+        """Its error plot."""
+        return draw_errors(self.results, self.report.engines)
+
+    @property
+    def again(self) -> str:
+        """The command line that runs this row again."""
+        return self.report.again(self.name)
+
+    @property
+    def equations(self) -> list[tuple[str, str]]:
+        """Name and, where the stream gives it, text of each equation: ``name: text``."""
+        named = [equation.partition(": ") for equation in (self.entry.equations if self.entry else ())]
+        return [(name, text) for name, _, text in named]
 
 
 def to_html(report: Report) -> str:
     """The whole page as text; everything from the stream is escaped, markup comes from the templates alone."""
-    from jinja2 import Environment, PackageLoader
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+    from markupsafe import Markup
 
     environment = Environment(
-        loader=PackageLoader("furiko.reports"),
+        loader=FileSystemLoader(TEMPLATES),
         autoescape=True,
         trim_blocks=True,
         lstrip_blocks=True,
-        finalize=_finalize,
+        undefined=StrictUndefined,
+        finalize=_inert,
+        auto_reload=False,
+        optimized=False,  # the templates have nothing to fold, and looking for it takes a fifth of their compilation
     )
-    return environment.get_template("report.html.j2").render(report=report, glyphs=GLYPHS, legend=LEGEND)
+    environment.filters |= {
+        "figure": figure,
+        "count": count,
+        "few": few,
+        "last_line": last_line,
+        "list_of": _list_of,
+        "tally": tally,
+    }
+    return environment.get_template("report.html.j2").render(
+        report=report,
+        scenes=[SceneView(report, name, f"s{i}") for i, name in enumerate(report.scenes, start=1)],
+        glyphs=GLYPHS,
+        legend=LEGEND,
+        style=Markup((TEMPLATES / "style.css").read_text(encoding="utf-8")),
+        in_words=_in_words,
+        share=share,
+    )
 
 
-def _finalize(value: object) -> object:
+def _inert(value: Any) -> Any:
     return printable(value) if type(value) is str else value
+
+
+def _in_words(cell: Cell) -> str:
+    """What a cell of the table says when pointed at: its deciding check, and how many of its others were left out."""
+    worst = cell.worst
+    if worst is None:
+        return f"{cell.scene} × {cell.engine}: no result"
+    said = f"{cell.scene} × {cell.engine}: {worst.check} {worst.outcome}"
+    if worst.measured is not None and worst.allowed is not None:
+        said += f", {figure(worst.measured)} of {figure(worst.allowed)} {worst.unit} allowed"
+    elif worst.reason:
+        said += f", {last_line(worst.reason)[:200]}"
+    skipped = sum(result.outcome == "skipped" for result in cell.results)
+    return said + (f"; {count(skipped, 'check')} skipped" if skipped and cell.outcome != "skipped" else "")
+
+
+def _list_of(values: Sequence[float], longest: int = 8) -> str:
+    shown = ", ".join(f"{value:.6g}" for value in values[:longest])
+    return shown if len(values) <= longest else f"{shown}, … ({len(values)} in all)"

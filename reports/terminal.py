@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
 from ..models.result import Outcome, Result
 from .report import AGREES, DIFFERS, Cell, Report
-from .words import GLYPHS, LEGEND, count, figure, last_line, one_line
+from .words import GLYPHS, LEGEND, few, figure, last_line, one_line
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -163,12 +163,6 @@ def finding(result: Result) -> str:
     if result.reason:
         said = f"{said.rstrip()}: {last_line(result.reason)}"
     return one_line(said)
-
-
-def few(names: Iterable[str], noun: str) -> str:
-    """Up to three names in full, more as their number."""
-    known = sorted(set(names))
-    return ", ".join(one_line(name, 40) for name in known) if len(known) <= 3 else count(len(known), noun)
 
 
 def _in_words(cell: Cell) -> str:

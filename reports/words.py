@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from ..models.result import Outcome
 
 # A glyph beside the word, so that no outcome is told by colour alone.
@@ -27,6 +29,12 @@ def count(number: int, noun: str) -> str:
     return f"{number:,} {noun}" if number == 1 else f"{number:,} {noun}s"
 
 
+def tally(number: int, outcome: Outcome) -> str:
+    """``1 agrees``, ``2 agree``, ``1 error``, ``2 errors``, ``3 skipped``."""
+    plural = {"agrees": "agree", "differs": "differ", "skipped": "skipped", "error": "errors"}
+    return f"{number:,} {outcome if number == 1 else plural[outcome]}"
+
+
 def printable(text: str) -> str:
     """The text with everything that a terminal, a browser or an XML reader might act on written out as an escape.
 
@@ -48,6 +56,12 @@ def one_line(text: str, longest: int = 300) -> str:
 def last_line(reason: str) -> str:
     """The line of a traceback that names the exception; another reason as it is."""
     return reason.strip().splitlines()[-1] if reason.startswith("Traceback") else reason
+
+
+def few(names: Iterable[str], noun: str) -> str:
+    """Up to three names in full, more as their number."""
+    known = sorted(set(names))
+    return ", ".join(one_line(name, 40) for name in known) if len(known) <= 3 else count(len(known), noun)
 
 
 def _escaped(character: str) -> str:
