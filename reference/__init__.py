@@ -1,0 +1,37 @@
+"""The theory: both documents' equations, and the truth that is proved or computed from them. Knows no engine."""
+
+from .equation import Equation, Slip
+from .motion import (
+    centre_accelerations,
+    coriolis_matrix,
+    energy,
+    gravity_vector,
+    joint_forces,
+    literal_accelerations,
+    mass_matrix,
+)
+from .shiki import EQUATIONS as SHIKI
+from .shiki import SLIPS as _SHIKI_SLIPS
+from .takeno import EQUATIONS as TAKENO
+from .takeno import SLIPS as _TAKENO_SLIPS
+
+EQUATIONS = SHIKI + TAKENO  # all 57, in the documents' order
+MISPRINTS = tuple(equation for equation in EQUATIONS if equation.printed)
+SLIPS = _SHIKI_SLIPS + _TAKENO_SLIPS  # outside the numbered formulas, found by reading
+
+__all__ = [
+    "EQUATIONS",
+    "MISPRINTS",
+    "SHIKI",
+    "SLIPS",
+    "TAKENO",
+    "Equation",
+    "Slip",
+    "centre_accelerations",
+    "coriolis_matrix",
+    "energy",
+    "gravity_vector",
+    "joint_forces",
+    "literal_accelerations",
+    "mass_matrix",
+]
