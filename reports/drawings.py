@@ -13,10 +13,10 @@ from .words import figure
 MOST_LINKS = 200  # drawn of a longer mechanism; more cannot be told apart in a picture of this size
 
 # Error plot, in the units of its own viewBox.
-WIDTH, LEFT, RIGHT = 760, 130, 96
-LANE, ROW_PADDING = 7, 10  # every engine has a lane of its own in a check's row, so that no mark covers another
+WIDTH, LEFT, RIGHT = 760, 130, 96  # the template draws to the same measures
+LANE, ROW_PADDING = 9, 10  # every engine has a lane of its own in a check's row, so that no mark covers another
 TOP, BOTTOM = 22, 40
-ZERO_ROOM = 34  # for errors that are exactly zero, left of the logarithmic axis
+ZERO_ROOM = 44  # for errors that are exactly zero, left of the logarithmic axis
 DECADES = (-6, 12)  # what the axis shows at most; what lies outside stands at its end
 
 
@@ -112,7 +112,7 @@ def draw_errors(results: Sequence[Result], engines: Sequence[str]) -> ErrorPlot 
     logarithms = [math.log10(value) for _, value in shown if 0 < value < math.inf]
     low = max(math.floor(min([-1.0, *logarithms])), DECADES[0])
     high = min(math.ceil(max([1.0, *logarithms])), DECADES[1])
-    zero = LEFT + ZERO_ROOM / 2 if any(value == 0 for _, value in shown) else None
+    zero = LEFT + 14 if any(value == 0 for _, value in shown) else None
     start = LEFT + (ZERO_ROOM if zero else 0) + 6
     stop = WIDTH - RIGHT - 6
 

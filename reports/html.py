@@ -45,10 +45,26 @@ class SceneView:
         return [outcome for outcome in GLYPHS if any(result.outcome == outcome for result in self.results)]
 
     @cached_property
+    def checks(self) -> list[str]:
+        """Which checks there are, in one order for all scenes."""
+        found = {result.check for result in self.results}
+        return [check for check in self.report.checks if check in found]
+
+    @property
+    def further(self) -> list[tuple[str, list[str], list[Result]]]:
+        """Each check, the names of its further figures (a traceback is none), and its results."""
+        return [(check, _keys(found), found) for check in self.checks if (found := self.of(check))]
+
+    def of(self, check: str) -> list[Result]:
+        """The results of one check, engine by engine."""
+        return [result for result in self.results if result.check == check]
+
+    @cached_property
     def rows(self) -> list[tuple[str, list[list[Result]]]]:
         """Each check, with its results for each engine."""
-        checks = dict.fromkeys(result.check for result in self.results)
-        return [(check, [[r for r in cell.results if r.check == check] for cell in self.cells]) for check in checks]
+        return [
+            (check, [[r for r in cell.results if r.check == check] for cell in self.cells]) for check in self.checks
+        ]
 
     @cached_property
     def mechanism(self) -> Mechanism | None:
@@ -94,6 +110,7 @@ def to_html(report: Report) -> str:
         "last_line": last_line,
         "list_of": _list_of,
         "tally": tally,
+        "value": _value,
     }
     return environment.get_template("report.html.j2").render(
         report=report,
@@ -122,6 +139,14 @@ def _in_words(cell: Cell) -> str:
         said += f", {last_line(worst.reason)[:200]}"
     skipped = sum(result.outcome == "skipped" for result in cell.results)
     return said + (f"; {count(skipped, 'check')} skipped" if skipped and cell.outcome != "skipped" else "")
+
+
+def _keys(results: Sequence[Result]) -> list[str]:
+    return [key for key in dict.fromkeys(key for result in results for key in result.details) if key != "traceback"]
+
+
+def _value(value: object) -> object:
+    return figure(value) if isinstance(value, float) else value
 
 
 def _list_of(values: Sequence[float], longest: int = 8) -> str:

@@ -58,7 +58,7 @@ def _case(suite: XML.Element, result: Result) -> None:
     said = XML.SubElement(case, element, {"message": message})
     if result.outcome != "skipped":
         said.set("type", printable(result.cause or result.outcome))
-        said.text = printable(result.reason)
+        said.text = printable("\n".join([result.reason, str(result.details.get("traceback", ""))]).strip())
 
 
 def _count(suite: XML.Element) -> None:

@@ -90,8 +90,9 @@ class Report:
 
     @cached_property
     def checks(self) -> tuple[str, ...]:
-        """Names of the checks in the order in which they first came."""
-        return _in_order([], (result.check for result in self.results))
+        """Names of the checks in the order in which they first came; last those that were never measured."""
+        measured = [result.check for result in self.results if result.measured is not None]
+        return _in_order(measured, (result.check for result in self.results))
 
     @cached_property
     def table(self) -> Mapping[tuple[str, str], Cell]:
