@@ -136,8 +136,8 @@ class ExudynRedundant:
         ((position,), (rate,)) = self._links.states(theta[None], omega[None])
         data.SetODE2Coordinates(position, Initial)
         data.SetODE2Coordinates_t(rate, Initial)
-        run(self._mbs, _SOLVER, integrator, step, steps)
-        return np.array(data.GetODE2Coordinates(Current))[2::3], np.array(data.GetODE2Coordinates_t(Current))[2::3]
+        coordinates, speeds = run(self._mbs, _SOLVER, integrator, step, steps)
+        return coordinates[2::3], speeds[2::3]
 
     def _solve(self, theta: Array, omega: Array) -> tuple[Array, Array]:
         """Angular accelerations (B, n) and the joints' multipliers (B, n, 2)."""
@@ -184,7 +184,8 @@ class _Links:
         centre, rate = hinge + arm, hinge_rate + 1j * omega * arm
         position = np.stack([centre.real, centre.imag, theta], axis=-1)
         velocity = np.stack([rate.real, rate.imag, omega], axis=-1)
-        return position.reshape(len(theta), -1), velocity.reshape(len(theta), -1)
+        flat = (len(theta), 3 * theta.shape[1])
+        return position.reshape(flat), velocity.reshape(flat)
 
 
 def _complex(along_across: Array) -> Any:

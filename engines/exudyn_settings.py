@@ -5,6 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import exudyn
+import numpy as np
+
+from .protocol import Array
 
 Initial = exudyn.ConfigurationType.Initial
 Current = exudyn.ConfigurationType.Current
@@ -25,11 +28,11 @@ def quiet_settings(linear_solver: Any) -> Any:
     return settings
 
 
-def run(mbs: Any, linear_solver: Any, integrator: str, step: float, steps: int) -> None:
-    """Take ``steps`` steps of ``step`` [s] from the initial state; what was reached is then the current state.
+def run(mbs: Any, linear_solver: Any, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
+    """Coordinates and their rates after ``steps`` steps of ``step`` [s] from the initial state.
 
-    Newton's iterations end where rounding does: with the default tolerances (relative 1e-8) they, and not the
-    scheme, would set the error at small steps.
+    NaN where an implicit scheme's Newton iterations find no next state, as where an explicit one overflows. They end
+    where rounding does: with the default tolerances (relative 1e-8) they add a fifth to the error of 25 000 steps.
     """
     settings = quiet_settings(linear_solver)
     integration = settings.timeIntegration
@@ -39,4 +42,9 @@ def run(mbs: Any, linear_solver: Any, integrator: str, step: float, steps: int) 
     integration.adaptiveStep = False
     integration.newton.relativeTolerance = 1e-12
     integration.newton.absoluteTolerance = 1e-13
-    exudyn.SolveDynamic(mbs, settings, solverType=getattr(exudyn.DynamicSolverType, integrator))
+    data = mbs.systemData
+    try:
+        exudyn.SolveDynamic(mbs, settings, solverType=getattr(exudyn.DynamicSolverType, integrator))
+    except exudyn.SolverError:
+        return np.full(data.ODE2Size(), np.nan), np.full(data.ODE2Size(), np.nan)
+    return np.array(data.GetODE2Coordinates(Current)), np.array(data.GetODE2Coordinates_t(Current))

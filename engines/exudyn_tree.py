@@ -113,11 +113,8 @@ class ExudynTree:
 
     def trajectory(self, theta: Array, omega: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
         self._start_at(*(row[0] for row in map(self._coordinates.relative, (theta[None], omega[None]))))
-        run(self._mbs, _SOLVER, integrator, step, steps)
-        data = self._mbs.systemData
-        end = data.GetODE2Coordinates(Current), data.GetODE2Coordinates_t(Current)
-        angles, rates = (self._coordinates.absolute(np.array(relative)[None])[0] for relative in end)
-        return angles, rates
+        angles, rates = run(self._mbs, _SOLVER, integrator, step, steps)
+        return self._coordinates.absolute(angles[None])[0], self._coordinates.absolute(rates[None])[0]
 
     def _energies(self, theta: Array, omega: Array) -> Array:
         data, outputs = self._mbs.systemData, exudyn.OutputVariableType

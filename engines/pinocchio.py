@@ -2,8 +2,8 @@
 
 * The PyPI package is ``pin``; the one called ``pinocchio`` there is something else.
 * URDF says nothing of gravity and the MJCF reader passes over ``<option gravity>``: the model is told.
-* The MJCF reader takes only a file. It honours ``boundinertia``, so that point masses come lifted to 1e-15 kg m² and
-  are set back to none.
+* The MJCF reader takes only a file, and of several bodies on the support only the first. It honours ``boundinertia``,
+  so that point masses come lifted to 1e-15 kg m² and are set back to none.
 * Joints are ordered depth first and siblings by name (URDF) or as written (MJCF): columns are found by name.
 * One call, one state: the parallel routines give other roundings, and are no faster on two cores.
 * Its data hold second derivatives of the kinematics, 6 n³ numbers, whatever is computed.
@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 import pinocchio
 
-from ..models import System, to_mjcf, to_urdf
+from ..models import InvalidInput, System, to_mjcf, to_urdf
 from .coordinates import RelativeCoordinates
 from .protocol import Array, ModelFields
 
@@ -117,6 +117,8 @@ class PinocchioAbaMjcf(PinocchioAba):
 
     @staticmethod
     def _read(system: System) -> Any:
+        if len(system.tree().roots()) > 1:
+            raise InvalidInput("pinocchio-aba-mjcf: from MJCF Pinocchio reads only the first body on the support")
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder, "model.xml")
             path.write_text(to_mjcf(system), encoding="utf-8")

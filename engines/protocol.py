@@ -34,8 +34,9 @@ class EngineInfo:
     ``adapter``: where its class is, ``module:Class``; ``module``: what it imports; ``package``: what to pip install.
     ``coordinates``: those in which it forms and solves the equations, hence where its rounding arises. ``missing``:
     for each quantity it cannot give, the sentence that says why. ``accuracy``: relative accuracy of one operation,
-    and ``accuracy_reason`` where that is more than double precision's rounding. ``largest_n`` links it takes, and
-    masses of ``least_mass`` [kg] or more; the reasons say what stands in the way.
+    and ``accuracy_reason`` where that is more than double precision's rounding. ``largest_n`` links it takes,
+    and a mass of ``least_mass`` [kg] or more and an inertia about the hinge of ``least_inertia`` [kg m²] or more for
+    each link; the reasons say what stands in the way.
     """
 
     name: str
@@ -50,7 +51,8 @@ class EngineInfo:
     largest_n: int = 10_000
     largest_n_reason: str = ""
     least_mass: float = 0.0
-    least_mass_reason: str = ""
+    least_inertia: float = 0.0
+    least_reason: str = ""
     accuracy: float = 2.0**-52
     accuracy_reason: str = ""
 
