@@ -1,0 +1,55 @@
+"""What a mechanism is to algebra: its symbols, and of which segments the way to each of its masses is made."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+from flint import fmpq
+
+from .trig import NOTHING, Formula, Space
+
+KINDS = ("n-leg", "rod-chain")
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """An n-leg pendulum (Shiki) or a chain of uniform rods (Takeno) with symbols for numbers; ``n`` angles."""
+
+    kind: str
+    n: int
+
+    @cached_property
+    def space(self) -> Space:
+        """Its symbols."""
+        return Space(self.n)
+
+    def mass(self, b: int) -> Formula:
+        """m_b; of a rod ρ l_b, so that both ways of writing it are one."""
+        return self.space.rho * self.space.l(b) if self.kind == "rod-chain" else self.space.m(b)
+
+    def inertia(self, b: int) -> Formula:
+        """About the centre of mass: ρ l_b³/12 of a rod, nothing of a point mass."""
+        if self.kind == "n-leg":
+            return NOTHING
+        return (self.space.rho * self.space.l(b).power(3)).times(fmpq(1, 12))
+
+    def parent(self, b: int) -> int:
+        """The link that carries link b, or -1."""
+        return min(b - 1, 0) if self.kind == "n-leg" else b - 1
+
+    def path(self, b: int) -> tuple[tuple[int, fmpq], ...]:
+        """Which links lie on the way to mass b, and what fraction of each."""
+        if self.kind == "n-leg":
+            return ((0, fmpq(1)), (b, fmpq(1))) if b else ((0, fmpq(1)),)
+        return (*((k, fmpq(1)) for k in range(b)), (b, fmpq(1, 2)))
+
+    def divisor(self, i: int) -> Formula:
+        """What the documents divide Lagrange's row i by: l_i (Shiki (1.9)), ρ l_i (Takeno (17))."""
+        return self.space.l(i) if self.kind == "n-leg" else self.space.rho * self.space.l(i)
+
+
+@lru_cache(maxsize=64)
+def mechanism(kind: str, n: int) -> Mechanism:
+    """The mechanism of a kind with n angles; the same object each time, so that what was derived for it is kept."""
+    return Mechanism(kind, n)
