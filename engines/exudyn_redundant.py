@@ -108,7 +108,7 @@ class ExudynRedundant:
         return np.array([x, -z, y])
 
     def accelerations(self, theta: Array, omega: Array) -> Array:
-        return self._solve(theta, omega)[0]
+        return self._solve(theta, omega)[0][:, 2::3]
 
     def joint_forces(self, theta: Array, omega: Array, alpha: Array) -> Array:
         """The multipliers come with Exudyn's own accelerations: ``alpha`` is passed over."""
@@ -132,19 +132,32 @@ class ExudynRedundant:
         return energies
 
     def trajectory(self, theta: Array, omega: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
+        (angles,), (rates,) = self._run(theta, omega, integrator, step, steps, all_states=False)
+        return angles, rates
+
+    def path(self, theta: Array, omega: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
+        return self._run(theta, omega, integrator, step, steps, all_states=True)
+
+    def _run(
+        self, theta: Array, omega: Array, integrator: str, step: float, steps: int, *, all_states: bool
+    ) -> tuple[Array, Array]:
+        """Started from the accelerations of :meth:`_solve`: those that the solver would compute are off by 1e-6."""
+        (accelerations,), _ = self._solve(theta[None], omega[None])
         data = self._mbs.systemData
         ((position,), (rate,)) = self._links.states(theta[None], omega[None])
         data.SetODE2Coordinates(position, Initial)
         data.SetODE2Coordinates_t(rate, Initial)
-        coordinates, speeds = run(self._mbs, _SOLVER, integrator, step, steps)
-        return coordinates[2::3], speeds[2::3]
+        coordinates, speeds = run(
+            self._mbs, _SOLVER, integrator, step, steps, accelerations=accelerations, all_states=all_states
+        )
+        return coordinates[:, 2::3], speeds[:, 2::3]
 
     def _solve(self, theta: Array, omega: Array) -> tuple[Array, Array]:
-        """Angular accelerations (B, n) and the joints' multipliers (B, n, 2)."""
+        """Accelerations of all coordinates (B, 3n) and the joints' multipliers (B, n, 2)."""
         mbs, data, settings = self._mbs, self._mbs.systemData, self._settings
         differencing = settings.timeIntegration.newton.numericalDifferentiation
         solver = exudyn.MainSolverImplicitSecondOrder()
-        accelerations = np.zeros_like(theta)
+        accelerations = np.zeros((len(theta), 3 * theta.shape[1]))
         forces = np.zeros((*theta.shape, 2))
         positions, rates = self._links.states(theta, omega)
         # A step is relativeEpsilon times the coordinate, or times minimumCoordinateSize where that is more.
@@ -156,7 +169,7 @@ class ExudynRedundant:
             for weight, step in zip(WEIGHTS, STEPS, strict=True):
                 differencing.relativeEpsilon = step / size
                 solver.InitializeSolver(mbs, settings)
-                accelerations[row] += weight * data.GetODE2Coordinates_tt()[2::3]
+                accelerations[row] += weight * data.GetODE2Coordinates_tt()
                 forces[row] += weight * data.GetAECoordinates().reshape(-1, 2)
                 solver.FinalizeSolver(mbs, settings)
         return accelerations, forces

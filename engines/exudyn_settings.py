@@ -28,8 +28,20 @@ def quiet_settings(linear_solver: Any) -> Any:
     return settings
 
 
-def run(mbs: Any, linear_solver: Any, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
-    """Coordinates and their rates after ``steps`` steps of ``step`` [s] from the initial state.
+def run(
+    mbs: Any,
+    linear_solver: Any,
+    integrator: str,
+    step: float,
+    steps: int,
+    *,
+    accelerations: Array | None = None,
+    all_states: bool = False,
+) -> tuple[Array, Array]:
+    """Coordinates and their rates after ``steps`` steps of ``step`` [s] from the initial state, (1, coordinates) each.
+
+    With ``all_states`` those of the start and of every step, (steps + 1, coordinates). ``accelerations``: those of the
+    initial state, where Exudyn is not to compute them itself.
 
     NaN where an implicit scheme's Newton iterations find no next state, as where an explicit one overflows. They end
     where rounding does: with the default tolerances (relative 1e-8) they add a fifth to the error of 25 000 steps.
@@ -43,8 +55,25 @@ def run(mbs: Any, linear_solver: Any, integrator: str, step: float, steps: int) 
     integration.newton.relativeTolerance = 1e-12
     integration.newton.absoluteTolerance = 1e-13
     data = mbs.systemData
+    if accelerations is not None:
+        integration.generalizedAlpha.computeInitialAccelerations = False
+        data.SetODE2Coordinates_tt(accelerations, Initial)
+    states: list[tuple[Array, Array]] = []
+
+    def note(_mbs: Any = None, _time: float = 0.0) -> bool:
+        states.append((np.array(data.GetODE2Coordinates(Current)), np.array(data.GetODE2Coordinates_t(Current))))
+        return True
+
+    if all_states:
+        mbs.SetPreStepUserFunction(note)
     try:
         exudyn.SolveDynamic(mbs, settings, solverType=getattr(exudyn.DynamicSolverType, integrator))
+        note()
     except exudyn.SolverError:
-        return np.full(data.ODE2Size(), np.nan), np.full(data.ODE2Size(), np.nan)
-    return np.array(data.GetODE2Coordinates(Current)), np.array(data.GetODE2Coordinates_t(Current))
+        lost = np.full(data.ODE2Size(), np.nan)
+        states += [(lost, lost)] * (steps + 1 - len(states) if all_states else 1)
+    finally:
+        if all_states:
+            mbs.SetPreStepUserFunction(0)
+    coordinates, rates = zip(*states, strict=True)
+    return np.array(coordinates), np.array(rates)

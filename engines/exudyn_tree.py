@@ -112,9 +112,18 @@ class ExudynTree:
         return energies
 
     def trajectory(self, theta: Array, omega: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
+        (angles,), (rates,) = self._run(theta, omega, integrator, step, steps, all_states=False)
+        return angles, rates
+
+    def path(self, theta: Array, omega: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
+        return self._run(theta, omega, integrator, step, steps, all_states=True)
+
+    def _run(
+        self, theta: Array, omega: Array, integrator: str, step: float, steps: int, *, all_states: bool
+    ) -> tuple[Array, Array]:
         self._start_at(*(row[0] for row in map(self._coordinates.relative, (theta[None], omega[None]))))
-        angles, rates = run(self._mbs, _SOLVER, integrator, step, steps)
-        return self._coordinates.absolute(angles[None])[0], self._coordinates.absolute(rates[None])[0]
+        angles, rates = run(self._mbs, _SOLVER, integrator, step, steps, all_states=all_states)
+        return self._coordinates.absolute(angles), self._coordinates.absolute(rates)
 
     def _energies(self, theta: Array, omega: Array) -> Array:
         data, outputs = self._mbs.systemData, exudyn.OutputVariableType

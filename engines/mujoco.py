@@ -45,6 +45,7 @@ class Mujoco:
         # The energies are asked for when they are wanted.
         self._model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_ENERGY)
         self._data = _quiet_data(self._model)
+        self._moving = _quiet_data(self._model)
         self._coordinates = RelativeCoordinates(tree.parents, self._model.jnt_dofadr[self._hinges])
 
     def fields(self) -> ModelFields:
@@ -115,16 +116,29 @@ class Mujoco:
         return energies
 
     def trajectory(self, theta: Array, omega: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
-        model, data = self._model, _quiet_data(self._model)
+        angles, rates = self._run(theta, omega, integrator, step, [steps])
+        return angles[-1], rates[-1]
+
+    def path(self, theta: Array, omega: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
+        return self._run(theta, omega, integrator, step, [1] * steps)
+
+    def _run(self, theta: Array, omega: Array, integrator: str, step: float, strides: list[int]) -> tuple[Array, Array]:
+        """The state at the start and after each stride of so many steps, (strides + 1, n) each."""
+        model, data, option = self._model, self._moving, self._model.opt
+        mujoco.mj_resetData(model, data)
+        _quieten(data)
         ((data.qpos[:], data.qvel[:]),) = self._relative(theta[None], omega[None])
-        option = model.opt
+        angles, rates = [data.qpos.copy()], [data.qvel.copy()]
         kept = option.integrator, option.timestep
         option.integrator, option.timestep = INTEGRATORS[integrator], step
         try:
-            mujoco.mj_step(model, data, nstep=steps)
+            for stride in strides:
+                mujoco.mj_step(model, data, nstep=stride)
+                angles.append(data.qpos.copy())
+                rates.append(data.qvel.copy())
         finally:
             option.integrator, option.timestep = kept
-        return self._coordinates.absolute(data.qpos[None])[0], self._coordinates.absolute(data.qvel[None])[0]
+        return self._coordinates.absolute(np.array(angles)), self._coordinates.absolute(np.array(rates))
 
     def _relative(self, *absolute: Array) -> Any:
         return zip(*map(self._coordinates.relative, absolute), strict=True)
@@ -158,11 +172,15 @@ def model_from_spec(tree: PlanarTree) -> Any:
 
 
 def _quiet_data(model: Any) -> Any:
-    """An ``MjData`` that believes to have warned already, and so neither prints nor writes MUJOCO_LOG.TXT."""
     data = mujoco.MjData(model)
+    _quieten(data)
+    return data
+
+
+def _quieten(data: Any) -> None:
+    """Make it believe to have warned already: it then neither prints nor writes MUJOCO_LOG.TXT."""
     for warning in data.warning:
         warning.number = 1
-    return data
 
 
 def _point(along_across: tuple[float, float]) -> list[float]:

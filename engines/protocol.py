@@ -21,10 +21,17 @@ Quantity = Literal["fields", "accelerations", "inverse_dynamics", "joint_forces"
 
 @dataclass(frozen=True)
 class Integrator:
-    """One of an engine's own time-stepping schemes: its name there, and the order its makers give it."""
+    """One of an engine's own time-stepping schemes: its name there, and the order its makers give it.
+
+    ``tolerance``: the residual, relative to that of a first guess, at which an implicit scheme's iterations end.
+    ``remembers``: a step starts from more than angles and rates (accelerations, joints that have come apart), so that
+    n single steps are not a run of n steps.
+    """
 
     name: str
     order: int
+    tolerance: float = 0.0
+    remembers: bool = False
 
 
 @dataclass(frozen=True)
@@ -110,4 +117,11 @@ class Engine(Protocol):
 
     def trajectory(self, theta: Array, omega: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
         """θ and ω, shape (n,) each, after ``steps`` steps of ``step`` seconds from one state (n,), (n,)."""
+        ...
+
+    def path(self, theta: Array, omega: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
+        """The same run with all its states, the first included: shape (steps + 1, n) each.
+
+        An adapter may leave this out: whoever wants a path then runs to each of its points anew.
+        """
         ...

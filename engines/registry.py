@@ -67,7 +67,11 @@ ENGINES: dict[str, EngineInfo] = {
             formulation="kinematic tree in minimal coordinates, mass matrix and LU",
             adapter="furiko.engines.exudyn_tree:ExudynTree",
             coordinates="relative",
-            integrators=(Integrator("RK44", 4), Integrator("RK67", 6), Integrator("GeneralizedAlpha", 2)),
+            integrators=(
+                Integrator("RK44", 4),
+                Integrator("RK67", 6),
+                Integrator("GeneralizedAlpha", 2, tolerance=1e-12, remembers=True),
+            ),
             missing={"joint_forces": "a kinematic tree in minimal coordinates never forms the forces in its joints"},
             largest_n=1000,
             largest_n_reason="a state costs n³ operations",
@@ -78,7 +82,10 @@ ENGINES: dict[str, EngineInfo] = {
             formulation="free bodies and revolute joints, constraints with Lagrange multipliers",
             adapter="furiko.engines.exudyn_redundant:ExudynRedundant",
             coordinates="maximal",
-            integrators=(Integrator("GeneralizedAlpha", 2), Integrator("TrapezoidalIndex2", 2)),
+            integrators=(
+                Integrator("GeneralizedAlpha", 2, tolerance=1e-12, remembers=True),
+                Integrator("TrapezoidalIndex2", 2, tolerance=1e-12, remembers=True),
+            ),
             missing={
                 "inverse_dynamics": "in maximal coordinates Exudyn forms no generalised forces of the hinge angles"
             },

@@ -59,6 +59,24 @@ class AnyShape:
         self, theta: ArrayLike, omega: ArrayLike, integrator: str, step: float, steps: int
     ) -> tuple[Array, Array]:
         """θ and ω, shape (n,) each, after ``steps`` steps of ``step`` [s] from one state (n,), (n,)."""
+        start = self._start(theta, omega, integrator, step, steps)
+        angles, rates = self._engine.trajectory(*start, integrator, float(step), int(steps))
+        return self._held(angles, (self._n,)), self._held(rates, (self._n,))
+
+    def path(
+        self, theta: ArrayLike, omega: ArrayLike, integrator: str, step: float, steps: int
+    ) -> tuple[Array, Array] | None:
+        """All states of the same run, the first included, (steps + 1, n) each; None where the adapter has no paths."""
+        start = self._start(theta, omega, integrator, step, steps)
+        if not hasattr(self._engine, "path"):
+            return None
+        angles, rates = self._engine.path(*start, integrator, float(step), int(steps))
+        return self._held(angles, (steps + 1, self._n)), self._held(rates, (steps + 1, self._n))
+
+    def _start(
+        self, theta: ArrayLike, omega: ArrayLike, integrator: str, step: float, steps: int
+    ) -> tuple[Array, Array]:
+        """One state, (n,) each, after all that a run is given has been looked at."""
         self._refuse_missing("trajectory")
         known = [scheme.name for scheme in self.info.integrators]
         if integrator not in known:
@@ -68,12 +86,11 @@ class AnyShape:
             raise InvalidInput(f"step: a positive number of seconds is needed, got {step!r}")
         if steps < 1:
             raise InvalidInput(f"steps: at least 1 is needed, got {steps!r}")
-        start = {name: _numbers(name, value) for name, value in (("theta", theta), ("omega", omega))}
-        for name, values in start.items():
+        angles, rates = _numbers("theta", theta), _numbers("omega", omega)
+        for name, values in (("theta", angles), ("omega", rates)):
             if values.shape != (self._n,):
                 raise InvalidInput(f"{name}: shape {values.shape}, where one state of {self._n} angles is needed")
-        angles, rates = self._engine.trajectory(start["theta"], start["omega"], integrator, float(step), int(steps))
-        return self._held(angles, (self._n,)), self._held(rates, (self._n,))
+        return angles, rates
 
     def _refuse_missing(self, quantity: Quantity) -> None:
         if quantity in self.info.missing:

@@ -155,10 +155,11 @@ def test_mujoco_built_without_xml_is_the_same_model():
 
     from furiko.engines.mujoco import model_from_spec
 
-    chain = RodChain((0.5, 0.7, 0.2, 0.9))
+    chain = RodChain((0.5, 0.7, 0.2, 0.9), gravity=3.7)
     theta, omega, _ = states(11, 4)
     adapter = load_engine("mujoco", chain)
     model = model_from_spec(chain.tree())
+    assert model.opt.disableflags == adapter._engine._model.opt.disableflags
     data = mujoco.MjData(model)
     for row, t, w in zip(adapter.accelerations(theta, omega), theta, omega, strict=True):
         data.qpos[:], data.qvel[:] = np.diff(t, prepend=0.0), np.diff(w, prepend=0.0)
