@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..models.result import Outcome, Result, SceneEntry
 from .drawings import ErrorPlot, Mechanism, draw_errors, draw_mechanism
 from .report import Cell, Report, share
 from .words import GLYPHS, LEGEND, count, few, figure, last_line, printable, tally
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
 
 TEMPLATES = Path(__file__).parent / "templates"
 
@@ -90,8 +93,26 @@ class SceneView:
 
 def to_html(report: Report) -> str:
     """The whole page as text; everything from the stream is escaped, markup comes from the templates alone."""
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
     from markupsafe import Markup
+
+    return (
+        _environment()
+        .get_template("report.html.j2")
+        .render(
+            report=report,
+            scenes=[SceneView(report, name, f"s{i}") for i, name in enumerate(report.scenes, start=1)],
+            glyphs=GLYPHS,
+            legend=LEGEND,
+            style=Markup((TEMPLATES / "style.css").read_text(encoding="utf-8")),
+            in_words=_in_words,
+            share=share,
+        )
+    )
+
+
+@cache
+def _environment() -> Environment:
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     environment = Environment(
         loader=FileSystemLoader(TEMPLATES),
@@ -112,15 +133,7 @@ def to_html(report: Report) -> str:
         "tally": tally,
         "value": _value,
     }
-    return environment.get_template("report.html.j2").render(
-        report=report,
-        scenes=[SceneView(report, name, f"s{i}") for i, name in enumerate(report.scenes, start=1)],
-        glyphs=GLYPHS,
-        legend=LEGEND,
-        style=Markup((TEMPLATES / "style.css").read_text(encoding="utf-8")),
-        in_words=_in_words,
-        share=share,
-    )
+    return environment
 
 
 def _inert(value: Any) -> Any:

@@ -53,7 +53,7 @@ def _case(suite: XML.Element, result: Result) -> None:
     message = one_line(last_line(result.reason)) or "no reason was given"
     if result.measured is not None and result.outcome == "differs":
         message = one_line(
-            f"measured {figure(result.measured)} {result.unit}, allowed {figure(result.allowed)}: {message}"
+            f"measured {figure(result.measured)} {result.unit}, allowed {figure(result.allowed)} {result.unit}: {message}"
         )
     said = XML.SubElement(case, element, {"message": message})
     if result.outcome != "skipped":

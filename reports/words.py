@@ -17,11 +17,10 @@ def figure(value: float | None) -> str:
         return "–"
     if value == 0:
         return "0"
-    if 1e-2 <= abs(value) < 1e4:
-        text = f"{value:.2g}" if abs(value) < 99.5 else f"{value:.0f}"
-        return text.replace("e+0", "e")
+    if 1e-2 <= abs(value) < 9999.5:
+        return f"{value:.2g}" if abs(value) < 99.5 else f"{value:.0f}"
     mantissa, _, exponent = f"{value:.1e}".partition("e")
-    return f"{mantissa}e{int(exponent)}" if exponent else mantissa
+    return f"{mantissa}e{int(exponent)}"
 
 
 def count(number: int, noun: str) -> str:
@@ -44,7 +43,7 @@ def printable(text: str) -> str:
     if text.isprintable():
         return text
     text = text.replace("\r\n", "\n").replace("\t", "    ")
-    return "".join(c if c.isprintable() or c == "\n" else " " if c.isspace() else _escaped(c) for c in text)
+    return "".join(c if c.isprintable() or c == "\n" else _written_out(c) for c in text)
 
 
 def one_line(text: str, longest: int = 300) -> str:
@@ -64,5 +63,7 @@ def few(names: Iterable[str], noun: str) -> str:
     return ", ".join(one_line(name, 40) for name in known) if len(known) <= 3 else count(len(known), noun)
 
 
-def _escaped(character: str) -> str:
+def _written_out(character: str) -> str:
+    if character.isspace() and character > "\x9f":  # a no-break space is a space, a form feed is not
+        return " "
     return character.encode("unicode_escape").decode()

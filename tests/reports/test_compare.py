@@ -1,0 +1,100 @@
+"""Two runs side by side: each kind of change gets its mark, and equal runs none."""
+
+import pytest
+
+from furiko.reports.compare import compare
+from furiko.reports.report import Report
+
+
+def marks(comparison):
+    return "".join(change.mark for change in comparison.changes)
+
+
+def test_a_run_is_as_itself(make):
+    run = make.large(links=(1, 20))
+    comparison = compare(run, run)
+    assert set(marks(comparison)) == {" "}
+    assert comparison.exit_status == 0
+    assert comparison.text() == f"{len(run.results)} comparisons unchanged."
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "mark", "status"),
+    [
+        ("agrees", "differs", "!", 1),
+        ("agrees", "error", "!", 1),
+        ("skipped", "differs", "!", 1),
+        ("error", "differs", "!", 1),
+        ("differs", "agrees", "*", 0),
+        ("error", "agrees", "*", 0),
+        ("skipped", "agrees", "~", 0),
+        ("agrees", "skipped", "~", 0),
+        ("differs", "skipped", "~", 0),
+        (None, "agrees", ">", 0),
+        (None, "differs", "!", 1),
+        ("agrees", None, "<", 0),
+        ("skipped", "skipped", " ", 0),
+    ],
+)
+def test_outcomes(make, before, after, mark, status):
+    runs = [make.report(*([make.result(o)] if o else []), scenes=[]) for o in (before, after)]
+    comparison = compare(*runs)
+    assert marks(comparison) == mark
+    assert comparison.exit_status == status
+    if mark != " ":
+        assert f"  {mark} rods-2 × mujoco, accelerations: " in comparison.text()
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "unit", "mark"),
+    [
+        (3.0, 5.9, "ε", " "),
+        (3.0, 6.1, "ε", "+"),
+        (6.1, 3.0, "ε", "-"),
+        (1e-3, 0.9, "ε", " "),  # both under one rounding
+        (0.0, 0.9, "ε", " "),
+        (0.0, 2.1, "ε", "+"),
+        (1e-3, 0.9, "m", "+"),
+        (0.0, 1e-30, "m", "+"),
+        (0.0, 0.0, "m", " "),
+        (-4.0, 4.0, "m", " "),
+        (3.0, None, "ε", "x"),
+        (None, None, "ε", " "),
+    ],
+)
+def test_errors(make, before, after, unit, mark):
+    runs = [make.report(make.result(measured=m, unit=unit)) for m in (before, after)]
+    assert marks(compare(*runs)) == mark
+
+
+def test_other_bounds_and_units_cannot_be_compared(make):
+    first = make.report(make.result())
+    assert marks(compare(first, make.report(make.result(allowed=65.0)))) == "x"
+    assert marks(compare(first, make.report(make.result(unit="m")))) == "x"
+
+
+def test_comparisons_of_one_name_are_paired_in_their_order(make):
+    first = make.report(make.result(measured=1.0), make.result(measured=50.0))
+    second = make.report(make.result(measured=1.0), make.result(measured=5.0), make.result())
+    assert marks(compare(first, second)) == " ->"
+
+
+def test_a_run_that_was_cut_off_says_so_and_is_no_success(make):
+    whole = make.report(make.result())
+    comparison = compare(whole, Report(whole.header, whole.results))
+    assert comparison.exit_status == 3
+    assert comparison.text().startswith("second run: This run was cut off")
+
+
+def test_the_text_is_one_line_a_change(make):
+    nasty = "a\x1b[2J\nb"
+    text = compare(make.report(), make.report(make.result("differs", scene=nasty, reason=nasty))).text()
+    assert "\x1b" not in text
+    assert text.splitlines()[1:2] == ["broke (1)"] or "broke (1)" in text
+    assert "a\\x1b[2J b × mujoco, accelerations: none → differs 3.1 ε: a\\x1b[2J b" in text
+
+
+def test_the_ratio_stands_beside_what_grew(make):
+    text = compare(make.report(make.result(measured=3.0)), make.report(make.result(measured=30.0))).text()
+    assert "  + rods-2 × mujoco, accelerations: agrees 3 ε → agrees 30 ε (10 ×)" in text
+    assert text.endswith("1 error grew; 0 comparisons unchanged.")

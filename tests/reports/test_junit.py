@@ -1,0 +1,100 @@
+"""The JUnit file is well formed, says what CI systems read, and its tallies are those of its cases."""
+
+from xml.etree import ElementTree
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from furiko.reports.junit import to_junit
+from furiko.reports.report import Report
+
+
+def parsed(report):
+    return ElementTree.fromstring(to_junit(report).encode())
+
+
+def assert_structure(root):
+    """The shape on which GitHub's, GitLab's and Jenkins's readers agree."""
+    assert root.tag == "testsuites"
+    for suite in root:
+        assert suite.tag == "testsuite"
+        assert suite.get("name")
+        cases = suite.findall("testcase")
+        assert len(cases) == len(suite)
+        for case in cases:
+            assert set(case.attrib) == {"classname", "name", "time"}
+            assert float(case.get("time")) >= 0
+            assert len(case) <= 1
+            for said in case:
+                assert said.tag in ("failure", "error", "skipped")
+                assert said.get("message")
+        tally(suite, cases)
+    tally(root, root.findall("testsuite/testcase"))
+
+
+def tally(element, cases):
+    assert int(element.get("tests")) == len(cases)
+    for attribute, tag in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
+        assert int(element.get(attribute)) == sum(case.find(tag) is not None for case in cases)
+    assert float(element.get("time")) == pytest.approx(sum(float(case.get("time")) for case in cases), abs=1e-4)
+
+
+def test_a_large_run(make):
+    run = make.large()
+    root = parsed(run)
+    assert_structure(root)
+    assert [suite.get("name") for suite in root] == list(run.scenes)
+    assert int(root.get("tests")) == len(run.results)
+    assert int(root.get("failures")) == run.counts["differs"]
+    assert int(root.get("errors")) == run.counts["error"]
+    assert int(root.get("skipped")) == run.counts["skipped"]
+    assert root.find("testsuite").get("timestamp") == "2026-11-23T04:45:00"
+
+
+def test_a_case_of_each_outcome(make):
+    root = parsed(
+        make.report(
+            make.result("agrees", check="a"),
+            make.result("differs", check="b", measured=200, allowed=64, cause="armature", reason="M is larger"),
+            make.result("skipped", check="c", reason="it cannot"),
+            make.result("error", check="d", reason="RuntimeError: no", details={"traceback": "Traceback:\n  line 7"}),
+        )
+    )
+    assert_structure(root)
+    agrees, differs, skipped, error = root.findall("testsuite/testcase")
+    assert agrees.get("classname") == "rods-2.mujoco"
+    assert agrees.get("name") == "a"
+    assert len(agrees) == 0
+    assert differs.find("failure").get("message") == "measured 200 ε, allowed 64 ε: M is larger"
+    assert differs.find("failure").get("type") == "armature"
+    assert skipped.find("skipped").get("message") == "it cannot"
+    assert error.find("error").get("message") == "RuntimeError: no"
+    assert "line 7" in error.find("error").text
+
+
+def test_a_run_that_was_cut_off_is_not_green(make):
+    whole = make.report(make.result())
+    assert int(parsed(whole).get("errors")) == 0
+    root = parsed(Report(whole.header, whole.results))
+    assert_structure(root)
+    assert int(root.get("errors")) == 1
+    assert "cut off" in root.find("testsuite[@name='furiko']/testcase/error").get("message")
+
+
+@settings(deadline=None, max_examples=60)
+@given(name=st.text(min_size=1), outcome=st.sampled_from(["agrees", "differs", "skipped", "error"]))
+def test_any_text_leaves_it_well_formed(make, name, outcome):
+    result = make.result(outcome, scene=name, engine=name, check=name, reason=name, cause=name, unit=name)
+    root = parsed(make.report(result, scenes=[], engines=[]))
+    assert_structure(root)
+
+
+@pytest.mark.parametrize("text", ["]]>", "<!--", "</testsuite>", '" x="', "\x00\x0b\x1f\ufffe\uffff\ud800", "&amp;<b>"])
+def test_hostile_text_comes_out_as_it_went_in_or_escaped(make, text):
+    result = make.result("error", scene=f"s{text}", check=text, reason=text, details={"traceback": text})
+    root = parsed(make.report(result, scenes=[], engines=[]))
+    expected = text if text.isprintable() else text.encode("unicode_escape").decode()
+    assert root.find("testsuite").get("name") == f"s{expected}"
+    assert root.find("testsuite/testcase").get("name") == expected
+    assert root.find("testsuite/testcase/error").text == f"{expected}\n{expected}"

@@ -1,0 +1,49 @@
+"""The shipped schema is the records' own, and an independent validator accepts real lines and refuses others."""
+
+import json
+
+import jsonschema
+import pytest
+
+from furiko.reports import StreamWriter
+from furiko.reports.schema import FILE, schema
+
+VALIDATOR = jsonschema.Draft202012Validator(json.loads(FILE.read_text(encoding="utf-8")))
+
+
+def test_the_file_is_what_the_records_generate():
+    assert FILE.read_text(encoding="utf-8") == schema(), "run: python -m furiko.reports.schema"
+
+
+def test_it_is_a_schema():
+    jsonschema.Draft202012Validator.check_schema(VALIDATOR.schema)
+
+
+def test_real_lines_are_valid(make, tmp_path):
+    run = make.large(links=(1, 20, 64))
+    with StreamWriter(tmp_path / "r", run.header) as stream:
+        for result in run.results:
+            stream.write(result)
+        stream.write(make.result("differs", measured=float("inf"), cause="armature"))
+        stream.finish(1.0)
+    lines = (tmp_path / "r").read_text(encoding="utf-8").splitlines()
+    for line in lines:
+        VALIDATOR.validate(json.loads(line))
+    assert {json.loads(line)["kind"] for line in lines} == {"header", "result", "footer"}
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        [],
+        {},
+        {"kind": "other"},
+        {"kind": "footer", "agrees": 1},
+        {"kind": "footer", "agrees": "1", "differs": 0, "skipped": 0, "error": 0},
+        {"kind": "result", "scene": "s", "engine": "e", "check": "c", "outcome": "fine"},
+        {"kind": "result", "scene": "s", "engine": "e", "outcome": "agrees"},
+        {"kind": "result", "scene": "s", "engine": "e", "check": "c", "outcome": "agrees", "measured": "3"},
+    ],
+)
+def test_other_lines_are_not(line):
+    assert not VALIDATOR.is_valid(line)

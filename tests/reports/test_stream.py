@@ -1,0 +1,295 @@
+"""The stream is read back as it was written; what was cut off, damaged or is foreign never passes for a whole run."""
+
+import io
+import json
+import os
+import subprocess
+import sys
+
+import msgspec
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from furiko.models.errors import InvalidInput
+from furiko.models.result import OUTCOMES, Result
+from furiko.reports import StreamWriter, read_stream
+from furiko.reports.stream import LARGEST_LINE, LONGEST_REASON
+
+words = st.text(st.characters(exclude_categories=["Cs"]), max_size=30)
+numbers = st.none() | st.floats(allow_nan=False, allow_infinity=False)
+results = st.builds(
+    Result,
+    scene=words,
+    engine=words,
+    check=words,
+    outcome=st.sampled_from(OUTCOMES),
+    measured=numbers,
+    allowed=numbers,
+    unit=words,
+    cause=st.none() | words,
+    reason=words,
+    seconds=st.floats(0, 1e6),
+    details=st.dictionaries(
+        words, words | numbers | st.integers(-(2**53), 2**53) | st.lists(words, max_size=3), max_size=3
+    ),
+)
+
+
+def written(path, header, results, finish=True) -> bytes:
+    with StreamWriter(path, header) as stream:
+        for result in results:
+            stream.write(result)
+        if finish:
+            stream.finish(2.5)
+    return path.read_bytes()
+
+
+@settings(deadline=None, max_examples=60)
+@given(found=st.lists(results, max_size=6))
+def test_what_is_written_is_read_back(make, tmp_path_factory, found):
+    path = tmp_path_factory.mktemp("stream") / "report.jsonl"
+    written(path, make.header(), found)
+    report = read_stream(path)
+    assert report.header == make.header()
+    assert list(report.results) == found
+    assert report.complete
+    assert report.footer.seconds == 2.5
+
+
+def test_cut_off_at_any_byte_it_is_never_complete(make, tmp_path):
+    found = [make.result("differs", reason="θ differs"), make.result("skipped", check="energy", reason="日本")]
+    whole = written(tmp_path / "report.jsonl", make.header(scenes=[], engines=[]), found)
+    assert read_stream(io.BytesIO(whole)).complete
+    first_line = whole.index(b"\n") + 1
+    for end in range(len(whole)):
+        if end < first_line:
+            with pytest.raises(InvalidInput, match="cut off"):
+                read_stream(io.BytesIO(whole[:end]))
+        else:
+            report = read_stream(io.BytesIO(whole[:end]))
+            assert not report.complete, end
+            assert report.footer is None
+            assert len(report.results) == whole[first_line:end].count(b"\n")
+            assert "cut off" in report.flaws[0]
+            assert report.exit_status != 0
+
+
+def test_every_result_is_on_disk_when_write_returns(make, tmp_path):
+    path = tmp_path / "report.jsonl"
+    with StreamWriter(path, make.header()) as stream:
+        assert not read_stream(path).results
+        stream.write(make.result())
+        assert len(read_stream(path).results) == 1
+        assert not read_stream(path).complete
+        stream.finish()
+        assert read_stream(path).complete
+
+
+def test_the_footer_counts_what_was_written(make, tmp_path):
+    found = [make.result(outcome, check=str(i)) for i, outcome in enumerate(OUTCOMES) for _ in range(i + 1)]
+    written(tmp_path / "r", make.header(), found)
+    footer = read_stream(tmp_path / "r").footer
+    assert (footer.agrees, footer.differs, footer.skipped, footer.error) == (1, 2, 3, 4)
+
+
+@pytest.mark.parametrize("failure", [KeyboardInterrupt, RuntimeError])
+def test_an_interrupted_run_has_no_footer(make, tmp_path, failure):
+    path = tmp_path / "report.jsonl"
+    with pytest.raises(failure), StreamWriter(path, make.header()) as stream:
+        interrupted(stream, make.result(), failure)
+    report = read_stream(path)
+    assert len(report.results) == 1
+    assert not report.complete
+
+
+def interrupted(stream, result, failure):
+    stream.write(result)
+    raise failure
+
+
+def test_a_new_run_leaves_nothing_of_a_longer_one(make, tmp_path):
+    path = tmp_path / "report.jsonl"
+    written(path, make.header(), [make.result(check=str(i)) for i in range(50)])
+    written(path, make.header(), [make.result()], finish=False)
+    assert len(read_stream(path).results) == 1
+    assert not read_stream(path).complete
+
+
+def test_two_runs_do_not_write_one_file(make, tmp_path):
+    path = tmp_path / "report.jsonl"
+    with StreamWriter(path, make.header()) as stream:
+        stream.write(make.result())
+        with pytest.raises(InvalidInput, match="another run is writing it"), StreamWriter(path, make.header()):
+            pass
+        stream.finish()
+    assert read_stream(path).complete
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no /dev/full on this system")
+def test_a_full_disk_is_said_with_the_path(make):
+    with pytest.raises(InvalidInput, match=r"^/dev/full: cannot be written: No space left on device$"):
+        written_to_full(make)
+
+
+def written_to_full(make):
+    with StreamWriter("/dev/full", make.header()):
+        pass
+
+
+# The limit on a file's size is the process's own: a process of its own fills its disk.
+FILLING = """
+import resource, signal, sys, msgspec
+from furiko.models.errors import InvalidInput
+from furiko.models.result import Header, Result
+from furiko.reports import StreamWriter
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+path, header = sys.argv[1], msgspec.json.decode(sys.argv[2], type=Header)
+resource.setrlimit(resource.RLIMIT_FSIZE, (5000, 5000))
+with StreamWriter(path, header) as stream:
+    try:
+        while True:
+            stream.write(Result(scene="s", engine="e", check="c", outcome="agrees"))
+    except InvalidInput as error:
+        print(error)
+    try:
+        stream.finish()
+    except ValueError as error:
+        print(error)
+"""
+
+
+def test_after_a_failed_write_there_is_no_footer(make, tmp_path):
+    path = tmp_path / "report.jsonl"
+    command = [sys.executable, "-c", FILLING, str(path), msgspec.json.encode(make.header()).decode()]
+    said = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60).stdout.splitlines()
+    assert said[0] == f"{path}: cannot be written: File too large"
+    assert "could not be written" in said[1]
+    report = read_stream(path)
+    assert report.results
+    assert not report.complete
+
+
+@pytest.mark.parametrize("place", ["missing/report.jsonl", "", "file/report.jsonl"])
+def test_a_place_that_cannot_be_written(make, tmp_path, place):
+    (tmp_path / "file").write_text("in the way")
+    path = tmp_path / place
+    with pytest.raises(InvalidInput, match="cannot be written") as raised, StreamWriter(path, make.header()):
+        pass
+    assert str(path) in str(raised.value)
+
+
+@pytest.mark.parametrize("value", [float("nan"), float("inf"), float("-inf"), np.float64("nan")])
+@pytest.mark.parametrize("field", ["measured", "allowed"])
+def test_json_never_holds_a_figure_that_is_not_finite(make, tmp_path, field, value):
+    result = make.result("differs", reason="too large", details={"x": value}, **{field: value})
+    content = written(tmp_path / "r", make.header(), [result])
+    for line in content.splitlines():
+        json.loads(line, parse_constant=lambda word: pytest.fail(f"{word} in JSON"))
+    read = read_stream(tmp_path / "r").results[0]
+    assert getattr(read, field) is None
+    assert read.reason == f"{field} is {float(value)}; too large"
+    assert read.outcome == "differs"
+    assert read.details == {"x": None}
+
+
+@pytest.mark.parametrize("field", ["measured", "allowed"])
+def test_nothing_agrees_by_not_being_a_number(make, tmp_path, field):
+    with StreamWriter(tmp_path / "r", make.header()) as stream:
+        assert stream.write(make.result("agrees", **{field: float("nan")})).outcome == "error"
+        assert stream.finish().error == 1
+    assert read_stream(tmp_path / "r").exit_status == 3
+
+
+def test_figures_of_numpy_are_written_as_numbers(make, tmp_path):
+    details = {"scalar": np.float64(1.5), "array": np.arange(3), "flag": np.bool_(True)}
+    written(tmp_path / "r", make.header(), [make.result(measured=np.float64(3.0), details=details)])
+    result = read_stream(tmp_path / "r").results[0]
+    assert result.measured == 3.0
+    assert result.details == {"scalar": 1.5, "array": [0, 1, 2], "flag": True}
+
+
+def test_names_that_are_not_unicode_are_written_escaped(make, tmp_path):
+    written(tmp_path / "r", make.header(command="furiko check b\udcff.toml"), [make.result(scene="b\udcff")])
+    report = read_stream(tmp_path / "r")
+    assert report.results[0].scene == "b\\udcff"
+    assert report.header.command == "furiko check b\\udcff.toml"
+
+
+def test_a_long_reason_keeps_its_ends(make, tmp_path):
+    written(tmp_path / "r", make.header(), [make.result("error", reason="begin" + "x" * 10_000_000 + "end")])
+    reason = read_stream(tmp_path / "r").results[0].reason
+    assert reason.startswith("begin")
+    assert reason.endswith("end")
+    assert "left out" in reason
+    assert len(reason) < LONGEST_REASON + 100
+
+
+HEADER = object()
+GOOD = b'{"kind":"result","scene":"s","engine":"e","check":"c","outcome":"agrees"}'
+FOOTER = b'{"kind":"footer","agrees":0,"differs":0,"skipped":0,"error":0}'
+
+
+@pytest.mark.parametrize(
+    ("lines", "says"),
+    [
+        ([], "r.jsonl: empty, or cut off within its header"),
+        ([GOOD], "r.jsonl, line 1: .*begins with its header"),
+        ([HEADER, HEADER], "line 2: a second header"),
+        ([HEADER, FOOTER, GOOD], "line 3: something follows the footer"),
+        ([HEADER, FOOTER, FOOTER], "line 3: something follows the footer"),
+        ([HEADER, b""], "line 2: empty"),
+        ([HEADER, GOOD, b"{"], "line 3: not a record .*truncated"),
+        ([HEADER, b"[]"], "line 2: not a record .*expected 'object', got 'array'"),
+        ([HEADER, b'{"kind":"nope"}'], "line 2: not a record .*'nope'"),
+        ([HEADER, GOOD.replace(b"agrees", b"agree")], r"line 2: .*'agree' - at '\$.outcome'"),
+        ([HEADER, GOOD.replace(b'"c"', b"3")], r"line 2: .*expected 'str', got 'int' - at '\$.check'"),
+        ([HEADER, GOOD.replace(b'"s"', b'"\xff"')], "line 2: not UTF-8"),
+        ([HEADER, GOOD.replace(b'"agrees"', b'"agrees","measured":NaN')], "line 2: not a record"),
+        ([HEADER, GOOD.replace(b'"agrees"', b'"agrees","measured":1e400')], "line 2: .*out of range"),
+        (
+            [HEADER, GOOD.replace(b'"agrees"', b'"agrees","details":{"x":' + b"[" * 10**5 + b"]" * 10**5 + b"}")],
+            "nested",
+        ),
+        ([b'{"kind":"header","format":2,"other":"fields"}'], "line 1: format 2 is not known here; .*format 1"),
+        ([b'{"kind":"header","format":"new"}'], "line 1: format 'new' is not known here"),
+        ([HEADER, b"x" * (LARGEST_LINE + 1)], "line 2: longer than 8 MB"),
+    ],
+)
+def test_what_is_no_stream_is_refused_by_line(make, tmp_path, lines, says):
+    path = tmp_path / "r.jsonl"
+    header = msgspec.json.encode(make.header())
+    path.write_bytes(b"".join((header if line is HEADER else line) + b"\n" for line in lines))
+    with pytest.raises(InvalidInput, match=says) as raised:
+        read_stream(path)
+    assert str(path) in str(raised.value)
+    assert "\n" not in str(raised.value)
+
+
+def test_an_unknown_format_of_the_same_shape_is_refused_too(make):
+    content = msgspec.json.encode(make.header(format=7)) + b"\n"
+    with pytest.raises(InvalidInput, match=r"^stream, line 1: format 7 is not known"):
+        read_stream(io.BytesIO(content))
+
+
+def test_a_file_that_is_not_there(tmp_path):
+    with pytest.raises(InvalidInput, match=r"none\.jsonl: cannot be read: No such file"):
+        read_stream(tmp_path / "none.jsonl")
+
+
+def test_a_folder_stands_for_the_stream_in_it(make, tmp_path):
+    written(tmp_path / "report.jsonl", make.header(), [])
+    assert read_stream(tmp_path).complete
+
+
+@settings(deadline=None, max_examples=200)
+@given(content=st.binary(max_size=200), place=st.integers(0, 3))
+def test_no_bytes_crash_the_reader(make, content, place):
+    lines = [msgspec.json.encode(make.header()), GOOD, FOOTER]
+    lines.insert(place, content)
+    try:
+        report = read_stream(io.BytesIO(b"\n".join(lines) + b"\n"))
+    except InvalidInput:
+        return
+    assert not (report.complete and place < 3)
