@@ -179,8 +179,7 @@ def _quiet_data(model: Any) -> Any:
 
 def _quieten(data: Any) -> None:
     """Make it believe to have warned already: it then neither prints nor writes MUJOCO_LOG.TXT."""
-    for warning in data.warning:
-        warning.number = 1
+    data.warning.number[:] = 1
 
 
 def _point(along_across: tuple[float, float]) -> list[float]:

@@ -55,3 +55,17 @@ def test_one_step_then_another_is_two_steps(engine, scheme):
     at_once, in_turn = adapter.trajectory(*start, scheme.name, 1e-3, 2), adapter.trajectory(*once, scheme.name, 1e-3, 1)
     # Absolute angles and back between the steps: a rounding of numbers below 1, times the step in the rates.
     np.testing.assert_allclose(in_turn, at_once, rtol=0, atol=1e-14)
+
+
+@names
+def test_a_path_ends_where_the_run_ends(engine, scheme):
+    adapter = load_engine(engine, RodChain((LENGTH, 0.5)))
+    start = np.array([1.0, -0.5]), np.array([0.25, 0.0])
+    angles, rates = adapter.path(*start, scheme.name, 1e-2, 7)
+    assert angles.shape == rates.shape == (8, 2)
+    np.testing.assert_array_equal([angles[0], rates[0]], start)  # multiples of 1/4: exact in any coordinates
+    for steps in (3, 7):
+        # The same operations but for the time of each step, which Exudyn reckons from the run's end: not used here.
+        np.testing.assert_allclose(
+            [angles[steps], rates[steps]], adapter.trajectory(*start, scheme.name, 1e-2, steps), rtol=0, atol=1e-13
+        )
