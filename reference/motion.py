@@ -117,7 +117,7 @@ def joint_forces(system: Mechanism, theta: Array, omega: Array, alpha: Array) ->
     _, m, g = _lengths_masses_gravity(xp, system)
     r_ddot = centre_accelerations(system, theta, omega, alpha)
     if isinstance(system, RodChain):
-        (forces,) = takeno.eq_8(xp, m, g, r_ddot)
+        forces: Array = takeno.eq_8(xp, m, g, r_ddot)[0]
         return forces
     forces = -m[:, None] * (r_ddot + g * takeno.e_y(xp))
     forces[..., 0, :] = forces.sum(-2)

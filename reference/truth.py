@@ -6,7 +6,7 @@ rod's mass is ρ l_j, unrounded). Every value comes with the radius of a ball th
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
@@ -15,9 +15,25 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import motion, verified
+from . import motion, quadruple, verified
 from .arithmetic import Array, balls
+from .endpoints import lookup
 from .motion import Mechanism
+from .quadruple import TrueTrajectory
+
+__all__ = [
+    "Terms",
+    "TrueTrajectory",
+    "Truth",
+    "enclosed_accelerations",
+    "lookup",
+    "precision",
+    "true_accelerations",
+    "true_energy",
+    "true_joint_forces",
+    "true_terms",
+    "true_trajectory",
+]
 
 Floats = NDArray[np.float64]
 
@@ -90,6 +106,16 @@ def enclosed_accelerations(system: Mechanism, theta: Array, omega: Array) -> Arr
     """θ̈ as balls for states given as balls, (B, n), at the precision that is set. Raises ZeroDivisionError."""
     equations = motion.literal_system(balls(), system, theta, omega)
     return verified.solve(equations.matrix, equations.right)
+
+
+def true_trajectory(
+    system: Mechanism, theta: Sequence[float] | Floats, omega: Sequence[float] | Floats, times: Sequence[float] | Floats
+) -> TrueTrajectory:
+    """The trajectory of the literal equations from a state (n,) at ``times[0]``, in quadruple precision.
+
+    Not an enclosure: its error is estimated by a second run. Raises EngineMissing without heyoka.
+    """
+    return quadruple.integrate(system, [*map(float, theta)], [*map(float, omega)], [*map(float, times)])
 
 
 @contextmanager
@@ -192,3 +218,16 @@ def _exact_or_accurate(term: Array) -> bool:
 def _chunks(states: int, n: int) -> list[slice]:
     size = max(1, ENTRIES_AT_ONCE // (n * n))
     return [slice(i, i + size) for i in range(0, states, size)]
+
+
+def main() -> None:
+    """Compute the true end points of the catalogue's scenes anew: ``python -m furiko.reference.truth``."""
+    from ..models import find_scenes
+    from . import endpoints
+
+    count = endpoints.write(find_scenes(None))
+    print(f"{count} end points written to {endpoints.PATH}")
+
+
+if __name__ == "__main__":
+    main()

@@ -78,7 +78,7 @@ def _enclose(balls: Array, right: Array, approximate: Floats, inverse: Floats, s
         parts.append(part.tolist())
     left_over = np.array([float(r.abs_upper()) for r in residual.entries()]) * UPWARDS
     exact = all(r.is_zero() for r in residual.entries())
-    if not exact and TINY > NEGLIGIBLE * np.max(np.abs(parts[0]) / scale):
+    if not exact and NEGLIGIBLE * np.max(np.abs(parts[0]) / scale) < TINY:
         return None
     first = np.zeros(n) if exact else R @ left_over * UPWARDS + TINY
     radius = (first + delta / (1 - delta) * first.max()) * UPWARDS * scale
