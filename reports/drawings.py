@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ..models.result import Result, SceneEntry
-from .report import share
+from .report import against, share
 from .words import figure
 
 MOST_LINKS = 200  # drawn of a longer mechanism; more cannot be told apart in a picture of this size
@@ -130,7 +130,12 @@ def draw_errors(results: Sequence[Result], engines: Sequence[str]) -> ErrorPlot 
         lanes = top + ROW_PADDING / 2
         of_check = [(result, value) for result, value in shown if result.check == check]
         marks = tuple(
-            Mark(across(value), lanes + LANE * (place[result.engine] + 0.5), place[result.engine], _words(result))
+            Mark(
+                across(value),
+                lanes + LANE * (place[result.engine] + 0.5),
+                place[result.engine],
+                f"{result.engine}, {result.check}: {against(result)}",
+            )
             for result, value in of_check
         )
         rows.append(Row(check, top, top + row_height / 2, _allowed([result for result, _ in of_check]), marks))
@@ -142,12 +147,6 @@ def draw_errors(results: Sequence[Result], engines: Sequence[str]) -> ErrorPlot 
         ticks=tuple((across(10.0**exponent), str(exponent).replace("-", "−")) for exponent in ticks),
         bound=across(1.0),
         zero=zero,
-    )
-
-
-def _words(result: Result) -> str:
-    return (
-        f"{result.engine}, {result.check}: {figure(result.measured)} of {figure(result.allowed)} {result.unit} allowed"
     )
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..models.result import Outcome, Result, SceneEntry
 from .drawings import ErrorPlot, Mechanism, draw_errors, draw_mechanism
-from .report import Cell, Report, share
+from .report import Cell, Report, against
 from .words import GLYPHS, LEGEND, count, few, figure, last_line, printable, tally
 
 if TYPE_CHECKING:
@@ -95,18 +95,14 @@ def to_html(report: Report) -> str:
     """The whole page as text; everything from the stream is escaped, markup comes from the templates alone."""
     from markupsafe import Markup
 
-    return (
-        _environment()
-        .get_template("report.html.j2")
-        .render(
-            report=report,
-            scenes=[SceneView(report, name, f"s{i}") for i, name in enumerate(report.scenes, start=1)],
-            glyphs=GLYPHS,
-            legend=LEGEND,
-            style=Markup((TEMPLATES / "style.css").read_text(encoding="utf-8")),
-            in_words=_in_words,
-            share=share,
-        )
+    page = _environment().get_template("report.html.j2")
+    return page.render(
+        report=report,
+        scenes=[SceneView(report, name, f"s{i}") for i, name in enumerate(report.scenes, start=1)],
+        glyphs=GLYPHS,
+        legend=LEGEND,
+        style=Markup((TEMPLATES / "style.css").read_text(encoding="utf-8")),
+        in_words=_in_words,
     )
 
 
@@ -146,8 +142,8 @@ def _in_words(cell: Cell) -> str:
     if worst is None:
         return f"{cell.scene} × {cell.engine}: no result"
     said = f"{cell.scene} × {cell.engine}: {worst.check} {worst.outcome}"
-    if worst.measured is not None and worst.allowed is not None:
-        said += f", {figure(worst.measured)} of {figure(worst.allowed)} {worst.unit} allowed"
+    if worst.measured is not None:
+        said += f", {against(worst)}"
     elif worst.reason:
         said += f", {last_line(worst.reason)[:200]}"
     skipped = sum(result.outcome == "skipped" for result in cell.results)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from xml.etree import ElementTree as XML
 
 from ..models.result import Outcome, Result
-from .report import Report
-from .words import figure, last_line, one_line, printable
+from .report import Report, against
+from .words import last_line, one_line, printable
 
 # What JUnit calls an outcome, as the element inside a test case. One that agrees has none.
 ELEMENTS: dict[Outcome, str] = {"differs": "failure", "error": "error", "skipped": "skipped"}
@@ -52,9 +52,7 @@ def _case(suite: XML.Element, result: Result) -> None:
         return
     message = one_line(last_line(result.reason)) or "no reason was given"
     if result.measured is not None and result.outcome == "differs":
-        message = one_line(
-            f"measured {figure(result.measured)} {result.unit}, allowed {figure(result.allowed)} {result.unit}: {message}"
-        )
+        message = one_line(f"{against(result)}: {message}")
     said = XML.SubElement(case, element, {"message": message})
     if result.outcome != "skipped":
         said.set("type", printable(result.cause or result.outcome))

@@ -216,6 +216,16 @@ def share(result: Result) -> float | None:
     return abs(result.measured / result.allowed)
 
 
+def against(result: Result) -> str:
+    """``2.3e9 ε against 160 ε allowed``; as much of it as was measured."""
+    if result.measured is None:
+        return ""
+    said = f"{figure(result.measured)} {result.unit}".rstrip()
+    if result.allowed is None:
+        return said
+    return f"{said} against {figure(result.allowed)} {result.unit}".rstrip() + " allowed"
+
+
 def _share_or_nothing(result: Result) -> float:
     value = share(result)
     return -1.0 if value is None else value

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
 from ..models.result import Outcome, Result
-from .report import AGREES, DIFFERS, Cell, Report
-from .words import GLYPHS, LEGEND, few, figure, last_line, one_line
+from .report import AGREES, DIFFERS, Cell, Report, against
+from .words import GLYPHS, LEGEND, few, last_line, one_line
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -155,13 +155,11 @@ def finding(result: Result) -> str:
     """One line: where, what was measured against what is allowed, and why."""
     said = f"{GLYPHS[result.outcome]} {result.scene} × {result.engine}, {result.check}"
     if result.measured is not None:
-        said += f": {figure(result.measured)} {result.unit}"
-        if result.allowed is not None:
-            said = f"{said.rstrip()} against {figure(result.allowed)} {result.unit} allowed"
+        said += f": {against(result)}"
     if result.cause:
-        said = f"{said.rstrip()} [{result.cause}]"
+        said += f" [{result.cause}]"
     if result.reason:
-        said = f"{said.rstrip()}: {last_line(result.reason)}"
+        said += f": {last_line(result.reason)}"
     return one_line(said)
 
 

@@ -169,6 +169,11 @@ def test_a_mechanism_is_drawn_to_scale_inside_its_box(make, system, n):
         assert all(0 <= x <= drawing.width + 1e-9 for x in (x1, x2))
         assert all(0 <= y <= drawing.height + 1e-9 for y in (y1, y2))
     assert drawing.lines[0][:2] == drawing.support
+    carriers = (
+        [0] * n if system == "n-leg" else range(n)
+    )  # a leg hangs from the first rod, a rod from the one before it
+    for line, carrier in zip(drawing.lines[1:], carriers, strict=False):
+        assert line[:2] == drawing.lines[carrier][2:]
 
 
 def test_marks_stand_left_of_the_bound_exactly_where_errors_are_within_it(make):

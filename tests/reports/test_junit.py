@@ -66,7 +66,7 @@ def test_a_case_of_each_outcome(make):
     assert agrees.get("classname") == "rods-2.mujoco"
     assert agrees.get("name") == "a"
     assert len(agrees) == 0
-    assert differs.find("failure").get("message") == "measured 200 ε, allowed 64 ε: M is larger"
+    assert differs.find("failure").get("message") == "200 ε against 64 ε allowed: M is larger"
     assert differs.find("failure").get("type") == "armature"
     assert skipped.find("skipped").get("message") == "it cannot"
     assert error.find("error").get("message") == "RuntimeError: no"
