@@ -1,0 +1,284 @@
+"""The step map: one step of each of an engine's integrators is, to rounding, one step of a textbook scheme.
+
+No trajectory and no truth are needed, only the reference's accelerations in extended precision: from a few random
+states the engine takes one step, and so does every scheme of :mod:`furiko.reference.schemes` that has the order the
+engine's makers give theirs. The one that fits is named. An order that is measured passes any error of that order; this
+does not: a wrong scheme misses by a power of step × fastest rate, 1e-9 and more, the right one by 1e-15.
+
+How far rounding takes them apart is bounded, not chosen. Every acceleration the engine evaluates has a backward error
+of at most that which :mod:`.rounding` allows, hence a forward error of |M⁻¹| times it; an implicit scheme's iterations
+leave a residual of their tolerance on top. A scheme hands these on to the rates times the step, to the angles times
+its square; that later stages start from earlier ones' errors multiplies them by at most exp(stages × step × fastest
+rate). In maximal coordinates the constraints come on top: see :func:`_constraints`.
+
+The step is an eighth over the fastest rate at which nearby states part (:func:`furiko.reference.variation.fastest_rate`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..engines import Integrator
+from ..models.result import Result
+from ..reference import literal_accelerations, mass_matrix
+from ..reference.maximal import MaximalCoordinates, generalized_alpha_index_3, trapezoidal_index_2
+from ..reference.schemes import RADIUS, SCHEMES, Scheme, alpha_parameters
+from ..reference.variation import fastest_rate
+from .cell import Cell, quotient, worst
+from .rounding import EPSILON, allowed, amplitude_transform
+
+Array = NDArray[np.float64]
+Wide = NDArray[Any]
+
+NAME = "step map"
+NEEDS = "trajectory"
+
+STATES = 4  # random states in which a step is taken
+SHORT = 1 / 8  # step × fastest rate
+LARGEST_N = 20  # links; beyond, extended precision takes longer than all other checks together
+
+
+@dataclass(frozen=True)
+class Steps:
+    """States (B, n), the engine's coordinates after one step from each, and how long that is [s]."""
+
+    theta: Array
+    omega: Array
+    alpha: Array
+    h: float
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A textbook scheme in some coordinates, and how it takes one step from states (B, n) in extended precision."""
+
+    scheme: Scheme
+    coordinates: str
+    step: Callable[[Wide, Wide, float], tuple[Wide, Wide]]
+
+    @property
+    def name(self) -> str:
+        """As it is called in the report."""
+        return f"{self.scheme.name} in {self.coordinates}"
+
+
+def compare(cell: Cell) -> Iterator[Result]:
+    """One result for each integrator."""
+    n = cell.scene.system.n
+    if n > LARGEST_N:
+        reason = f"schemes are applied in extended precision up to {LARGEST_N} links, not to {n}"
+        yield cell.result(NAME, "skipped", reason=reason)
+        return
+    steps = chosen_steps(cell)
+    textbook = Textbook(cell, steps)
+    for integrator in cell.info.integrators:
+        yield _compare(cell, integrator, steps, textbook)
+
+
+def chosen_steps(cell: Cell) -> Steps:
+    """The last of the cell's states (the random ones), and a step that is short for all of them."""
+    theta, omega = cell.states.theta[-STATES:], cell.states.omega[-STATES:]
+    fastest = float(fastest_rate(cell.scene.system, theta, omega).max())
+    # A power of two, so that halves and sums of steps are exact.
+    h = 2.0 ** math.floor(math.log2(SHORT / fastest)) if fastest > 0 else SHORT
+    return Steps(theta, omega, cell.facts.high[-STATES:], h)
+
+
+class Textbook:
+    """What every candidate makes of the same states, computed when it is first asked for."""
+
+    def __init__(self, cell: Cell, steps: Steps) -> None:
+        self._steps = steps
+        self._candidates = candidates(cell)
+        self._ends: dict[str, tuple[Wide, Wide]] = {}
+
+    def of_order(self, order: int | None) -> list[Candidate]:
+        """The candidates of this order, all of them for None."""
+        return [candidate for candidate in self._candidates if order in (None, candidate.scheme.order)]
+
+    def end(self, candidate: Candidate) -> tuple[Wide, Wide]:
+        """θ and ω after its step, (B, n) each."""
+        if candidate.name not in self._ends:
+            theta, omega = (values.astype(np.longdouble) for values in (self._steps.theta, self._steps.omega))
+            self._ends[candidate.name] = candidate.step(theta, omega, self._steps.h)
+        return self._ends[candidate.name]
+
+
+def _compare(cell: Cell, integrator: Integrator, steps: Steps, textbook: Textbook) -> Result:
+    pairs = zip(steps.theta, steps.omega, strict=True)
+    got = np.array([cell.trajectory(t, w, integrator, steps.h, 1) for t, w in pairs])
+
+    def all_fits(order: int | None) -> list[Fit]:
+        found = [fit(cell, integrator, steps, got, textbook, candidate) for candidate in textbook.of_order(order)]
+        return sorted(found, key=lambda one: one.excess)
+
+    fits = all_fits(integrator.order)
+    if not fits or fits[0].excess > 1:
+        fits = all_fits(None)
+    best, *rest = fits
+    agrees = best.excess <= 1 and best.candidate.scheme.order == integrator.order
+    return cell.result(
+        f"{NAME} {integrator.name}",
+        "agrees" if agrees else "differs",
+        measured=best.measured,
+        allowed=best.bound,
+        unit="rad/s",
+        reason=_reason(integrator, fits),
+        details={
+            "integrator": integrator.name,
+            "scheme": best.candidate.scheme.name,
+            "coordinates": best.candidate.coordinates,
+            "step": steps.h,
+            "states": len(got),
+            "error of the angles": best.angles,
+            "next best": {"scheme": rest[0].candidate.name, "error": rest[0].measured} if rest else None,
+        },
+    )
+
+
+@dataclass(frozen=True)
+class Fit:
+    """How far a candidate is from what the engine did: worst rate [rad/s] and its bound, worst angle [rad].
+
+    ``excess``: the worst of all angles and rates over their bounds. Where that is an angle's, ``measured`` is the rate
+    that would be as bad.
+    """
+
+    candidate: Candidate
+    excess: float
+    bound: float
+    angles: float
+
+    @property
+    def measured(self) -> float:
+        """[rad/s]."""
+        return self.excess * self.bound
+
+
+def fit(cell: Cell, integrator: Integrator, steps: Steps, got: Array, textbook: Textbook, candidate: Candidate) -> Fit:
+    """Hold the engine's step against a candidate's."""
+    angles, rates = textbook.end(candidate)
+    off = np.abs(np.stack([got[:, 0] - angles, got[:, 1] - rates])).astype(np.float64)
+    bounds = rounding_bounds(cell, integrator, steps, candidate)
+    excess = worst(quotient(off, np.broadcast_to(bounds, off.shape)))
+    bound = float(bounds[1, excess.index[1]].max())
+    return Fit(candidate, excess.value, bound, float(off[0].max()))
+
+
+def candidates(cell: Cell) -> list[Candidate]:
+    """Every scheme, in the coordinates that the engine may apply it in."""
+    system = cell.scene.system
+
+    def accelerations(theta: Wide, omega: Wide) -> Wide:
+        return literal_accelerations(system, theta, omega)
+
+    found = [
+        Candidate(scheme, "angles", lambda t, w, h, step=scheme.step: step(accelerations, t, w, h))  # type: ignore[misc]
+        for scheme in SCHEMES
+    ]
+    if cell.info.coordinates == "maximal":
+        bodies = MaximalCoordinates(system.tree())
+        found += [
+            Candidate(scheme, "maximal coordinates", _one_by_one(bodies, step)) for scheme, step in MAXIMAL_SCHEMES
+        ]
+    return found
+
+
+_Step = Callable[[MaximalCoordinates, Wide, Wide, Any], tuple[Wide, Wide]]
+
+MAXIMAL_SCHEMES: tuple[tuple[Scheme, _Step], ...] = tuple(
+    (Scheme(name, 2, lambda *_: (np.empty(0), np.empty(0)), reach=2.0, stages=3), step)
+    for name, step in (
+        (
+            "generalized-α, ρ∞ = 0.9, positions held together",
+            lambda bodies, t, w, h: generalized_alpha_index_3(bodies, t, w, h, RADIUS),
+        ),
+        ("trapezoidal rule, velocities held together", trapezoidal_index_2),
+    )
+)
+
+
+def _one_by_one(bodies: MaximalCoordinates, step: _Step) -> Callable[[Wide, Wide, float], tuple[Wide, Wide]]:
+    def each(theta: Wide, omega: Wide, h: float) -> tuple[Wide, Wide]:
+        ends = [step(bodies, t, w, np.longdouble(h)) for t, w in zip(theta, omega, strict=True)]
+        return np.stack([end[0] for end in ends]), np.stack([end[1] for end in ends])
+
+    return each
+
+
+def rounding_bounds(cell: Cell, integrator: Integrator, steps: Steps, candidate: Candidate) -> Array:
+    """How far rounding may take angles and rates apart, shape (2, B, 1)."""
+    scheme, h = candidate.scheme, steps.h
+    amplified = scheme.reach * math.exp(scheme.stages * SHORT)
+    acceleration = acceleration_error(cell, integrator, steps)
+    size = np.abs(steps.omega) + h * np.abs(steps.alpha)
+    turns = np.abs(steps.theta) + h * size
+    sums = EPSILON * (scheme.stages + 2)  # additions of a term for each stage, and the changes of coordinates
+    rates = h * amplified * acceleration + sums * conversion(cell, size)
+    angles = h * rates + sums * conversion(cell, turns)
+    if candidate.coordinates == "maximal coordinates":
+        more_angles, more_rates = _constraints(cell, integrator, steps)
+        angles, rates = angles + more_angles, rates + more_rates
+    return np.stack([angles, rates])[..., None]
+
+
+def acceleration_error(cell: Cell, integrator: Integrator, steps: Steps) -> Array:
+    """Forward error [rad/s²] of the engine's accelerations at each state, (B,): backward error times |M⁻¹|."""
+    amplitude, system = cell.amplitude, cell.scene.system
+    spread = np.abs(np.linalg.inv(mass_matrix(system, steps.theta)) @ amplitude_transform(amplitude))
+    rows = amplitude.rows(steps.alpha, steps.omega)
+    left = integrator.tolerance * np.linalg.norm(rows, axis=-1, keepdims=True)
+    backward = EPSILON * allowed(system.n, cell.info.accuracy) * rows + left
+    return np.asarray((spread @ backward[..., None])[..., 0].max(axis=-1))
+
+
+def conversion(cell: Cell, absolute: Array) -> Array:
+    """Largest sum of magnitudes when absolute values are had from the engine's own coordinates, (B,)."""
+    to_absolute = cell.amplitude.to_absolute
+    own = absolute @ np.abs(np.linalg.inv(to_absolute)).T
+    return np.asarray((own @ np.abs(to_absolute).T).max(axis=-1))
+
+
+def _constraints(cell: Cell, integrator: Integrator, steps: Steps) -> tuple[Array, Array]:
+    """What the constraints' own rounding adds to angles and rates, (B,) each.
+
+    Positions of the size of the whole mechanism are known to ε, so that C(q₁) = 0 holds no better than that, and no
+    better than the iterations' tolerance times the forces. Moving the hinges by c moves the angles by P c, P from M
+    and G; where positions are held, the rates follow by γ/(βh) times that.
+    """
+    system = cell.scene.system
+    bodies = MaximalCoordinates(system.tree())
+    beta, gamma, _, _ = map(float, alpha_parameters(RADIUS))
+    reach = sum(system.lengths)
+    found = []
+    for theta, omega, alpha in zip(steps.theta, steps.omega, steps.alpha, strict=True):
+        q, _ = bodies.state(theta, omega)
+        k = 3 * system.n
+        answer = np.linalg.inv(bodies.saddle(bodies.jacobian(q)))[2:k:3, k:]
+        rows = cell.amplitude.rows(alpha[None], omega[None])
+        gap = allowed(system.n) * EPSILON * reach + integrator.tolerance * float(np.linalg.norm(rows))
+        found.append(float(np.abs(answer).sum(-1).max()) * gap)
+    angles = np.array(found)
+    return angles, gamma / (beta * steps.h) * angles
+
+
+def _reason(integrator: Integrator, fits: list[Fit]) -> str:
+    best = fits[0]
+    name = best.candidate.name
+    if best.excess > 1:
+        return (
+            f"one step of {integrator.name} is no textbook scheme's; the nearest, {name}, misses by {best.measured:.3g} "
+            f"rad/s, and rounding explains {best.bound:.3g}"
+        )
+    if best.candidate.scheme.order != integrator.order:
+        return f"{integrator.name} is said to be of order {integrator.order}; one step is that of {name}"
+    alike = [one.candidate.name for one in fits[1:] if one.excess <= 1]
+    if alike:
+        return f"one step is that of {name}; rounding hides how it differs from {', '.join(alike)}"
+    return f"one step is that of {name}"
