@@ -73,6 +73,7 @@ class Result(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag="r
     cause: str | None = None
     reason: str = ""
     seconds: float = 0.0
+    kept: bool = False  # from an earlier run with the very same inputs
     details: dict[str, Any] = {}
 
 

@@ -1,0 +1,96 @@
+"""Accelerations: the engine's forward dynamics against the proven solution of the document's equations of motion."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..models.result import Result
+from ..reference import mass_matrix
+from .cell import Cell, quotient, worst
+from .facts import forward_error
+from .rounding import EPSILON, Amplitudes, allowed, amplitudes
+
+Array = NDArray[np.float64]
+
+NAME = "accelerations"
+NEEDS = "accelerations"
+
+
+def compare(cell: Cell) -> Iterator[Result]:
+    """Backward error in the engine's own coordinates decides; the forward error is shown beside the document's own.
+
+    The true M applied to (engine's acceleration less the true one) is the residual of the engine's in the true
+    equations, without the cancellation that computing it term by term would suffer.
+    """
+    facts, system = cell.facts, cell.scene.system
+    got = cell.accelerations()
+    error = backward_error(cell, got, cell.amplitude)
+    found = worst(error)
+    bound = allowed(system.n, cell.info.accuracy)
+    state, row = found.index
+    label = cell.states.labels[state]
+    forward = forward_error(facts, got)
+    literal = forward_error(facts, facts.literal)
+    moving = np.abs(facts.high).max(axis=-1) > np.abs(facts.high).max() * EPSILON
+    cond = facts.cond_relative if cell.info.coordinates == "relative" else facts.cond_absolute
+    typical = float(np.median(forward[moving])) if moving.any() else 0.0
+    yield cell.result(
+        NAME,
+        "agrees" if found.value <= bound else "differs",
+        measured=found.value,
+        allowed=bound,
+        unit="ε",
+        reason=_reason(cell, found.value, bound, label, row),
+        details={
+            "states": len(cell.states),
+            "worst state": label,
+            "worst angle": row + 1,
+            "coordinates": cell.info.coordinates,
+            "forward error": EPSILON * finite_max(forward, moving),
+            "forward error, median": EPSILON * typical,
+            "forward error of the document's formula": EPSILON * finite_max(literal, moving),
+            "condition, absolute angles": finite_max(facts.cond_absolute, moving),
+            "condition, engine's coordinates": finite_max(cond, moving),
+            "inexact side": inexact_side(forward[moving], literal[moving]),
+        },
+    )
+
+
+def backward_error(cell: Cell, accelerations: Array, amplitude: Amplitudes) -> Array:
+    """Row residuals of ``accelerations`` in the true equations over Σ|terms|, in ε; (B, n)."""
+    error = cell.facts.error(accelerations)
+    residual = (mass_matrix(cell.scene.system, cell.states.theta) @ error[..., None])[..., 0]
+    scale = EPSILON * amplitude.rows(accelerations, cell.states.omega)
+    return quotient(amplitude.residual(residual), scale)
+
+
+def inexact_side(engine: Array, literal: Array) -> str:
+    """Which side of a comparison carries the larger rounding: engine and document, each against the truth."""
+    if not engine.size:
+        return "neither"
+    ours, theirs = float(np.max(literal)), float(np.max(engine))
+    if max(ours, theirs) <= 64 or max(ours, theirs) <= 4 * min(ours, theirs):
+        return "neither"
+    return "engine" if theirs > ours else "document's formula"
+
+
+def finite_max(values: Array, chosen: NDArray[np.bool_]) -> float:
+    """The largest of the chosen values, 0 where there is none."""
+    return float(np.max(values[chosen])) if chosen.any() else 0.0
+
+
+def literal_backward_error(cell: Cell) -> float:
+    """Backward error of the document's own formula in double precision, in ε."""
+    return worst(backward_error(cell, cell.facts.literal, amplitudes(cell.scene.system, "absolute"))).value
+
+
+def _reason(cell: Cell, measured: float, bound: float, label: str, row: int) -> str:
+    if measured > bound:
+        return (
+            f"the acceleration of angle {row + 1} in state {label!r} leaves a residual of {measured:.3g} ε of its "
+            f"equation's terms; rounding explains {bound:.3g} ε"
+        )
+    return cell.info.accuracy_reason or f"{cell.scene.system.n} links' roundings in {cell.info.coordinates} coordinates"

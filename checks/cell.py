@@ -1,0 +1,96 @@
+"""One scene on one engine: what every check is given, and how an engine is asked so that bad answers are told apart."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..engines import Engine, EngineInfo, Integrator
+from ..models import Scene
+from ..models.result import Outcome, Result
+from ..models.states import States
+from .facts import SceneFacts
+from .rounding import Amplitudes, amplitudes
+
+Array = NDArray[np.float64]
+
+
+class EngineFault(RuntimeError):
+    """The engine answered, but not with what was asked for: NaN, a wrong shape, a wrong type."""
+
+
+@dataclass(frozen=True)
+class Cell:
+    """``states`` are those in which instantaneous quantities are compared; ``facts`` the truth in them."""
+
+    scene: Scene
+    info: EngineInfo
+    engine: Engine
+    states: States
+    facts: SceneFacts
+
+    @cached_property
+    def amplitude(self) -> Amplitudes:
+        """Magnitudes of the terms in the coordinates in which this engine computes."""
+        return amplitudes(self.scene.system, self.info.coordinates)
+
+    def accelerations(self) -> Array:
+        """The engine's accelerations in all states, (B, n)."""
+        theta, omega = self.states.theta, self.states.omega
+        return self.answer("accelerations", self.engine.accelerations(theta, omega), theta.shape)
+
+    def torques(self, theta: Array, omega: Array, alpha: Array, *, gravity: bool) -> Array:
+        """The engine's inverse dynamics, (B, n)."""
+        answer = self.engine.inverse_dynamics(theta, omega, alpha, gravity=gravity)
+        return self.answer("inverse dynamics", answer, theta.shape)
+
+    def trajectory(self, theta: Array, omega: Array, integrator: Integrator, step: float, steps: int) -> Array:
+        """θ and ω at the end of one of the engine's own runs, (2, n)."""
+        return self.answer(
+            integrator.name,
+            np.array(self.engine.trajectory(theta, omega, integrator.name, step, steps)),
+            (2, theta.size),
+        )
+
+    def answer(self, quantity: str, answer: object, shape: tuple[int, ...]) -> Array:
+        """``answer`` as an array of this shape, or :class:`EngineFault` saying what is wrong with it."""
+        try:
+            array = np.asarray(answer, dtype=np.float64)
+        except (TypeError, ValueError) as error:
+            raise EngineFault(f"{quantity}: not an array of numbers: {error}") from None
+        if array.shape != shape:
+            raise EngineFault(f"{quantity}: shape {array.shape} returned, {shape} expected")
+        bad = ~np.isfinite(array)
+        if bad.any():
+            row = int(np.argwhere(bad)[0][0])
+            where = f", first in state {self.states.labels[row]!r}" if shape[0] == len(self.states) else ""
+            raise EngineFault(f"{quantity}: {int(bad.sum())} of {bad.size} values are NaN or infinite{where}")
+        return array
+
+    def result(self, check: str, outcome: Outcome, **fields: Any) -> Result:
+        """A result of this cell."""
+        return Result(scene=self.scene.name, engine=self.info.name, check=check, outcome=outcome, **fields)
+
+
+@dataclass(frozen=True)
+class Worst:
+    """The largest of an array of quotients, and where it is."""
+
+    value: float
+    index: tuple[int, ...]
+
+
+def worst(quotients: Array) -> Worst:
+    """The largest entry; an infinite one where a comparison with nothing failed."""
+    index = np.unravel_index(int(np.argmax(quotients)), quotients.shape)
+    return Worst(float(quotients[index]), tuple(map(int, index)))
+
+
+def quotient(error: Array, scale: Array) -> Array:
+    """|error| / scale, where 0/0 is 0 (nothing was to be had and nothing came) and x/0 is infinite."""
+    size = np.abs(error)
+    return np.divide(size, scale, out=np.where(size > 0, np.inf, 0.0), where=scale > 0)

@@ -1,0 +1,75 @@
+"""The truth about one scene, computed once and shared by every engine's cells."""
+
+from __future__ import annotations
+
+import io
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..models import Scene
+from ..models.states import States
+from ..reference import literal_accelerations
+from ..reference.truth import true_accelerations, true_joint_forces
+from .rounding import EPSILON, amplitudes, condition
+
+Array = NDArray[np.float64]
+
+
+FORCE_STATES = 50  # joint forces are compared in the last so many states: a proven sum costs more than the engine's
+
+
+@dataclass(frozen=True)
+class SceneFacts:
+    """``high + low``: the proven accelerations, (B, n), to far more than double precision; ``radius``: their proven
+    uncertainty. ``literal``: the document's own formula in double precision, (B, n). ``forces``: the true joint forces
+    in the last states, (min(B, 50), n, 2) [N]. ``cond_absolute``, ``cond_relative``: what a backward error of one ε in
+    those coordinates does to the accelerations, in ε, (B,).
+    """
+
+    high: Array
+    low: Array
+    radius: Array
+    literal: Array
+    forces: Array
+    cond_absolute: Array
+    cond_relative: Array
+
+    def to_bytes(self) -> bytes:
+        """The arrays as one npz file, which is read without running anything."""
+        with io.BytesIO() as file:
+            np.savez(file, **{field.name: getattr(self, field.name) for field in fields(self)})
+            return file.getvalue()
+
+    @classmethod
+    def from_bytes(cls, content: bytes) -> SceneFacts:
+        """The reverse."""
+        with np.load(io.BytesIO(content), allow_pickle=False) as arrays:
+            return cls(**{field.name: arrays[field.name] for field in fields(cls)})
+
+    def error(self, accelerations: Array) -> Array:
+        """``accelerations`` less the true ones, to double precision's relative accuracy."""
+        return (accelerations - self.high) - self.low
+
+
+def scene_facts(scene: Scene, states: States) -> SceneFacts:
+    """Compute them, from the literal equations in ball arithmetic."""
+    system, theta, omega = scene.system, states.theta, states.omega
+    truth = true_accelerations(system, theta, omega)
+    return SceneFacts(
+        high=truth.high,
+        low=truth.low,
+        radius=truth.radius,
+        literal=literal_accelerations(system, theta, omega),
+        forces=true_joint_forces(system, theta[-FORCE_STATES:], omega[-FORCE_STATES:]).high,
+        cond_absolute=condition(system, theta, amplitudes(system, "absolute"), truth.high, omega),
+        cond_relative=condition(system, theta, amplitudes(system, "relative"), truth.high, omega),
+    )
+
+
+def forward_error(facts: SceneFacts, accelerations: Array) -> Array:
+    """Largest error over largest acceleration, in ε, at each state (norm-wise); (B,) from (B, n)."""
+    error = np.abs(facts.error(accelerations)).max(axis=-1)
+    size = np.abs(facts.high).max(axis=-1)
+    return np.divide(error, size * EPSILON, out=np.where(error > 0, np.inf, 0.0), where=size > 0)

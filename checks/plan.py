@@ -1,0 +1,114 @@
+"""What is compared, and what is not and why, decided before anything runs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from ..engines import EngineInfo, cannot, engine_info, engine_names, engine_version
+from ..models import InvalidInput, Scene, find_scenes
+from ..models.errors import nearest
+from ..models.result import Outcome, Result
+
+# Every check, in the order in which a cell runs them: its name, and what of the engine it needs.
+CHECKS = {
+    "model fields": "fields",
+    "accelerations": "accelerations",
+    "terms": "inverse_dynamics",
+    "joint forces": "joint_forces",
+    "energy": "energy",
+    "trajectory": "trajectory",
+}
+
+
+@dataclass(frozen=True)
+class Profile:
+    """How thorough a run is: which scenes by default, which checks, how many random states at most."""
+
+    name: str
+    says: str
+    checks: tuple[str, ...]
+    random_states: int
+    tag: str | None = None
+
+
+PROFILES = {
+    profile.name: profile
+    for profile in (
+        Profile("smoke", "one scene of each system, accelerations alone", ("accelerations",), 20, tag="smoke"),
+        Profile("quick", "the whole catalogue, every check", tuple(CHECKS), 200),
+        Profile("full", "the same in five times as many random states", tuple(CHECKS), 1000),
+    )
+}
+
+
+@dataclass(frozen=True)
+class Task:
+    """The checks of one scene on one engine that are to run."""
+
+    scene: Scene
+    engine: str
+    checks: tuple[str, ...]
+    random_states: int
+
+
+@dataclass(frozen=True)
+class Plan:
+    """``tasks`` run; ``settled`` holds the results known beforehand: what is skipped, and engines that are missing."""
+
+    profile: Profile
+    scenes: tuple[Scene, ...]
+    engines: tuple[EngineInfo, ...]
+    tasks: tuple[Task, ...]
+    settled: tuple[Result, ...]
+
+
+def make_plan(scenes: Sequence[str] | None, engines: Sequence[str] | None, profile: str) -> Plan:
+    """Decide. Names as on the command line; None for all. Raises :class:`InvalidInput` where one is unknown."""
+    if profile not in PROFILES:
+        raise InvalidInput(f"profile {profile!r}: one of {', '.join(PROFILES)} is needed{nearest(profile, PROFILES)}")
+    chosen = PROFILES[profile]
+    found = find_scenes(scenes)
+    if scenes is None and chosen.tag:
+        found = tuple(scene for scene in found if chosen.tag in scene.tags)
+    # An engine from elsewhere goes by the path that finds it again, in a worker and on the next command line.
+    infos = tuple(
+        replace(engine_info(name), name=name) for name in dict.fromkeys(engine_names() if engines is None else engines)
+    )
+    tasks: list[Task] = []
+    settled: list[Result] = []
+    absent = {info.name: _absent(info) for info in infos}
+    for scene in found:
+        for info in infos:
+            outcome: Outcome = "skipped" if engines is None else "error"
+            reasons = {check: reason for check in chosen.checks if (reason := skip(check, scene, info))}
+            if absent[info.name]:
+                settled += [_settled(scene, info, check, outcome, absent[info.name]) for check in chosen.checks]
+                continue
+            settled += [_settled(scene, info, check, "skipped", reason) for check, reason in reasons.items()]
+            runs = tuple(check for check in chosen.checks if check not in reasons)
+            if runs:
+                tasks.append(Task(scene, info.name, runs, chosen.random_states))
+    return Plan(chosen, found, infos, tuple(tasks), tuple(settled))
+
+
+def skip(check: str, scene: Scene, info: EngineInfo) -> str:
+    """Why this check is not run on this scene and engine, in a sentence; an empty string where it is."""
+    too_much = cannot(info, scene.system)
+    if too_much:
+        return too_much
+    quantity = CHECKS[check]
+    if quantity in info.missing:
+        return info.missing[quantity]
+    if check == "trajectory" and not scene.duration:
+        return "the scene has no duration: nothing moves in it"
+    return ""
+
+
+def _absent(info: EngineInfo) -> str:
+    installed = not info.package or engine_version(info.name)
+    return "" if installed else f"not installed: pip install {info.package}"
+
+
+def _settled(scene: Scene, info: EngineInfo, check: str, outcome: Outcome, reason: str) -> Result:
+    return Result(scene=scene.name, engine=info.name, check=check, outcome=outcome, reason=reason)

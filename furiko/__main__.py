@@ -1,0 +1,5 @@
+"""``python -m furiko``."""
+
+from .cli import main
+
+main()

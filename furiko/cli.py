@@ -1,0 +1,291 @@
+"""The command line. Each command imports what it needs when it runs, so that none waits for another's libraries.
+
+Exit status: 0 all that ran agrees and all that was asked for ran; 1 something differs; 2 bad usage or bad input; 3 an
+engine that was asked for is missing or failed; 130 interrupted.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from . import __version__
+from .models.errors import EngineMissing, InvalidInput
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .checks.plan import Plan
+    from .models.result import Result
+
+AGREES, DIFFERS, BAD_INPUT, ENGINE_FAILED, INTERRUPTED = 0, 1, 2, 3, 130
+REPORT_FOLDER = Path("furiko-report")
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(__version__, package_name="furiko")
+def cli() -> None:
+    """Cross-check hand-derived equations of motion of multi-pendulums and physics engines."""
+
+
+json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON document and nothing else.")
+
+
+@cli.command()
+@click.argument("scenes", nargs=-1, metavar="[SCENE|FILE.toml]...")
+@click.option("--engine", "-e", "engines", multiple=True, metavar="NAME", help="Only this engine; may be repeated.")
+@click.option("--profile", default="quick", show_default=True, metavar="smoke|quick|full", help="How thorough.")
+@click.option("--out", type=click.Path(path_type=Path), default=REPORT_FOLDER, show_default=True, help="Report folder.")
+@click.option("--baseline", type=click.Path(path_type=Path), help="An earlier report.jsonl to compare with.")
+@click.option("--jobs", "-j", type=click.IntRange(1, 256), help="Worker processes; as many as cores if not given.")
+@click.option("--timeout", type=click.FloatRange(0.1), default=60.0, show_default=True, help="Seconds for one check.")
+@click.option("--no-cache", is_flag=True, help="Compute everything again, and keep nothing.")
+@json_option
+def check(
+    scenes: tuple[str, ...],
+    engines: tuple[str, ...],
+    profile: str,
+    out: Path,
+    baseline: Path | None,
+    jobs: int | None,
+    timeout: float,
+    no_cache: bool,
+    as_json: bool,
+) -> int:
+    """Hold engines against the documents' equations, in the catalogue's scenes or your own."""
+    from .run import check as run_check
+
+    before = _read(baseline) if baseline else None
+    with progress() as watch:
+        report = run_check(
+            scenes or None,
+            engines or None,
+            profile=profile,
+            out=out,
+            jobs=jobs,
+            timeout=timeout,
+            use_cache=not no_cache,
+            watch=watch,
+        )
+    status = report.exit_status
+    if as_json:
+        print_json({"header": report.header, "results": report.results, "footer": report.footer})
+    else:
+        from .reports.terminal import print_report
+
+        print_report(report, path=out / "report.html")
+    if before is not None:
+        from .reports import compare
+
+        comparison = compare(before, report)
+        click.echo(comparison.text(), err=as_json)
+        status = DIFFERS if DIFFERS in (status, comparison.exit_status) else max(status, comparison.exit_status)
+    return status
+
+
+@cli.command()
+@json_option
+def scenes(as_json: bool) -> int:
+    """List the catalogue's scenes."""
+    from .models import find_scenes
+
+    found = find_scenes(None)
+    if as_json:
+        print_json(
+            [
+                {
+                    "name": scene.name,
+                    "system": scene.system.kind,
+                    "n": scene.system.n,
+                    "duration": scene.duration,
+                    "description": scene.description,
+                    "equations": scene.equations,
+                    "tags": scene.tags,
+                }
+                for scene in found
+            ]
+        )
+    else:
+        rows = [(s.name, s.system.kind, str(s.system.n), f"{s.duration:g}", s.description) for s in found]
+        print_table(("scene", "system", "angles", "seconds", "what it is"), rows)
+    return AGREES
+
+
+@cli.command()
+@json_option
+def engines(as_json: bool) -> int:
+    """List the engines, what is installed of them, and what they cannot do."""
+    from .engines import engine_info, engine_names, engine_version
+
+    infos = [engine_info(name) for name in engine_names()]
+    if as_json:
+        print_json(
+            [
+                {
+                    "name": info.name,
+                    "formulation": info.formulation,
+                    "package": info.package,
+                    "version": engine_version(info.name) or None,
+                    "coordinates": info.coordinates,
+                    "integrators": [{"name": i.name, "order": i.order} for i in info.integrators],
+                    "missing": dict(info.missing),
+                    "largest_n": info.largest_n,
+                    "homepage": info.homepage,
+                }
+                for info in infos
+            ]
+        )
+    else:
+        rows = [
+            (
+                info.name,
+                engine_version(info.name) or f"not installed: pip install {info.package}",
+                info.formulation,
+                ", ".join(i.name for i in info.integrators) or "-",
+                ", ".join(info.missing) or "-",
+            )
+            for info in infos
+        ]
+        print_table(("engine", "version", "formulation", "integrators", "does not give"), rows)
+    return AGREES
+
+
+@cli.command()
+@click.argument("scene")
+@click.option("--mjcf", "language", flag_value="mjcf", help="As MuJoCo's MJCF.")
+@click.option("--urdf", "language", flag_value="urdf", help="As URDF.")
+@click.option("--out", "-o", type=click.Path(path_type=Path), help="File to write; standard output if not given.")
+def export(scene: str, language: str | None, out: Path | None) -> int:
+    """Write a scene's mechanism as a model file."""
+    from .models import find_scene, to_mjcf, to_urdf
+
+    if language is None:
+        raise click.UsageError("one of --mjcf and --urdf is needed")
+    system = find_scene(scene).system
+    text = to_mjcf(system) if language == "mjcf" else to_urdf(system)
+    if out is None:
+        click.echo(text, nl=False)
+        return AGREES
+    try:
+        out.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise InvalidInput(f"{out}: cannot be written: {error.strerror or error}") from None
+    return AGREES
+
+
+@cli.command()
+@click.argument("before", type=click.Path(path_type=Path))
+@click.argument("after", type=click.Path(path_type=Path))
+def diff(before: Path, after: Path) -> int:
+    """Compare two runs: what changed its outcome, got worse or better, appeared or vanished."""
+    from .reports import compare
+
+    comparison = compare(_read(before), _read(after))
+    click.echo(comparison.text())
+    return comparison.exit_status
+
+
+@cli.command()
+@click.option("--clear", is_flag=True, help="Delete everything that is kept.")
+@json_option
+def cache(clear: bool, as_json: bool) -> int:
+    """Say what is kept from earlier runs, and where."""
+    from .checks.cache import user_cache
+
+    kept = user_cache()
+    size = sum(path.stat().st_size for path in kept.entries())
+    found = {"folder": str(kept.folder), "entries": len(kept.entries()), "bytes": size}
+    if clear:
+        found["deleted"] = kept.clear()
+    if as_json:
+        print_json(found)
+    else:
+        done = ", deleted now" if clear else ""
+        click.echo(f"{found['entries']} entries, {size / 1e6:.1f} MB in {found['folder']}{done}")
+    return AGREES
+
+
+def _read(path: Path) -> Any:
+    from .reports import read_stream
+
+    return read_stream(path)
+
+
+def print_json(content: object) -> None:
+    """One JSON document on standard output."""
+    import msgspec
+
+    click.echo(msgspec.json.format(msgspec.json.encode(content), indent=2).decode())
+
+
+def print_table(heading: tuple[str, ...], rows: list[tuple[str, ...]]) -> None:
+    """A table for a person: as wide as the terminal there, as wide as it is in a pipe."""
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(*heading, box=None, header_style="bold", pad_edge=False)
+    for row in rows:
+        table.add_row(*row)
+    console = Console(width=None if sys.stdout.isatty() else 160, highlight=False, markup=False)
+    console.print(table)
+
+
+@contextmanager
+def progress() -> Iterator[Callable[[Plan, Result], None] | None]:
+    """A progress bar on a terminal's standard error; None, and silence, in a pipe."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("checking", total=None)
+        seen: set[tuple[str, str, str]] = set()
+
+        def watch(plan: Plan, result: Result) -> None:
+            settled = {(r.scene, r.engine, r.check) for r in plan.settled}
+            # An engine has one trajectory result for each integrator: they count as the one check that was planned.
+            seen.add((result.scene, result.engine, result.check.split(" ")[0]))
+            total = sum(len(t.checks) for t in plan.tasks) + len(settled)
+            now = f"{result.scene} {result.engine}"
+            bar.update(task, completed=min(len(seen), total), total=total, description=now)
+
+        yield watch
+
+
+def main() -> None:
+    """Run the command line; ends the process with its status."""
+    sys.exit(run(sys.argv[1:]))
+
+
+def run(arguments: list[str]) -> int:
+    """The exit status of one command line. What the user can mend is one line on standard error, never a traceback."""
+    try:
+        status = cli.main(arguments, prog_name="furiko", standalone_mode=False)
+        sys.stdout.flush()
+    except InvalidInput as error:
+        return _say(str(error), BAD_INPUT)
+    except EngineMissing as error:
+        return _say(str(error), ENGINE_FAILED)
+    except click.ClickException as error:
+        return _say(error.format_message(), BAD_INPUT)
+    except (KeyboardInterrupt, click.Abort):
+        return _say("interrupted; the stream that was begun has no footer, and readers will say so", INTERRUPTED)
+    except BrokenPipeError:
+        # Who read standard output has gone: nothing more can be said there.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return INTERRUPTED
+    return status if isinstance(status, int) else AGREES
+
+
+def _say(message: str, status: int) -> int:
+    print(f"furiko: {' '.join(message.split())}", file=sys.stderr)
+    return status

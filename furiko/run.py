@@ -1,0 +1,137 @@
+"""One run of the cross-check: plan, workers, stream and reports, tied together."""
+
+from __future__ import annotations
+
+import os
+import platform
+import shlex
+import sys
+import time
+from collections.abc import Callable, Sequence
+from contextlib import nullcontext
+from datetime import UTC, datetime
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+from . import __version__
+from .checks.cache import Cache, user_cache
+from .checks.plan import Plan, make_plan
+from .checks.runner import TIMEOUT, run
+from .engines import engine_version
+from .models import Scene, catalogue
+from .models.result import OUTCOMES, EngineEntry, Footer, Header, Result, SceneEntry
+from .reports import Report, StreamWriter, open_report, write_reports
+
+PACKAGES = ("numpy", "scipy", "mujoco", "pin", "exudyn", "python-flint", "heyoka", "numba")
+SEED = "sha256 of the scene's name, PCG64"
+
+
+def check(
+    scenes: Sequence[str | Path] | None = None,
+    engines: Sequence[str] | None = None,
+    *,
+    profile: str = "quick",
+    out: str | Path | None = None,
+    jobs: int | None = None,
+    timeout: float = TIMEOUT,
+    use_cache: bool = True,
+    watch: Callable[[Plan, Result], None] | None = None,
+) -> Report:
+    """Hold engines against the documents' equations.
+
+    ``scenes``: names of the catalogue's or paths of TOML files, None for those of the profile; ``engines``: names,
+    None for all; ``profile``: ``smoke``, ``quick`` or ``full``; ``out``: folder for ``report.jsonl`` and its
+    renderings, None for none; ``jobs``: worker processes, None for one a core; ``timeout`` [s] of one check;
+    ``use_cache``: take results
+    of an earlier run with the very same inputs; ``watch`` is called with each result as it comes.
+
+    Raises :class:`furiko.InvalidInput` for unknown names and bad files, before anything runs.
+    """
+    begun = time.monotonic()
+    given = None if scenes is None else [str(scene) for scene in scenes]
+    plan = make_plan(given, engines, profile)
+    cache = user_cache() if use_cache else Cache(None)
+    header = make_header(plan, given)
+    results = []
+    with nullcontext() if out is None else open_report(out, header) as stream:
+        for result in run(plan, cache=cache, jobs=jobs, timeout=timeout):
+            results.append(result if stream is None else stream.write(result))
+            if watch is not None:
+                watch(plan, results[-1])
+        footer = _footer(stream, results, time.monotonic() - begun)
+    report = Report(header, tuple(results), footer)
+    if out is not None:
+        write_reports(out, report)
+    return report
+
+
+def _footer(stream: StreamWriter | None, results: Sequence[Result], seconds: float) -> Footer:
+    if stream is not None:
+        return stream.finish(seconds)
+    counts = {outcome: sum(result.outcome == outcome for result in results) for outcome in OUTCOMES}
+    return Footer(**counts, seconds=seconds)
+
+
+def make_header(plan: Plan, given: Sequence[str] | None) -> Header:
+    """What a stream's first line says of this run."""
+    sources = {} if given is None else dict(zip((scene.name for scene in plan.scenes), given, strict=False))
+    return Header(
+        furiko=__version__,
+        started=datetime.now(UTC).isoformat(timespec="seconds"),
+        command=shlex.join(["furiko", *sys.argv[1:]]),
+        profile=plan.profile.name,
+        seed=SEED,
+        machine=machine(),
+        versions={"python": platform.python_version(), **{name: _version(name) for name in PACKAGES}},
+        scenes=[scene_entry(scene, plan, sources.get(scene.name, scene.name)) for scene in plan.scenes],
+        engines=[
+            EngineEntry(
+                name=info.name, formulation=info.formulation, package=info.package, version=engine_version(info.name)
+            )
+            for info in plan.engines
+        ],
+    )
+
+
+def scene_entry(scene: Scene, plan: Plan, source: str) -> SceneEntry:
+    """What the header says of a scene."""
+    system = scene.system
+    return SceneEntry(
+        name=scene.name,
+        system=system.kind,
+        n=system.n,
+        lengths=list(system.lengths),
+        masses=list(system.masses),
+        gravity=system.gravity,
+        duration=scene.duration,
+        states=min(scene.random, plan.profile.random_states) + len(scene.named) + (scene.theta is not None),
+        description=scene.description,
+        equations=list(scene.equations),
+        tags=list(scene.tags),
+        source=scene.name if scene.name in catalogue() else source,
+    )
+
+
+def machine() -> dict[str, str]:
+    """This machine in words."""
+    return {
+        "system": f"{platform.system()} {platform.machine()}",
+        "processor": _processor(),
+        "cores": str(os.cpu_count() or 1),
+    }
+
+
+def _processor() -> str:
+    try:
+        with open("/proc/cpuinfo", encoding="utf-8", errors="replace") as lines:
+            names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    except OSError:
+        names = []
+    return names[0] if names else platform.processor() or "unknown"
+
+
+def _version(package: str) -> str:
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return "not installed"

@@ -1,0 +1,111 @@
+"""Runs on worker processes: one engine's failure is its own, and nothing is lost or counted twice."""
+
+import os
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+import furiko
+from furiko.checks.plan import CHECKS
+
+
+def check(*engines, scenes=("rods-2",), **options):
+    return furiko.check(scenes, [f"zoo:{engine}" for engine in engines], **options)
+
+
+def by_check(report, engine):
+    return {result.check: result for result in report.results if result.engine == f"zoo:{engine}"}
+
+
+def test_a_crash_costs_its_own_check_alone():
+    report = check("Crashing", "Right")
+    crashed = by_check(report, "Crashing")
+    assert crashed["energy"].outcome == "error"
+    assert "SIGABRT" in crashed["energy"].reason
+    for name, result in crashed.items():
+        if name != "energy":
+            assert result.outcome == "agrees", result
+    assert {result.outcome for result in by_check(report, "Right").values()} == {"agrees"}
+    assert set(crashed) == set(by_check(report, "Right"))
+    assert report.exit_status == 3
+
+
+def test_a_hang_is_ended_and_costs_its_own_check_alone():
+    report = check("Hanging", "Right", timeout=3.0)
+    hung = by_check(report, "Hanging")
+    assert hung["energy"].outcome == "error"
+    assert "hangs" in hung["energy"].reason
+    assert hung["accelerations"].outcome == "agrees"
+    assert {result.outcome for result in by_check(report, "Right").values()} == {"agrees"}
+
+
+def test_an_engine_that_hangs_again_is_given_up():
+    scenes = ["rods-1", "rods-2", "rods-3", "double-pendulum"]
+    report = check("Hanging", scenes=scenes, timeout=2.0, jobs=1)
+    found = Counter((result.scene, result.check) for result in report.results)
+    assert set(found.values()) == {1}
+    reasons = Counter(result.reason for result in report.results if result.outcome == "error")
+    assert sum(count for reason, count in reasons.items() if "it hangs" in reason) == 2
+    assert any("not tried" in reason for reason in reasons)
+    assert {result.scene for result in report.results} == set(scenes)
+
+
+def test_an_engine_that_cannot_start_fails_its_cells_alone():
+    report = check("CannotStart", "Right")
+    assert {result.outcome for result in by_check(report, "CannotStart").values()} == {"error"}
+    assert set(by_check(report, "CannotStart")) == set(CHECKS)
+    assert all("too large for me" in result.reason for result in by_check(report, "CannotStart").values())
+    assert {result.outcome for result in by_check(report, "Right").values()} == {"agrees"}
+
+
+def test_engines_print_nothing_and_leave_nothing(tmp_path, monkeypatch, capfd):
+    monkeypatch.chdir(tmp_path)
+    check("Littering", out="out")
+    assert capfd.readouterr() == ("", "")
+    assert [path.name for path in tmp_path.iterdir()] == ["out"]
+
+
+def test_no_worker_outlives_its_run():
+    before = set(os.listdir("/proc"))
+    check("Right", jobs=2)
+    workers = [
+        pid
+        for pid in set(os.listdir("/proc")) - before
+        if pid.isdigit() and b"furiko.checks.worker" in _command_line(pid)
+    ]
+    assert workers == []
+
+
+def test_results_do_not_depend_on_the_number_of_workers():
+    def run(jobs):
+        found = check("Right", "SignFlipped", scenes=["rods-2", "rods-3"], jobs=jobs).results
+        return {(r.scene, r.engine, r.check): (r.outcome, r.measured) for r in found if "trajectory" not in r.check}
+
+    assert run(1) == run(2)
+
+
+def test_a_missing_engine_is_skipped_unless_it_was_asked_for(monkeypatch):
+    from furiko.checks import plan
+
+    monkeypatch.setattr(plan, "engine_version", lambda name: "" if name == "mujoco" else "1.0")
+    skipped = plan.make_plan(["rods-1"], None, "smoke").settled
+    assert [(r.engine, r.outcome) for r in skipped] == [("mujoco", "skipped")]
+    assert "pip install mujoco" in skipped[0].reason
+    asked = plan.make_plan(["rods-1"], ["mujoco"], "smoke").settled
+    assert [r.outcome for r in asked] == ["error"]
+
+
+def _command_line(pid):
+    try:
+        return Path(f"/proc/{pid}/cmdline").read_bytes()
+    except OSError:
+        return b""
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_every_planned_check_has_its_results(jobs):
+    report = check("Right", scenes=["rods-1", "double-pendulum-no-gravity"], jobs=jobs)
+    assert report.complete
+    checks = {(result.scene, result.check.split(" ")[0]) for result in report.results}
+    assert len(checks) == 2 * len(CHECKS)

@@ -1,0 +1,71 @@
+"""Every check passes an engine that is right and fails one that is wrong in what it looks at, and in nothing else."""
+
+import pytest
+
+
+def outcomes(results):
+    return {check: result.outcome for check, result in results.items()}
+
+
+@pytest.mark.parametrize("scene", ["double-pendulum", "two-legs", "rods-3", "rods-5-no-gravity"])
+def test_the_right_engine_agrees_in_everything(run_cell, scene):
+    results = run_cell("zoo:Right", scene)
+    assert set(outcomes(results).values()) == {"agrees"}, results
+    expected = {"model fields", "accelerations", "terms M", "terms C", "terms velocity", "joint forces", "energy"}
+    assert set(results) >= expected | {"trajectory RK4"}
+
+
+@pytest.mark.parametrize(
+    ("engine", "differs"),
+    [
+        ("AlwaysWrong", {"accelerations"}),
+        ("SlightlyWrong", {"accelerations"}),
+        ("SignFlipped", {"accelerations", "terms G"}),
+        ("ProductOfRates", {"terms velocity"}),
+        ("HeavyEntry", {"terms M"}),
+        ("WrongFields", {"model fields"}),
+        ("HiddenArmature", {"model fields"}),
+        ("DroppedJoint", {"model fields"}),
+        ("WrongForces", {"joint forces"}),
+        ("WrongEnergy", {"energy"}),
+        ("LateByOneStep", {"trajectory RK4"}),
+        ("LowOrder", {"trajectory RK4"}),
+        ("Damped", {"trajectory RK4"}),
+    ],
+)
+def test_a_fault_is_found_by_the_check_that_looks_there_and_by_no_other(run_cell, engine, differs):
+    results = run_cell(f"zoo:{engine}")
+    found = {check for check, result in results.items() if result.outcome == "differs"}
+    assert found == differs
+    for check in differs:
+        assert results[check].reason, check
+
+
+@pytest.mark.parametrize(
+    ("engine", "says"),
+    [
+        ("Nan", "1 of .* values are NaN or infinite, first in state 'inverted'"),
+        ("WrongShape", r"shape \(36, 2\) where \(37, 2\)"),
+        ("NotNumbers", "could not convert string to float: 'fast'"),
+    ],
+)
+def test_a_bad_answer_is_an_error_of_its_own_check(run_cell, engine, says):
+    results = run_cell(f"zoo:{engine}")
+    assert results["accelerations"].outcome == "error"
+    import re
+
+    assert re.search(says, results["accelerations"].reason)
+    others = {check: outcome for check, outcome in outcomes(results).items() if check != "accelerations"}
+    assert set(others.values()) == {"agrees"}
+
+
+def test_a_trajectory_is_not_run_where_accelerations_differ(run_cell):
+    results = run_cell("zoo:AlwaysWrong")
+    assert results["trajectory"].outcome == "skipped"
+    assert "accelerations differ" in results["trajectory"].reason
+
+
+def test_an_exception_becomes_an_error_with_its_traceback(run_cell):
+    result = run_cell("zoo:Raising")["energy"]
+    assert (result.outcome, result.reason) == ("error", "ZeroDivisionError: no energy today")
+    assert "in energy" in result.details["traceback"]

@@ -1,0 +1,187 @@
+"""The command line as a user meets it: statuses, one clear line for bad input, JSON and nothing else where asked."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+import furiko
+
+TESTS = Path(__file__).parent.parent
+
+
+def run(*arguments, cwd, timeout=120, **options):
+    return subprocess.run(
+        [sys.executable, "-m", "furiko", *arguments],
+        capture_output=True,
+        text=True,
+        cwd=cwd,
+        timeout=timeout,
+        env=os.environ | {"PYTHONPATH": str(TESTS)},
+        check=False,
+        **options,
+    )
+
+
+def one_clear_line(done, status):
+    assert done.returncode == status, done
+    assert done.stdout == ""
+    (line,) = done.stderr.splitlines()
+    assert line.startswith("furiko: ")
+    return line
+
+
+def test_smoke_agrees_and_writes_its_reports(tmp_path):
+    done = run("check", "--profile", "smoke", cwd=tmp_path)
+    assert done.returncode == 0, done
+    assert done.stderr == ""
+    assert "double-pendulum" in done.stdout
+    assert "furiko-report" in done.stdout
+    names = {path.name for path in (tmp_path / "furiko-report").iterdir()}
+    assert names == {"report.jsonl", "report.html", "report.md", "junit.xml"}
+    report = furiko.read_stream(tmp_path / "furiko-report")
+    assert report.complete
+    assert {result.outcome for result in report.results} == {"agrees"}
+
+
+def test_a_difference_is_status_1(tmp_path):
+    done = run("check", "rods-2", "-e", "zoo:SignFlipped", "--profile", "smoke", cwd=tmp_path)
+    assert done.returncode == 1
+    assert "differs" in done.stdout
+
+
+def test_a_failing_engine_is_status_3(tmp_path):
+    done = run("check", "rods-2", "-e", "zoo:Nan", "--profile", "smoke", cwd=tmp_path)
+    assert done.returncode == 3
+    assert "NaN" in done.stdout
+
+
+def test_json_is_one_document_and_nothing_else(tmp_path):
+    done = run("check", "rods-1", "--profile", "smoke", "--json", cwd=tmp_path)
+    document = json.loads(done.stdout)
+    assert set(document) == {"header", "results", "footer"}
+    assert document["footer"]["agrees"] == len(document["results"])
+    for command in ("scenes", "engines", "cache"):
+        assert json.loads(run(command, "--json", cwd=tmp_path).stdout)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["check", "double-pendulm"], "did you mean 'double-pendulum'"),
+        (["check", "-e", "mujoko"], "did you mean 'mujoco'"),
+        (["check", "-e", "nowhere:Engine"], "nowhere"),
+        (["check", "--profile", "quik"], "did you mean 'quick'"),
+        (["check", "missing.toml"], "missing.toml: cannot be read"),
+        (["check", "--frobnicate"], "--frobnicate"),
+        (["check", "--jobs", "0"], "--jobs"),
+        (["check", "--jobs", "many"], "--jobs"),
+        (["check", "--timeout", "-1"], "--timeout"),
+        (["check", "--baseline", "missing.jsonl"], "missing.jsonl: cannot be read"),
+        (["chekc"], "chekc"),
+        (["export", "rods-2"], "--mjcf"),
+        (["export", "rods-2", "--mjcf", "-o", "no/such/folder/x.xml"], "cannot be written"),
+        (["diff", "a", "b"], "a: cannot be read"),
+        (["check", "bad.toml"], "bad.toml: system.lengths[0]: must be positive"),
+        (["check", "huge.toml", "-e", "pinocchio-aba"], ""),
+    ],
+)
+def test_bad_input_is_one_clear_line_and_status_2(tmp_path, arguments, says):
+    (tmp_path / "bad.toml").write_text('[system]\nkind = "rod-chain"\nlengths = [-1.0]\n')
+    (tmp_path / "huge.toml").write_text(f'[system]\nkind = "rod-chain"\nlengths = [{"1.0," * 10_001}]\n')
+    done = run(*arguments, cwd=tmp_path)
+    assert says in one_clear_line(done, 2)
+    assert not (tmp_path / "furiko-report").exists()
+
+
+def test_a_system_too_large_for_an_engine_is_skipped_in_words_before_memory_is_gone(tmp_path):
+    (tmp_path / "long.toml").write_text(f'[system]\nkind = "rod-chain"\nlengths = [{"1.0," * 3000}]\n')
+    done = run("check", "long.toml", "-e", "pinocchio-aba", "--profile", "smoke", cwd=tmp_path)
+    assert done.returncode == 0, done
+    assert "takes at most" in done.stdout
+
+
+@pytest.mark.parametrize("place", ["/proc/furiko", "/dev/null/x"])
+def test_an_unwritable_folder_is_one_clear_line(tmp_path, place):
+    done = run("check", "rods-1", "--profile", "smoke", "--out", place, cwd=tmp_path)
+    assert place in one_clear_line(done, 2)
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs Linux's /dev/full to stand for a full disk")
+def test_a_full_disk_is_one_clear_line_and_no_whole_report(tmp_path):
+    folder = tmp_path / "out"
+    folder.mkdir()
+    (folder / "report.jsonl").symlink_to("/dev/full")
+    done = run("check", "rods-1", "--profile", "smoke", "--out", str(folder), cwd=tmp_path)
+    assert "report.jsonl" in one_clear_line(done, 2)
+    assert not (folder / "report.html").exists()
+
+
+def test_interrupted_it_leaves_a_stream_that_says_so(tmp_path):
+    process = subprocess.Popen(
+        [sys.executable, "-m", "furiko", "check", "rods-2", "-e", "zoo:Hanging", "-e", "mujoco"],
+        cwd=tmp_path,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"PYTHONPATH": str(TESTS)},
+    )
+    stream = tmp_path / "furiko-report" / "report.jsonl"
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline and not (stream.exists() and stream.read_text().count("\n") > 1):
+        time.sleep(0.05)
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=30)
+    assert process.returncode == 130
+    (line,) = filter(None, errors.splitlines())  # after an empty one: a terminal has just shown ^C
+    assert "interrupted" in line
+    assert not furiko.read_stream(stream).complete
+    assert not (stream.parent / "report.html").exists()
+
+
+def test_a_broken_pipe_is_no_traceback(tmp_path):
+    command = f"{sys.executable} -m furiko scenes | head -n 1"
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, cwd=tmp_path, check=False)
+    assert done.stderr == ""
+
+
+def test_export_writes_what_the_library_writes(tmp_path):
+    system = furiko.RodChain([1.0, 1.0])
+    assert run("export", "rods-2-equal", "--mjcf", cwd=tmp_path).stdout == furiko.to_mjcf(system)
+    run("export", "rods-2-equal", "--urdf", "-o", "model.urdf", cwd=tmp_path)
+    assert (tmp_path / "model.urdf").read_text() == furiko.to_urdf(system)
+
+
+def test_a_baseline_shows_what_got_worse(tmp_path):
+    run("check", "rods-2", "-e", "zoo:Right", "--profile", "smoke", "--out", "before", cwd=tmp_path)
+    stream = tmp_path / "before" / "report.jsonl"
+    (tmp_path / "after").mkdir()
+    text = stream.read_text().replace('"outcome":"agrees"', '"outcome":"differs"')
+    text = text.replace('"agrees":1,"differs":0', '"agrees":0,"differs":1')
+    (tmp_path / "after" / "report.jsonl").write_text(text)
+    assert run("diff", "before", "before", cwd=tmp_path).returncode == 0
+    worse = run("diff", "before", "after", cwd=tmp_path)
+    assert worse.returncode == 1
+    assert "rods-2" in worse.stdout
+
+
+@pytest.mark.parametrize("command", [[], ["check"], ["scenes"], ["engines"], ["export"], ["diff"], ["cache"]])
+def test_every_command_has_help(tmp_path, command):
+    done = run(*command, "--help", cwd=tmp_path)
+    assert done.returncode == 0
+    assert "Usage" in done.stdout
+
+
+def test_importing_furiko_imports_no_engine_and_nothing_heavy(tmp_path):
+    program = (
+        "import sys, furiko, furiko.cli, furiko.run; "
+        "heavy = {'mujoco', 'pinocchio', 'exudyn', 'numba', 'scipy', 'sympy', 'heyoka', 'rich', 'jinja2'}; "
+        "print(sorted(heavy & set(sys.modules)))"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=tmp_path, check=True)
+    assert done.stdout.strip() == "[]"
