@@ -303,13 +303,13 @@ def _by_lagrange(base: Derivation, d: Derivation, mistakes: Sequence[Mistake]) -
     t = _change(base, d, lambda x, b: (x.kinetic[b], x.share[b][0]))
     u = _change(base, d, lambda x, b: (x.potential[b], x.share[b][1]))
     if t:
-        d.momentum = [p + s.by_rate(t, i) for i, p in enumerate(base.momentum)]
-        d.kinetic_slope = [p + s.by_angle(t, i) for i, p in enumerate(base.kinetic_slope)]
+        d.momentum = _changed(base.momentum, lambda i: s.by_rate(t, i))
+        d.kinetic_slope = _changed(base.kinetic_slope, lambda i: s.by_angle(t, i))
     if u:
-        d.potential_slope = [p + s.by_angle(u, i) for i, p in enumerate(base.potential_slope)]
+        d.potential_slope = _changed(base.potential_slope, lambda i: s.by_angle(u, i))
     _make(d, mistakes, "momentum")
     for i in range(d.n):
-        if d.momentum[i] is not base.momentum[i] and d.momentum[i] != base.momentum[i]:
+        if d.momentum[i] is not base.momentum[i]:
             d.inertial[i] = inertial_part(s, d.momentum[i])
             d.convective[i] = convective_parts(s, d.momentum[i])
     _make(d, mistakes, "derivative")
@@ -319,6 +319,12 @@ def _by_lagrange(base: Derivation, d: Derivation, mistakes: Sequence[Mistake]) -
             for part in ("inertial", "convective", "kinetic_slope", "potential_slope")
         ):
             d.rows[i] = _row(d, i, _lagrange_side(d, i))
+
+
+def _changed(old: list[Formula], change: Callable[[int], Formula]) -> list[Formula]:
+    """Each formula with its change added; the very same object where there is none."""
+    changes = [change(i) for i in range(len(old))]
+    return [f + c if c else f for f, c in zip(old, changes, strict=True)]
 
 
 def _change(
@@ -343,6 +349,10 @@ def _by_newton(base: Derivation, d: Derivation, mistakes: Sequence[Mistake]) -> 
     _make(d, mistakes, "force")
     if any(now is not old for now, old in zip(d.force, base.force, strict=True)):
         for j in range(d.n):
-            d.lower[j], d.upper[j] = newton_sides(m, d.force, j)
+            sides = newton_sides(m, d.force, j)
+            if sides != (base.lower[j], base.upper[j]):
+                d.lower[j], d.upper[j] = sides
     _make(d, mistakes, "moment")
-    d.rows = [_row(d, i, _newton_side(d, i)) for i in range(d.n)]
+    for i in range(d.n):
+        if any(getattr(d, part)[i] is not getattr(base, part)[i] for part in ("inertia_side", "lower", "upper")):
+            d.rows[i] = _row(d, i, _newton_side(d, i))

@@ -1,0 +1,103 @@
+"""What the grader says: a verdict, the mistakes that explain it, and each wrong term with what should stand there."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any, Literal
+
+Verdict = Literal["correct", "wrong", "undecided"]
+EXIT_STATUS: dict[Verdict, int] = {"correct": 0, "wrong": 1, "undecided": 1}
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One wrong term. ``equation``: the documents' number; ``row``: its label in what was handed in.
+
+    ``found`` and ``expected`` are in the scaling of the row as it was handed in, everything on its left side.
+    """
+
+    equation: str
+    term: str
+    found: str
+    expected: str
+    cause: str
+    says: str
+    says_ja: str
+    row: str = ""
+
+
+@dataclass(frozen=True)
+class Named:
+    """One mistake that explains what was found; ``also``: further mistakes that lead to the very same equations."""
+
+    cause: str
+    name: str
+    stage: str
+    says: str
+    says_ja: str
+    also: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """The answer to one derivation. ``alternatives``: other sets of mistakes that explain it as well."""
+
+    verdict: Verdict
+    findings: tuple[Finding, ...] = ()
+    mistakes: tuple[Named, ...] = ()
+    alternatives: tuple[tuple[str, ...], ...] = ()
+    notes: tuple[str, ...] = ()
+    system: str = ""
+    links: int = 0
+
+    def to_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return asdict(self)
+
+    @property
+    def exit_status(self) -> int:
+        """0 when correct, 1 otherwise."""
+        return EXIT_STATUS[self.verdict]
+
+    def text(self, language: Literal["en", "ja"] = "en") -> str:
+        """For a terminal."""
+        return _english(self) if language == "en" else _japanese(self)
+
+
+def _english(d: Diagnosis) -> str:
+    head = {"correct": "Correct.", "wrong": "Wrong.", "undecided": "Undecided."}[d.verdict]
+    lines = [head]
+    for mistake in d.mistakes:
+        also = f" (or, with the same equations: {', '.join(mistake.also)})" if mistake.also else ""
+        lines.append(f"  {mistake.says}  [{mistake.cause}, made in the {STAGES_EN[mistake.stage]}]{also}")
+    for f in d.findings:
+        told = "" if d.mistakes and any(f.says == m.says for m in d.mistakes) else f"  {f.says}"
+        row = f" of row {f.row}" if f.row else ""
+        lines.append(f"  ({f.equation}) {f.term}{row}: {f.found} stands there, {f.expected} belongs there.{told}")
+    lines += [f"  Or: {' and '.join(names)}" for names in d.alternatives]
+    return "\n".join([*lines, *(f"  {note}" for note in d.notes)])
+
+
+def _japanese(d: Diagnosis) -> str:
+    head = {"correct": "正しい導出です。", "wrong": "誤りがあります。", "undecided": "判定できません。"}[d.verdict]
+    lines = [head]
+    for mistake in d.mistakes:
+        also = f"（同じ式になる別の誤り：{'、'.join(mistake.also)}）" if mistake.also else ""
+        lines.append(f"  {mistake.says_ja}  [{mistake.cause}、{STAGES_JA[mistake.stage]}の段階]{also}")
+    for f in d.findings:
+        told = "" if any(f.says_ja == m.says_ja for m in d.mistakes) else f"  {f.says_ja}"
+        row = f"第{f.row}行 " if f.row else ""
+        lines.append(f"  ({f.equation}) {row}{f.term}：{f.found} → 正しくは {f.expected}{told}")
+    return "\n".join([*lines, *(f"  {note}" for note in d.notes)])
+
+
+STAGES_EN = {
+    "position": "positions", "velocity": "velocities", "speed": "squared speeds", "energy": "energies",
+    "lagrangian": "Lagrangian", "momentum": "derivatives of the Lagrangian", "derivative": "derivatives of the Lagrangian",
+    "force": "forces", "moment": "moments", "equation": "equations of motion", "matrix": "matrix form",
+}  # fmt: skip
+STAGES_JA = {
+    "position": "位置", "velocity": "速度", "speed": "速度の2乗", "energy": "エネルギー", "lagrangian": "ラグランジアン",
+    "momentum": "ラグランジアンの微分", "derivative": "ラグランジアンの微分", "force": "力", "moment": "モーメント",
+    "equation": "運動方程式", "matrix": "行列形",
+}  # fmt: skip

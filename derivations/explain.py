@@ -1,0 +1,306 @@
+"""Finds the mistakes that explain a set of wrong equations: one, or two, or several, of the catalogue.
+
+Everything here is arithmetic at one random point (:mod:`.fingerprint`). A row is compared up to an unknown factor,
+since it may have been scaled by anything:
+
+- one mistake: the rows of a catalogue derivation are, as a set and up to factors, the rows given;
+- or the catalogue derivation, solved for the accelerations, gives what the rows given, solved, give;
+- two mistakes: with the factor of a row guessed from any of its terms, (row given - right row) is the sum of the
+  changes that two catalogue mistakes make; sums are found by looking up differences. Two mistakes that do not simply
+  add (both in the speed of one mass, say) are tried as a derivation with both.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from .derivation import NEWTON, Mistake, derive
+from .fingerprint import PRIME, Point, Vector, combine, solved
+from .images import Image, Images
+
+MOST_FACTORS = 14  # guesses at a row's factor that are followed
+MOST_EXPLANATIONS = 8
+COMPOSED_FIRST = 80  # mistakes that are tried as the first of two that do not add: those that leave least unexplained
+COMPOSED_TRIES = 800  # derivations with two mistakes that are worked out; about a third of a second
+LAGRANGE_ONLY = ("velocity", "speed", "energy", "lagrangian", "momentum", "derivative")  # not on Newton's road
+
+
+@dataclass(frozen=True)
+class Alignment:
+    """Which right row each given row is meant to be (or None), and how many of its terms agree with it."""
+
+    row_of: tuple[int | None, ...]
+    agreeing: tuple[int, ...]
+
+
+def factors(row: Vector, base: Vector) -> list[tuple[int, int]]:
+    """Guesses at ``row`` = factor · ``base``: each with the number of terms that bear it out, best first."""
+    votes = Counter(row[q] * pow(base[q], -1, PRIME) % PRIME for q in row.keys() & base.keys())
+    return votes.most_common(MOST_FACTORS)
+
+
+def align(images: Images, rows: Sequence[Vector], labels: Sequence[str]) -> Alignment:
+    """Give each row to the right row with which most of its terms agree; a row's label decides between equals."""
+    scores: list[tuple[int, int, int, int, int]] = []
+    for r, row in enumerate(rows):
+        for i, base in enumerate(images.right):
+            best = factors(row, base)
+            votes = best[0][1] if best else 0
+            score = 2 * votes - len(row.keys() | base.keys())
+            scores.append((-score, labels[r] != str(i + 1), abs(r - i), r, i))
+    row_of: list[int | None] = [None] * len(rows)
+    agreeing = [0] * len(rows)
+    taken: set[int] = set()
+    for _, _, _, r, i in sorted(scores):
+        if row_of[r] is None and i not in taken:
+            row_of[r] = i
+            taken.add(i)
+            best = factors(rows[r], images.right[i])
+            agreeing[r] = best[0][1] if best else 0
+    return Alignment(tuple(row_of), tuple(agreeing))
+
+
+def singles(images: Images, rows: Sequence[Vector]) -> list[tuple[Mistake, ...]]:
+    """Single mistakes whose rows are the given ones, up to order and factors; some rows may be missing."""
+    given = Counter(images.point.projective(row) for row in rows)
+    found = []
+    for image in images.wrong:
+        made = Counter(image.projective.get(i, right) for i, right in enumerate(images.right_projective))
+        if given <= made and any(number in given for number in image.projective.values()):
+            found.append((image.mistake,))
+    return found
+
+
+def singles_solved(images: Images, rows: Sequence[Vector]) -> list[tuple[Mistake, ...]]:
+    """Single mistakes whose equations, solved, are the given ones, solved: however the rows were combined."""
+    target = solved(list(rows), images.accelerations)
+    if target is None:
+        return []
+    found = []
+    for image in images.wrong:
+        made = [image.rows.get(i, right) for i, right in enumerate(images.right)]
+        if solved(made, images.accelerations) == target:
+            found.append((image.mistake,))
+    return found
+
+
+class Remainder:
+    """What is to be explained: for each wrong row, the candidates for (row / factor - right row), as numbers."""
+
+    def __init__(self, images: Images, rows: Sequence[Vector], alignment: Alignment) -> None:
+        self.images = images
+        point = images.point
+        self.targets: dict[int, list[int]] = {}
+        self.settled: set[int] = set()
+        for row, i in zip(rows, alignment.row_of, strict=True):
+            if i is None:
+                continue
+            if point.projective(row) == images.right_projective[i]:
+                self.settled.add(i)
+                continue
+            base = images.right[i]
+            candidates = [factor for factor, _ in factors(row, base)]
+            candidates += [f for f in usual_factors(images, i) if f not in candidates]
+            self.targets[i] = [
+                point.linear(combine([(pow(factor, -1, PRIME), row), (-1, base)])) for factor in candidates
+            ]
+
+    def after(self, image: Image) -> dict[int, list[int]] | None:
+        """What is left when a mistake is taken as made; None where it spoils a row that is right."""
+        if any(i in self.settled for i in image.change):
+            return None
+        left = {}
+        for i, targets in self.targets.items():
+            change = image.change.get(i, 0)
+            rest = [(target - change) % PRIME for target in targets]
+            if 0 not in rest:
+                left[i] = rest
+        return left
+
+
+def usual_factors(images: Images, i: int) -> list[int]:
+    """What people scale a row by: what Lagrange leaves on it, and signs."""
+    m, point = images.mechanism, images.point
+    s = m.space
+    one = point.value(m.divisor(i))
+    forms = [s.l(i), m.mass(i), m.mass(i) * s.l(i), s.l(i) * s.l(i)]
+    values = [1, one, *(point.value(f) for f in forms)]
+    return [sign * v % PRIME for v in values for sign in (1, -1)]
+
+
+def sums(images: Images, remainder: Remainder, size: int = 2) -> list[tuple[Mistake, ...]]:
+    """Pairs (or, with ``size`` 3, triples) of mistakes whose changes add up to what is wrong."""
+    table: dict[int, dict[int, list[Image]]] = defaultdict(lambda: defaultdict(list))
+    for image in images.wrong:
+        if remainder.after(image) is not None:
+            for i, change in image.change.items():
+                table[i][change].append(image)
+    found: dict[frozenset[str], tuple[Mistake, ...]] = {}
+    for mistakes in _sums(remainder.targets, table, images.wrong, remainder.settled, size):
+        found.setdefault(frozenset(m.name for m in mistakes), mistakes)
+    return list(found.values())
+
+
+def _sums(
+    targets: dict[int, list[int]],
+    table: dict[int, dict[int, list[Image]]],
+    wrong: list[Image],
+    settled: set[int],
+    size: int,
+) -> Iterator[tuple[Mistake, ...]]:
+    """The first mistake runs over the catalogue; the last is looked up by what it must still change."""
+    if size == 1:
+        if not targets:
+            return
+        row = min(targets, key=lambda i: len(targets[i]))
+        for target in set(targets[row]):
+            for image in table[row].get(target, ()):
+                if _explains(targets, image):
+                    yield (image.mistake,)
+        return
+    for image in wrong:
+        if any(i in settled for i in image.change):
+            continue
+        left, helps = {}, False
+        for i, numbers in targets.items():
+            change = image.change.get(i, 0)
+            helps = helps or change != 0
+            rest = [(number - change) % PRIME for number in numbers]
+            if 0 not in rest:
+                left[i] = rest
+        if helps and left:
+            for more in _sums(left, table, wrong, settled, size - 1):
+                if more[0].name != image.mistake.name:
+                    yield (image.mistake, *more)
+
+
+def _explains(targets: dict[int, list[int]], image: Image) -> bool:
+    return all(image.change.get(i, 0) in numbers for i, numbers in targets.items()) and set(image.change) <= set(
+        targets
+    )
+
+
+def composed(images: Images, rows: Sequence[Vector], alignment: Alignment) -> list[tuple[Mistake, ...]]:
+    """Pairs of mistakes that explain the rows when both are made in one derivation, though they do not add.
+
+    Two mistakes that do not add touch a term in common.
+    """
+    point = images.point
+    given = Counter(point.projective(row) for row in rows)
+    aligned = [(row, i) for row, i in zip(rows, alignment.row_of, strict=True) if i is not None]
+    wrong_rows = {i for row, i in aligned if point.projective(row) != images.right_projective[i]}
+    firsts = [(image, _differing(images, aligned, image)) for image in images.wrong if image.rows.keys() <= wrong_rows]
+    firsts.sort(key=lambda item: len(item[1]))
+    tried: set[tuple[str, str]] = set()
+    found: dict[frozenset[str], tuple[Mistake, ...]] = {}
+    for first, left in firsts[:COMPOSED_FIRST]:
+        for second in images.wrong:
+            names = (first.mistake.name, second.mistake.name)
+            if not left <= second.terms or not _may_meet(first, second, wrong_rows) or names[::-1] in tried:
+                continue
+            tried.add(names)
+            pair = (first.mistake, second.mistake)
+            made = images.rows(derive(images.mechanism, pair))
+            if given <= Counter(point.projective(row) for row in made):
+                found.setdefault(frozenset(names), pair)
+        if found or len(tried) > COMPOSED_TRIES:
+            break
+    return list(found.values())
+
+
+def _may_meet(first: Image, second: Image, wrong_rows: set[int]) -> bool:
+    """Whether two mistakes can be made in one derivation, meet in a term, and together touch just the wrong rows."""
+    if first is second or first.terms.isdisjoint(second.terms):
+        return False
+    stages = {first.mistake.stage, second.mistake.stage}
+    if not stages.isdisjoint(NEWTON) and not stages.isdisjoint(LAGRANGE_ONLY):
+        return False
+    return wrong_rows == first.rows.keys() | second.rows.keys()
+
+
+def _differing(images: Images, aligned: list[tuple[Vector, int]], image: Image) -> set[tuple[int, int]]:
+    """The terms in which the rows given differ from those of a catalogue derivation, each row at its best factor."""
+    terms: set[tuple[int, int]] = set()
+    for row, i in aligned:
+        base = image.rows.get(i, images.right[i])
+        best = factors(row, base)
+        factor = best[0][0] if best else 0
+        terms |= {(i, q) for q in row.keys() | base.keys() if row.get(q, 0) != factor * base.get(q, 0) % PRIME}
+    return terms
+
+
+def partial(images: Images, rows: Sequence[Vector], alignment: Alignment) -> dict[tuple[int, int], Mistake]:
+    """The mistakes of single terms that explain terms of the wrong rows, by (row, product of motion).
+
+    The factor of a row is the one that most of its terms bear out.
+    """
+    point = images.point
+    by_row: dict[int, dict[frozenset[int], dict[int, Mistake]]] = defaultdict(lambda: defaultdict(dict))
+    for image in images.wrong:
+        if image.mistake.stage == "equation" and len(image.rows) == 1:
+            ((i, row),) = image.rows.items()
+            change = combine([(1, row), (-1, images.right[i])])
+            by_row[i][frozenset(change)].setdefault(point.linear(change), image.mistake)
+    found: dict[tuple[int, int], Mistake] = {}
+    for row, i in zip(rows, alignment.row_of, strict=True):
+        if i is None:
+            continue
+        change = difference(row, images.right[i])
+        for keys, known in by_row[i].items():
+            if change.keys() >= keys:
+                mistake = known.get(point.linear({q: change[q] for q in keys}))
+                if mistake is not None:
+                    found |= {(i, q): mistake for q in keys}
+                    change = {q: value for q, value in change.items() if q not in keys}
+    return found
+
+
+def difference(row: Vector, base: Vector) -> Vector:
+    """row / factor - base, with the factor that most terms bear out."""
+    best = factors(row, base)
+    if not best:
+        return combine([(1, row), (-1, base)])
+    return combine([(pow(best[0][0], -1, PRIME), row), (-1, base)])
+
+
+def term_by_term(images: Images, rows: Sequence[Vector], alignment: Alignment) -> list[tuple[Mistake, ...]]:
+    """The mistakes of single terms, however many, when together they explain everything."""
+    found = partial(images, rows, alignment)
+    wrong = {
+        (i, q)
+        for row, i in zip(rows, alignment.row_of, strict=True)
+        if i is not None
+        for q in difference(row, images.right[i])
+    }
+    if not wrong or wrong != found.keys() or None in alignment.row_of:
+        return []
+    return [tuple({mistake.name: mistake for mistake in found.values()}.values())]
+
+
+def explanations(images: Images, rows: Sequence[Vector], alignment: Alignment) -> list[tuple[Mistake, ...]]:
+    """The shortest explanations there are, most likely first; empty where the catalogue has none."""
+    found = singles(images, rows)
+    if not found:
+        found = sums(images, Remainder(images, rows, alignment))
+    if not found and len(rows) == images.mechanism.n:
+        found = singles_solved(images, rows)
+    if not found:
+        found = composed(images, rows, alignment)
+    if not found:
+        found = term_by_term(images, rows, alignment)
+    return ranked(found)[:MOST_EXPLANATIONS]
+
+
+# Mistakes that share their equations with a likelier one are told after it.
+UNLIKELY = {
+    "inertia-counted-twice": 2, "rod-inertia-for-point-mass": 1, "rate-not-squared": 1, "x-sign": 1,
+    "inner-derivative-missing": 1, "mass-counted-twice": 1, "carriers-halved": 1, "rate-product": 1,
+    "moment-about-joint-with-central-inertia": 1, "zero-of-height-moved": 3, "angle-sum": 1,
+}  # fmt: skip
+
+
+def ranked(found: list[tuple[Mistake, ...]]) -> list[tuple[Mistake, ...]]:
+    """Fewest first, then the least unlikely; the catalogue's order (earlier stages first) decides what is left."""
+    return sorted(found, key=lambda mistakes: (len(mistakes), sum(UNLIKELY.get(m.code, 0) for m in mistakes)))
