@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..engines import Engine, EngineInfo, Integrator
+from ..engines import AnyShape, EngineInfo, Integrator
 from ..models import Scene
 from ..models.result import Outcome, Result
 from ..models.states import States
@@ -29,7 +29,7 @@ class Cell:
 
     scene: Scene
     info: EngineInfo
-    engine: Engine
+    engine: AnyShape
     states: States
     facts: SceneFacts
 

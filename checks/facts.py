@@ -72,4 +72,4 @@ def forward_error(facts: SceneFacts, accelerations: Array) -> Array:
     """Largest error over largest acceleration, in ε, at each state (norm-wise); (B,) from (B, n)."""
     error = np.abs(facts.error(accelerations)).max(axis=-1)
     size = np.abs(facts.high).max(axis=-1)
-    return np.divide(error, size * EPSILON, out=np.where(error > 0, np.inf, 0.0), where=size > 0)
+    return np.asarray(np.divide(error, size * EPSILON, out=np.where(error > 0, np.inf, 0.0), where=size > 0))

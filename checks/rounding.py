@@ -21,9 +21,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..models import PlanarTree, System
+from ..models import PlanarTree
 from ..models.tree import SUPPORT
 from ..reference import gravity_vector, mass_matrix
+from ..reference.motion import Mechanism
 
 Array = NDArray[np.float64]
 
@@ -57,31 +58,31 @@ class Amplitudes:
         """Σ|terms| of each row of the equations of motion, in these coordinates, (B, n) from (B, n)."""
         solve = self.root * (np.abs(self.own(alpha)) @ self.root)[..., None]
         bias: Array = (self.felt(omega) ** 2 @ self.inertia + self.gravity) @ self.to_absolute
-        return solve + bias
+        return np.asarray(solve + bias)
 
     def own(self, absolute: Array) -> Array:
         """Accelerations (or rates) in these coordinates."""
-        return np.linalg.solve(self.to_absolute, absolute[..., None])[..., 0]
+        return np.asarray(np.linalg.solve(self.to_absolute, absolute[..., None])[..., 0], dtype=np.float64)
 
     def felt(self, absolute: Array) -> Array:
         """Magnitudes that add up to each absolute rate or acceleration: in relative coordinates, all on the way."""
-        return np.abs(self.own(absolute)) @ self.to_absolute.T
+        return np.asarray(np.abs(self.own(absolute)) @ self.to_absolute.T)
 
     def residual(self, absolute: Array) -> Array:
         """Generalised forces of absolute angles as those of these coordinates."""
-        return absolute @ self.to_absolute
+        return np.asarray(absolute @ self.to_absolute)
 
     def entries(self) -> Array:
         """Magnitudes that meet in each entry of the absolute mass matrix, (n, n)."""
         back = np.abs(np.linalg.inv(self.to_absolute))
-        return back.T @ np.outer(self.root, self.root) @ back
+        return np.asarray(back.T @ np.outer(self.root, self.root) @ back)
 
     def forces(self) -> Array:
         """Magnitudes that meet in each row of an absolute generalised force, per magnitude in own rows, (n, n)."""
-        return np.abs(np.linalg.inv(self.to_absolute)).T
+        return np.asarray(np.abs(np.linalg.inv(self.to_absolute)).T)
 
 
-def amplitudes(system: System, coordinates: str) -> Amplitudes:
+def amplitudes(system: Mechanism, coordinates: str) -> Amplitudes:
     """Of the system's terms in ``relative`` coordinates, or in absolute angles for any other word."""
     tree = system.tree()
     to_absolute = relative_to_absolute(tree) if coordinates == "relative" else np.eye(tree.n)
@@ -100,7 +101,7 @@ def relative_to_absolute(tree: PlanarTree) -> Array:
     return matrix
 
 
-def condition(system: System, theta: Array, amplitude: Amplitudes, alpha: Array, omega: Array) -> Array:
+def condition(system: Mechanism, theta: Array, amplitude: Amplitudes, alpha: Array, omega: Array) -> Array:
     """Relative forward error of accelerations per unit of backward error, at each state: (B,) from (B, n).
 
     A backward error η leaves accelerations off by at most η·cond of the largest one.
@@ -109,7 +110,7 @@ def condition(system: System, theta: Array, amplitude: Amplitudes, alpha: Array,
     spread = np.abs(inverse @ amplitude_transform(amplitude))
     reach = (spread @ amplitude.rows(alpha, omega)[..., None])[..., 0].max(axis=-1)
     largest = np.abs(alpha).max(axis=-1)
-    return np.divide(reach, largest, out=np.full_like(reach, np.inf), where=largest > 0)
+    return np.asarray(np.divide(reach, largest, out=np.full_like(reach, np.inf), where=largest > 0))
 
 
 def amplitude_transform(amplitude: Amplitudes) -> Array:

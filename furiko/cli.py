@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -224,7 +224,7 @@ def print_json(content: object) -> None:
     click.echo(msgspec.json.format(msgspec.json.encode(content), indent=2).decode())
 
 
-def print_table(heading: tuple[str, ...], rows: list[tuple[str, ...]]) -> None:
+def print_table(heading: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> None:
     """A table for a person: as wide as the terminal there, as wide as it is in a pipe."""
     from rich.console import Console
     from rich.table import Table

@@ -95,7 +95,10 @@ def make_header(plan: Plan, given: Sequence[str] | None) -> Header:
 
 def scene_entry(scene: Scene, plan: Plan, source: str) -> SceneEntry:
     """What the header says of a scene."""
+    from .reference import EQUATIONS
+
     system = scene.system
+    formulas = {f"{equation.document} {equation.number}": equation.formula for equation in EQUATIONS}
     return SceneEntry(
         name=scene.name,
         system=system.kind,
@@ -106,7 +109,7 @@ def scene_entry(scene: Scene, plan: Plan, source: str) -> SceneEntry:
         duration=scene.duration,
         states=min(scene.random, plan.profile.random_states) + len(scene.named) + (scene.theta is not None),
         description=scene.description,
-        equations=list(scene.equations),
+        equations=[f"{name}: {formulas[name]}" if name in formulas else name for name in scene.equations],
         tags=list(scene.tags),
         source=scene.name if scene.name in catalogue() else source,
     )

@@ -71,19 +71,19 @@ def _draw(body: ElementTree.Element, length: float, bob: tuple[float, float] | N
     ElementTree.SubElement(
         body,
         "geom",
+        unseen_by_physics,
         type="capsule",
         fromto=f"0 0 0 0 0 {-length!r}",
         size=repr(length / 40),
         rgba="0.45 0.5 0.6 1",
-        **unseen_by_physics,
     )
     if bob is not None:
         ElementTree.SubElement(
             body,
             "geom",
+            unseen_by_physics,
             type="sphere",
             pos=point(bob),
             size=repr(length / 12),
             rgba="0.85 0.35 0.2 1",
-            **unseen_by_physics,
         )

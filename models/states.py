@@ -89,6 +89,6 @@ def random_states(seed: str, system: System, count: int) -> tuple[Array, Array]:
     return quantised(math.pi * draws[:, 0]), quantised(6 * natural_rate(system) * draws[:, 1])
 
 
-def quantised(values: Array) -> Array:
+def quantised(values: NDArray[np.floating]) -> Array:
     """Rounded to multiples of :data:`QUANTUM`."""
-    return np.round(values / QUANTUM) * QUANTUM
+    return np.asarray(np.round(values / QUANTUM) * QUANTUM, dtype=np.float64)

@@ -51,7 +51,7 @@ def _link(robot: ElementTree.Element, name: str, length: float, com: str, mass: 
     ElementTree.SubElement(inertial, "mass", value=repr(mass))
     # Only iyy, about the hinge axis, takes part in planar motion.
     moments = {"ixx": repr(inertia), "iyy": repr(inertia), "izz": repr(inertia)}
-    ElementTree.SubElement(inertial, "inertia", ixy="0", ixz="0", iyz="0", **moments)
+    ElementTree.SubElement(inertial, "inertia", moments, ixy="0", ixz="0", iyz="0")
     visual = ElementTree.SubElement(element, "visual")
     ElementTree.SubElement(visual, "origin", xyz=f"0 0 {-length / 2!r}", rpy="0 0 0")
     geometry = ElementTree.SubElement(visual, "geometry")
