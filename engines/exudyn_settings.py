@@ -77,3 +77,24 @@ def run(
             mbs.SetPreStepUserFunction(0)
     coordinates, rates = zip(*states, strict=True)
     return np.array(coordinates), np.array(rates)
+
+
+def run_adaptive(mbs: Any, linear_solver: Any, scheme: str, duration: float, tolerance: float) -> tuple[Array, Array]:
+    """Coordinates and their rates after ``duration`` [s] in steps that the scheme chooses; NaN where it gives up.
+
+    ``tolerance``: relative and absolute, of one step. The first step is a thousandth of the whole.
+    """
+    settings = quiet_settings(linear_solver)
+    integration = settings.timeIntegration
+    integration.numberOfSteps = 1  # its longest step is the duration over this
+    integration.endTime = duration
+    integration.initialStepSize = 1e-3 * duration
+    integration.minimumStepSize = 1e-12 * duration
+    integration.relativeTolerance = integration.absoluteTolerance = tolerance
+    data = mbs.systemData
+    try:
+        exudyn.SolveDynamic(mbs, settings, solverType=getattr(exudyn.DynamicSolverType, scheme))
+    except exudyn.SolverError:
+        lost = np.full(data.ODE2Size(), np.nan)
+        return lost, lost
+    return np.array(data.GetODE2Coordinates(Current)), np.array(data.GetODE2Coordinates_t(Current))

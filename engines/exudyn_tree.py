@@ -18,7 +18,7 @@ from exudyn.itemInterface import NodeGenericODE2, ObjectKinematicTree
 
 from ..models import System
 from .coordinates import RelativeCoordinates
-from .exudyn_settings import Current, Initial, quiet_settings, run
+from .exudyn_settings import Current, Initial, quiet_settings, run, run_adaptive
 from .protocol import Array, ModelFields
 
 _SOLVER = exudyn.LinearSolverType.EigenDense
@@ -117,6 +117,13 @@ class ExudynTree:
 
     def path(self, theta: Array, omega: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
         return self._run(theta, omega, integrator, step, steps, all_states=True)
+
+    def adaptive(
+        self, theta: Array, omega: Array, scheme: str, duration: float, tolerance: float
+    ) -> tuple[Array, Array]:
+        self._start_at(*(row[0] for row in map(self._coordinates.relative, (theta[None], omega[None]))))
+        angles, rates = run_adaptive(self._mbs, _SOLVER, scheme, duration, tolerance)
+        return self._coordinates.absolute(angles[None])[0], self._coordinates.absolute(rates[None])[0]
 
     def _run(
         self, theta: Array, omega: Array, integrator: str, step: float, steps: int, *, all_states: bool

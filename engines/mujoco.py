@@ -13,6 +13,11 @@
 
 from __future__ import annotations
 
+import ctypes
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from functools import partial
+from pathlib import Path
 from typing import Any
 
 import mujoco
@@ -21,7 +26,7 @@ import numpy as np
 from ..models import PlanarTree, System, to_mjcf
 from ..models.mjcf import DEEPEST, LEAST_INERTIA
 from .coordinates import RelativeCoordinates
-from .protocol import Array, ModelFields
+from .protocol import Array, BareCall, ModelFields
 
 INTEGRATORS = {
     "Euler": mujoco.mjtIntegrator.mjINT_EULER,
@@ -122,6 +127,22 @@ class Mujoco:
     def path(self, theta: Array, omega: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
         return self._run(theta, omega, integrator, step, [1] * steps)
 
+    def bare_calls(self, theta: Array, omega: Array, threads: int) -> dict[str, BareCall]:
+        """``mj_forward`` on the first state, and the batch module on all of them."""
+        from mujoco.batch import Batch
+
+        batch = Batch(self._model, len(theta), threads)
+        batch.qpos, batch.qvel = self._coordinates.relative(theta), self._coordinates.relative(omega)
+        batch.bind("qacc")  # else it would compute and give nothing back
+        self._data.qpos[:], self._data.qvel[:] = batch.qpos[0], batch.qvel[0]
+        return {
+            "mj_forward": BareCall(1, partial(mujoco.mj_forward, self._model, self._data)),
+            "batch.Batch.forward": BareCall(len(theta), batch.forward),
+        }
+
+    def lighter(self) -> dict[str, Callable[[], AbstractContextManager[None]]]:
+        return {"timer off": _timer_off}
+
     def _run(self, theta: Array, omega: Array, integrator: str, step: float, strides: list[int]) -> tuple[Array, Array]:
         """The state at the start and after each stride of so many steps, (strides + 1, n) each."""
         model, data, option = self._model, self._moving, self._model.opt
@@ -169,6 +190,21 @@ def model_from_spec(tree: PlanarTree) -> Any:
         body.add_joint(name=hinge_name, type=mujoco.mjtJoint.mjJNT_HINGE, axis=[0.0, -1.0, 0.0])
         bodies.append(body)
     return spec.compile()
+
+
+@contextmanager
+def _timer_off() -> Iterator[None]:
+    """Without the clock that the Python package, unlike the C library, reads again and again in every step.
+
+    ``mujoco.set_mjcb_time(None)`` does not take it away: the package's own clock stays where it is.
+    """
+    (library,) = Path(mujoco.__file__).parent.glob("*mujoco.*[0-9]*")
+    clock = ctypes.c_void_p.in_dll(ctypes.CDLL(str(library)), "mjcb_time")
+    kept, clock.value = clock.value, None
+    try:
+        yield
+    finally:
+        clock.value = kept
 
 
 def _quiet_data(model: Any) -> Any:

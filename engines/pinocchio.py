@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +22,7 @@ import pinocchio
 
 from ..models import InvalidInput, System, to_mjcf, to_urdf
 from .coordinates import RelativeCoordinates
-from .protocol import Array, ModelFields
+from .protocol import Array, BareCall, ModelFields, Native
 
 
 class _Pinocchio:
@@ -100,6 +101,9 @@ class _Pinocchio:
         ]
         return np.array(energies).reshape(-1, 2)
 
+    def native(self) -> Native:
+        return Native(self._solver(), self._coordinates.relative, self._coordinates.absolute)
+
     def _relative(self, *absolute: Array) -> Any:
         return zip(*map(self._coordinates.relative, absolute), strict=True)
 
@@ -110,6 +114,12 @@ class PinocchioAba(_Pinocchio):
     def _solver(self) -> Callable[[Array, Array], Array]:
         model, data, aba, torques = self._model, self._data, pinocchio.aba, np.zeros(self._model.nv)
         return lambda q, v: aba(model, data, q, v, torques)
+
+    def bare_calls(self, theta: Array, omega: Array, threads: int) -> dict[str, BareCall]:
+        """``aba`` on the first state; ``threads`` is for batches, which it has none of."""
+        ((q, v),) = self._relative(theta[:1], omega[:1])
+        torques = np.zeros(self._model.nv)
+        return {"aba": BareCall(1, partial(pinocchio.aba, self._model, self._data, q, v, torques))}
 
 
 class PinocchioAbaMjcf(PinocchioAba):

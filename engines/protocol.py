@@ -6,7 +6,8 @@ have shape (B, n). Forces and torques are those of the planar mechanism; x is to
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from typing import Literal, Protocol
 
@@ -39,7 +40,8 @@ class EngineInfo:
     """An engine's name and capabilities, known without importing it.
 
     ``adapter``: where its class is, ``module:Class``; ``module``: what it imports; ``package``: what to pip install.
-    ``coordinates``: those in which it forms and solves the equations, hence where its rounding arises. ``missing``:
+    ``coordinates``: those in which it forms and solves the equations, hence where its rounding arises. ``adaptive``:
+    its schemes that choose their own steps from a tolerance. ``missing``:
     for each quantity it cannot give, the sentence that says why. ``accuracy``: relative accuracy of one operation,
     and ``accuracy_reason`` where that is more than double precision's rounding. ``largest_n`` links it takes,
     and a mass of ``least_mass`` [kg] or more and an inertia about the hinge of ``least_inertia`` [kg m²] or more for
@@ -54,6 +56,7 @@ class EngineInfo:
     homepage: str
     coordinates: Literal["relative", "absolute", "maximal"]
     integrators: tuple[Integrator, ...] = ()
+    adaptive: tuple[str, ...] = ()
     missing: Mapping[str, str] = field(default_factory=dict)
     largest_n: int = 10_000
     largest_n_reason: str = ""
@@ -84,6 +87,23 @@ class ModelFields:
     gravity: Array
     armature: Array
     damping: Array
+
+
+@dataclass(frozen=True)
+class BareCall:
+    """One call of an engine's interface, its input in place, that computes the accelerations of ``states`` states."""
+
+    states: int
+    call: Callable[[], object]
+
+
+@dataclass(frozen=True)
+class Native:
+    """An engine's accelerations a(q, v), (n,), in its own coordinates, and the changes to and from them, (B, n)."""
+
+    accelerate: Callable[[Array, Array], Array]
+    from_absolute: Callable[[Array], Array]
+    to_absolute: Callable[[Array], Array]
 
 
 class Engine(Protocol):
@@ -124,4 +144,28 @@ class Engine(Protocol):
 
         An adapter may leave this out: whoever wants a path then runs to each of its points anew.
         """
+        ...
+
+    def adaptive(
+        self, theta: Array, omega: Array, scheme: str, duration: float, tolerance: float
+    ) -> tuple[Array, Array]:
+        """θ and ω, shape (n,) each, after ``duration`` seconds by one of the info's adaptive schemes, if there are any.
+
+        ``tolerance``: relative and absolute, of one step.
+        """
+        ...
+
+    def bare_calls(self, theta: Array, omega: Array, threads: int) -> Mapping[str, BareCall]:
+        """Its barest ways to accelerations, by the names that its users know, prepared to be timed.
+
+        A call works on all the states (B, n), or on the first alone. An adapter may leave this out.
+        """
+        ...
+
+    def native(self) -> Native:
+        """Its accelerations in its own coordinates, one state a call; an adapter may leave this out."""
+        ...
+
+    def lighter(self) -> Mapping[str, Callable[[], AbstractContextManager[None]]]:
+        """Contexts in which its calls are spared what its bindings alone add, by name; it may leave this out."""
         ...

@@ -72,6 +72,7 @@ ENGINES: dict[str, EngineInfo] = {
                 Integrator("RK67", 6),
                 Integrator("GeneralizedAlpha", 2, tolerance=1e-12, remembers=True),
             ),
+            adaptive=("DOPRI5",),
             missing={"joint_forces": "a kinematic tree in minimal coordinates never forms the forces in its joints"},
             largest_n=1000,
             largest_n_reason="a state costs n³ operations",

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..models import InvalidInput
 from ..models.errors import nearest
-from .protocol import Array, Engine, EngineInfo, ModelFields, Quantity
+from .protocol import Array, BareCall, Engine, EngineInfo, ModelFields, Native, Quantity
 
 
 class AnyShape:
@@ -73,6 +74,35 @@ class AnyShape:
         angles, rates = self._engine.path(*start, integrator, float(step), int(steps))
         return self._held(angles, (steps + 1, self._n)), self._held(rates, (steps + 1, self._n))
 
+    def adaptive(
+        self, theta: ArrayLike, omega: ArrayLike, scheme: str, duration: float, tolerance: float
+    ) -> tuple[Array, Array]:
+        """θ and ω, shape (n,) each, after ``duration`` [s] by a scheme that chooses its steps from ``tolerance``."""
+        self._refuse_missing("trajectory")
+        if scheme not in self.info.adaptive:
+            has = ", ".join(self.info.adaptive) or "none"
+            raise InvalidInput(f"{self.info.name}: no adaptive scheme {scheme!r}; it has {has}")
+        for name, value in (("duration", duration), ("tolerance", tolerance)):
+            if not (math.isfinite(value) and value > 0):
+                raise InvalidInput(f"{name}: a positive number is needed, got {value!r}")
+        start = self._state(theta, omega)
+        angles, rates = self._engine.adaptive(*start, scheme, float(duration), float(tolerance))
+        return self._held(angles, (self._n,)), self._held(rates, (self._n,))
+
+    def bare_calls(self, theta: ArrayLike, omega: ArrayLike, threads: int = 1) -> Mapping[str, BareCall]:
+        """The engine's barest ways to the accelerations of states (B, n), to be timed; none if it offers none."""
+        if not hasattr(self._engine, "bare_calls"):
+            return {}
+        return self._engine.bare_calls(_numbers("theta", theta), _numbers("omega", omega), threads)
+
+    def native(self) -> Native | None:
+        """The engine's accelerations in its own coordinates; None where it does not offer them."""
+        return self._engine.native() if hasattr(self._engine, "native") else None
+
+    def lighter(self) -> Mapping[str, Callable[[], AbstractContextManager[None]]]:
+        """Contexts in which the engine is spared what its bindings alone add to each call, by name."""
+        return self._engine.lighter() if hasattr(self._engine, "lighter") else {}
+
     def _start(
         self, theta: ArrayLike, omega: ArrayLike, integrator: str, step: float, steps: int
     ) -> tuple[Array, Array]:
@@ -86,6 +116,9 @@ class AnyShape:
             raise InvalidInput(f"step: a positive number of seconds is needed, got {step!r}")
         if steps < 1:
             raise InvalidInput(f"steps: at least 1 is needed, got {steps!r}")
+        return self._state(theta, omega)
+
+    def _state(self, theta: ArrayLike, omega: ArrayLike) -> tuple[Array, Array]:
         angles, rates = _numbers("theta", theta), _numbers("omega", omega)
         for name, values in (("theta", angles), ("omega", rates)):
             if values.shape != (self._n,):
