@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..models.result import Result
 from ..reference import mass_matrix
-from .cell import Cell, quotient, worst
+from .cell import Cell, Worst, quotient, worst
 from .facts import forward_error
-from .rounding import EPSILON, Amplitudes, allowed, amplitudes
+from .rounding import EPSILON, Amplitudes, allowed
 
 Array = NDArray[np.float64]
 
@@ -31,31 +32,30 @@ def compare(cell: Cell) -> Iterator[Result]:
     found = worst(error)
     bound = allowed(system.n, cell.info.accuracy)
     state, row = found.index
-    label = cell.states.labels[state]
     forward = forward_error(facts, got)
     literal = forward_error(facts, facts.literal)
     moving = np.abs(facts.high).max(axis=-1) > np.abs(facts.high).max() * EPSILON
     cond = facts.cond_relative if cell.info.coordinates == "relative" else facts.cond_absolute
-    typical = float(np.median(forward[moving])) if moving.any() else 0.0
+    details = {
+        "states": len(cell.states),
+        "worst state": cell.states.labels[state],
+        "worst angle": row + 1,
+        "coordinates": cell.info.coordinates,
+        "forward error": EPSILON * finite_max(forward, moving),
+        "forward error, median": EPSILON * float(np.median(forward[moving])) if moving.any() else 0.0,
+        "forward error of the document's formula": EPSILON * finite_max(literal, moving),
+        "condition, absolute angles": finite_max(facts.cond_absolute, moving),
+        "condition, engine's coordinates": finite_max(cond, moving),
+        "inexact side": inexact_side(forward[moving], literal[moving]),
+    }
     yield cell.result(
         NAME,
         "agrees" if found.value <= bound else "differs",
         measured=found.value,
         allowed=bound,
         unit="ε",
-        reason=_reason(cell, found.value, bound, label, row),
-        details={
-            "states": len(cell.states),
-            "worst state": label,
-            "worst angle": row + 1,
-            "coordinates": cell.info.coordinates,
-            "forward error": EPSILON * finite_max(forward, moving),
-            "forward error, median": EPSILON * typical,
-            "forward error of the document's formula": EPSILON * finite_max(literal, moving),
-            "condition, absolute angles": finite_max(facts.cond_absolute, moving),
-            "condition, engine's coordinates": finite_max(cond, moving),
-            "inexact side": inexact_side(forward[moving], literal[moving]),
-        },
+        reason=_reason(found, bound, details),
+        details=details,
     )
 
 
@@ -82,15 +82,16 @@ def finite_max(values: Array, chosen: NDArray[np.bool_]) -> float:
     return float(np.max(values[chosen])) if chosen.any() else 0.0
 
 
-def literal_backward_error(cell: Cell) -> float:
-    """Backward error of the document's own formula in double precision, in ε."""
-    return worst(backward_error(cell, cell.facts.literal, amplitudes(cell.scene.system, "absolute"))).value
-
-
-def _reason(cell: Cell, measured: float, bound: float, label: str, row: int) -> str:
-    if measured > bound:
+def _reason(found: Worst, bound: float, details: dict[str, Any]) -> str:
+    if found.value > bound:
         return (
-            f"the acceleration of angle {row + 1} in state {label!r} leaves a residual of {measured:.3g} ε of its "
-            f"equation's terms; rounding explains {bound:.3g} ε"
+            f"the acceleration of angle {details['worst angle']} in state {details['worst state']!r} leaves a residual "
+            f"of {found.value:.3g} ε of its equation's terms; rounding explains {bound:.3g} ε"
         )
-    return cell.info.accuracy_reason or f"{cell.scene.system.n} links' roundings in {cell.info.coordinates} coordinates"
+    engine, formula = details["forward error"], details["forward error of the document's formula"]
+    if details["inexact side"] == "neither":
+        return f"both within {max(engine, formula):.1e} of the true accelerations"
+    return (
+        f"the {details['inexact side']} is the inexact side: the engine is within {engine:.1e} of the true "
+        f"accelerations, the document's formula within {formula:.1e}"
+    )

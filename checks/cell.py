@@ -56,6 +56,14 @@ class Cell:
             (2, theta.size),
         )
 
+    def path(self, theta: Array, omega: Array, integrator: Integrator, step: float, steps: int) -> Array | None:
+        """θ and ω side by side at the start and after each step, (steps + 1, 2n); None where the adapter has no paths.
+
+        A run that comes to grief is no fault here: NaN passes.
+        """
+        found = self.engine.path(theta, omega, integrator.name, step, steps)
+        return None if found is None else np.concatenate(found, axis=-1)
+
     def answer(self, quantity: str, answer: object, shape: tuple[int, ...]) -> Array:
         """``answer`` as an array of this shape, or :class:`EngineFault` saying what is wrong with it."""
         try:

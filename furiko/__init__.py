@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .engines import engine_names, load_engine
     from .models import EngineMissing, InvalidInput, NLegPendulum, RodChain, to_mjcf, to_urdf
+    from .reference.kernels import accelerations
     from .reports import Report, read_stream
     from .run import check
 
@@ -22,6 +23,7 @@ _HOMES = {
     "NLegPendulum": "models",
     "Report": "reports",
     "RodChain": "models",
+    "accelerations": "reference.kernels",
     "check": "run",
     "engine_names": "engines",
     "load_engine": "engines",
@@ -36,6 +38,7 @@ __all__ = [
     "NLegPendulum",
     "Report",
     "RodChain",
+    "accelerations",
     "check",
     "engine_names",
     "load_engine",

@@ -79,6 +79,11 @@ class Report:
         return {outcome: found[outcome] for outcome in OUTCOMES}
 
     @cached_property
+    def kept(self) -> int:
+        """Number of results that were taken from an earlier run with the very same inputs."""
+        return sum(result.kept for result in self.results)
+
+    @cached_property
     def scenes(self) -> tuple[str, ...]:
         """Names of the scenes: the header's in its order, then any that only results name."""
         return _in_order([scene.name for scene in self.header.scenes], (result.scene for result in self.results))

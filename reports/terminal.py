@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TextIO
 
 from ..models.result import Outcome, Result
 from .report import AGREES, DIFFERS, Cell, Report, against
-from .words import GLYPHS, LEGEND, few, last_line, one_line
+from .words import GLYPHS, LEGEND, count, few, last_line, one_line
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -46,6 +46,8 @@ def print_report(
         page.line(flaw, "bold reverse")
     style = {AGREES: STYLES["agrees"], DIFFERS: STYLES["differs"]}.get(report.exit_status, STYLES["error"])
     page.line(report.verdict, f"bold {style}")
+    if report.kept:
+        page.line(f"{count(report.kept, 'result')} kept from an earlier run with the same inputs (--no-cache runs them).")
     if path is not None:
         page.line(f"Report: {path}")
 

@@ -104,3 +104,9 @@ def test_a_stream_that_knows_only_ascii_gets_ascii(make):
     text = printed(make.report(make.result("differs", reason="θ is off")), encoding="ascii")
     assert "x differs 0.048 x" in text
     assert "\\u03b8 is off" in text
+
+
+def test_kept_results_are_told(make):
+    kept = make.report(make.result(kept=True), make.result(check="energy"))
+    assert "1 result kept from an earlier run" in printed(kept)
+    assert "kept" not in printed(make.report(make.result()))

@@ -1,0 +1,44 @@
+"""Imports run one way, as the layout promises, and engines are imported only by their adapters."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent.parent
+MAY_IMPORT = {
+    "models": {"models"},
+    "reference": {"models", "reference"},
+    "engines": {"models", "engines"},
+    "checks": {"models", "reference", "engines", "checks"},
+    "derivations": {"models", "reference", "engines", "checks", "derivations"},
+    "reports": {"models", "reports"},
+}
+ENGINES = {"mujoco", "pinocchio", "exudyn"}
+FILES = [path for folder in MAY_IMPORT for path in sorted((ROOT / folder).rglob("*.py"))]
+
+
+def imported(path):
+    """Folders of furiko and top-level packages that a file imports, relative imports resolved."""
+    folder = path.relative_to(ROOT).parts[0]
+    depth = len(path.relative_to(ROOT).parts) - 1  # folders between the root and the file
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (name.name.split(".")[0] for name in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.level == 0:
+            yield node.module.split(".")[0]
+        elif isinstance(node, ast.ImportFrom):
+            if node.level <= depth:
+                yield folder
+            else:
+                yield from [node.module.split(".")[0]] if node.module else (name.name for name in node.names)
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_imports_run_one_way(path):
+    folder = path.relative_to(ROOT).parts[0]
+    found = set(imported(path))
+    assert found & {*MAY_IMPORT, "furiko"} <= MAY_IMPORT[folder]
+    assert "furiko" not in found, "inside the folders imports are relative"
+    if folder != "engines":
+        assert not found & ENGINES
