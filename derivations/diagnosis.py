@@ -47,6 +47,7 @@ class Diagnosis:
     mistakes: tuple[Named, ...] = ()
     alternatives: tuple[tuple[str, ...], ...] = ()
     notes: tuple[str, ...] = ()
+    notes_ja: tuple[str, ...] = ()
     system: str = ""
     links: int = 0
 
@@ -88,7 +89,8 @@ def _japanese(d: Diagnosis) -> str:
         told = "" if any(f.says_ja == m.says_ja for m in d.mistakes) else f"  {f.says_ja}"
         row = f"第{f.row}行 " if f.row else ""
         lines.append(f"  ({f.equation}) {row}{f.term}：{f.found} → 正しくは {f.expected}{told}")
-    return "\n".join([*lines, *(f"  {note}" for note in d.notes)])
+    lines += [f"  または：{'、'.join(names)}" for names in d.alternatives]
+    return "\n".join([*lines, *(f"  {note}" for note in d.notes_ja)])
 
 
 STAGES_EN = {

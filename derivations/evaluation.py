@@ -44,17 +44,22 @@ class Evaluation:
             case Sum(parts=parts):
                 total = number(0)
                 for sign, part in parts:
-                    total = total.plus(self.value(part), sign, self.budget)
+                    value = self.value(part)
+                    self.budget.at = part.at
+                    total = total.plus(value, sign, self.budget)
                 return total
             case Product(parts=parts):
                 product = number(1)
                 for above, part in parts:
-                    product = product.times(self._factor(part, above), self.budget)
+                    factor = self._factor(part, above)
+                    self.budget.at = part.at
+                    product = product.times(factor, self.budget)
                 return product
             case Power(base=base, exponent=exponent, at=at):
                 value = self.value(base)
                 if exponent < 0 and not value.top:
                     fail(at, "zero to a negative power")
+                self.budget.at = at
                 return value.power(exponent, self.budget)
             case Call():
                 return self._call(node)

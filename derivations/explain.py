@@ -13,7 +13,7 @@ since it may have been scaled by anything:
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from .derivation import NEWTON, Mistake, derive
@@ -87,34 +87,41 @@ def singles_solved(images: Images, rows: Sequence[Vector]) -> list[tuple[Mistake
 
 
 class Remainder:
-    """What is to be explained: for each wrong row, the candidates for (row / factor - right row), as numbers."""
+    """What is to be explained: the wrong rows, as numbers, each with guesses at the factor it was scaled by.
+
+    ``taken``: a mistake that is already taken as made; the guesses then come from its rows too, since it may have left
+    no term of the right row as it was.
+    """
 
     def __init__(self, images: Images, rows: Sequence[Vector], alignment: Alignment) -> None:
         self.images = images
-        point = images.point
-        self.targets: dict[int, list[int]] = {}
+        self.rows: dict[int, Vector] = {}
         self.settled: set[int] = set()
+        self.guesses: dict[int, list[int]] = {}
         for row, i in zip(rows, alignment.row_of, strict=True):
             if i is None:
                 continue
-            if point.projective(row) == images.right_projective[i]:
+            if images.point.projective(row) == images.right_projective[i]:
                 self.settled.add(i)
                 continue
-            base = images.right[i]
-            candidates = [factor for factor, _ in factors(row, base)]
-            candidates += [f for f in usual_factors(images, i) if f not in candidates]
-            self.targets[i] = [
-                point.linear(combine([(pow(factor, -1, PRIME), row), (-1, base)])) for factor in candidates
-            ]
+            self.rows[i] = row
+            self.guesses[i] = [pow(f, -1, PRIME) for f, _ in factors(row, images.right[i])]
+            self.guesses[i] += [pow(f, -1, PRIME) for f in usual_factors(images, i)]
+        self.numbers = {i: images.point.linear(row) for i, row in self.rows.items()}
+        self.base = [images.point.linear(row) for row in images.right]
 
-    def after(self, image: Image) -> dict[int, list[int]] | None:
-        """What is left when a mistake is taken as made; None where it spoils a row that is right."""
-        if any(i in self.settled for i in image.change):
+    def after(self, image: Image | None) -> dict[int, set[int]] | None:
+        """What is left of each wrong row when a mistake is taken as made; None where it spoils a row that is right."""
+        changes = image.change if image is not None else {}
+        if not self.settled.isdisjoint(changes):
             return None
-        left = {}
-        for i, targets in self.targets.items():
-            change = image.change.get(i, 0)
-            rest = [(target - change) % PRIME for target in targets]
+        left: dict[int, set[int]] = {}
+        for i, row in self.rows.items():
+            base = self.base[i] + changes.get(i, 0)
+            guesses = self.guesses[i]
+            if image is not None and i in image.rows:
+                guesses = guesses + [pow(f, -1, PRIME) for f, _ in factors(row, image.rows[i])[:3]]
+            rest = {(self.numbers[i] * guess - base) % PRIME for guess in guesses}
             if 0 not in rest:
                 left[i] = rest
         return left
@@ -130,56 +137,28 @@ def usual_factors(images: Images, i: int) -> list[int]:
     return [sign * v % PRIME for v in values for sign in (1, -1)]
 
 
-def sums(images: Images, remainder: Remainder, size: int = 2) -> list[tuple[Mistake, ...]]:
-    """Pairs (or, with ``size`` 3, triples) of mistakes whose changes add up to what is wrong."""
+def sums(images: Images, remainder: Remainder) -> list[tuple[Mistake, ...]]:
+    """Pairs of mistakes whose changes add up to what is wrong: the second is looked up by what the first leaves."""
     table: dict[int, dict[int, list[Image]]] = defaultdict(lambda: defaultdict(list))
     for image in images.wrong:
-        if remainder.after(image) is not None:
-            for i, change in image.change.items():
-                table[i][change].append(image)
+        for i, change in image.change.items():
+            table[i][change].append(image)
     found: dict[frozenset[str], tuple[Mistake, ...]] = {}
-    for mistakes in _sums(remainder.targets, table, images.wrong, remainder.settled, size):
-        found.setdefault(frozenset(m.name for m in mistakes), mistakes)
+    for first in images.wrong:
+        left = remainder.after(first)
+        if not left or (len(left) == len(remainder.rows) and remainder.rows.keys().isdisjoint(first.change)):
+            continue
+        row = min(left, key=lambda i: len(left[i]))
+        for number in left[row]:
+            for second in table[row].get(number, ()):
+                if second is not first and _explains(left, second):
+                    pair = (first.mistake, second.mistake)
+                    found.setdefault(frozenset(m.name for m in pair), pair)
     return list(found.values())
 
 
-def _sums(
-    targets: dict[int, list[int]],
-    table: dict[int, dict[int, list[Image]]],
-    wrong: list[Image],
-    settled: set[int],
-    size: int,
-) -> Iterator[tuple[Mistake, ...]]:
-    """The first mistake runs over the catalogue; the last is looked up by what it must still change."""
-    if size == 1:
-        if not targets:
-            return
-        row = min(targets, key=lambda i: len(targets[i]))
-        for target in set(targets[row]):
-            for image in table[row].get(target, ()):
-                if _explains(targets, image):
-                    yield (image.mistake,)
-        return
-    for image in wrong:
-        if any(i in settled for i in image.change):
-            continue
-        left, helps = {}, False
-        for i, numbers in targets.items():
-            change = image.change.get(i, 0)
-            helps = helps or change != 0
-            rest = [(number - change) % PRIME for number in numbers]
-            if 0 not in rest:
-                left[i] = rest
-        if helps and left:
-            for more in _sums(left, table, wrong, settled, size - 1):
-                if more[0].name != image.mistake.name:
-                    yield (image.mistake, *more)
-
-
-def _explains(targets: dict[int, list[int]], image: Image) -> bool:
-    return all(image.change.get(i, 0) in numbers for i, numbers in targets.items()) and set(image.change) <= set(
-        targets
-    )
+def _explains(left: dict[int, set[int]], image: Image) -> bool:
+    return image.change.keys() <= left.keys() and all(image.change.get(i, 0) in left[i] for i in left)
 
 
 def composed(images: Images, rows: Sequence[Vector], alignment: Alignment) -> list[tuple[Mistake, ...]]:
@@ -192,13 +171,13 @@ def composed(images: Images, rows: Sequence[Vector], alignment: Alignment) -> li
     aligned = [(row, i) for row, i in zip(rows, alignment.row_of, strict=True) if i is not None]
     wrong_rows = {i for row, i in aligned if point.projective(row) != images.right_projective[i]}
     firsts = [(image, _differing(images, aligned, image)) for image in images.wrong if image.rows.keys() <= wrong_rows]
-    firsts.sort(key=lambda item: len(item[1]))
+    firsts.sort(key=lambda item: sum(len(guesses[0]) for guesses in item[1]))
     tried: set[tuple[str, str]] = set()
     found: dict[frozenset[str], tuple[Mistake, ...]] = {}
     for first, left in firsts[:COMPOSED_FIRST]:
         for second in images.wrong:
             names = (first.mistake.name, second.mistake.name)
-            if not left <= second.terms or not _may_meet(first, second, wrong_rows) or names[::-1] in tried:
+            if not _covers(second, left) or not _may_meet(first, second, wrong_rows) or names[::-1] in tried:
                 continue
             tried.add(names)
             pair = (first.mistake, second.mistake)
@@ -220,15 +199,24 @@ def _may_meet(first: Image, second: Image, wrong_rows: set[int]) -> bool:
     return wrong_rows == first.rows.keys() | second.rows.keys()
 
 
-def _differing(images: Images, aligned: list[tuple[Vector, int]], image: Image) -> set[tuple[int, int]]:
-    """The terms in which the rows given differ from those of a catalogue derivation, each row at its best factor."""
-    terms: set[tuple[int, int]] = set()
+def _differing(
+    images: Images, aligned: list[tuple[Vector, int]], image: Image
+) -> list[list[frozenset[tuple[int, int]]]]:
+    """For each row, the terms that differ from a catalogue derivation: at its best factor, and at the next best ones."""
+    differing = []
     for row, i in aligned:
         base = image.rows.get(i, images.right[i])
-        best = factors(row, base)
-        factor = best[0][0] if best else 0
-        terms |= {(i, q) for q in row.keys() | base.keys() if row.get(q, 0) != factor * base.get(q, 0) % PRIME}
-    return terms
+        guesses = [factor for factor, _ in factors(row, base)[:3]] or [0]
+        differing.append([
+            frozenset((i, q) for q in row.keys() | base.keys() if row.get(q, 0) != factor * base.get(q, 0) % PRIME)
+            for factor in guesses
+        ])  # fmt: skip
+    return differing
+
+
+def _covers(image: Image, left: list[list[frozenset[tuple[int, int]]]]) -> bool:
+    """Whether a mistake touches all that is left to be explained, for some factor of each row."""
+    return all(any(terms <= image.terms for terms in guesses) for guesses in left)
 
 
 def partial(images: Images, rows: Sequence[Vector], alignment: Alignment) -> dict[tuple[int, int], Mistake]:

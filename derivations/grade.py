@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from flint import fmpq
 
+from .compare import told
 from .derivation import Mistake, Row, derive, lagrange_rows, right
 from .diagnosis import Diagnosis, Finding, Named
 from .explain import Alignment, align, explanations, factors, partial
 from .fingerprint import PRIME, Point, Vector, solved
 from .images import Images, View, images
 from .mechanism import Mechanism
-from .notation import equation_number, motion_text, term_name, text
+from .notation import equation_number, solved_term_name, term_name, text
 from .rows import (
     by_waves,
     columns_to_absolute,
@@ -25,6 +26,7 @@ from .rows import (
     is_multiple,
     merged,
 )
+from .solved_form import is_solved, solved_rows
 from .submission import Submission, parse_submission, read_submission
 from .trig import COS, CONSTANT_ONE, NOTHING, Formula, digits
 
@@ -109,7 +111,9 @@ class _Case:
                 return self._answer("correct")
         if self._equivalent():
             note = "The rows are combinations of the documents' rows, and determine the same accelerations."
-            return self._answer("correct", notes=(note,))
+            return self._answer(
+                "correct", notes=(note,), notes_ja=("各行は文献の式の一次結合で、同じ加速度を与えます。",)
+            )
         return None
 
     def _one_scale(self, matches: Sequence[int | None]) -> bool:
@@ -175,7 +179,8 @@ class _Case:
             return None
         rows = ", ".join(f"of θ{i + 1}" for i in missing)
         note = f"What is there is right; the equation {rows} is not there."
-        return self._answer("undecided", notes=(note,))
+        note_ja = "書かれている式は正しいですが、足りない式があります：" + "、".join(f"θ{i + 1}" for i in missing)
+        return self._answer("undecided", notes=(note,), notes_ja=(note_ja,))
 
     # Wrong ------------------------------------------------------------------------------------------------------------
 
@@ -282,7 +287,11 @@ class _Case:
         """The terms that differ when each row is scaled so that most of its terms agree."""
         if self.lagrangian is not None:
             note = "No mistake of the catalogue leads to this Lagrangian."
-            return self._answer("wrong", findings=self._lagrangian_findings(()), notes=(note,))
+            note_ja = "このラグランジアンになる誤りは目録にありません。"
+            return self._answer("wrong", findings=self._lagrangian_findings(()), notes=(note,), notes_ja=(note_ja,))
+        rows = [given.row for given in self.given]
+        if is_solved(self.m, rows) and not self.view.relative:
+            return self._answer("wrong", findings=self._solved_findings())
         findings: list[Finding] = []
         known = partial(self.images, self.vectors, alignment)
         for given, i in zip(self.given, alignment.row_of, strict=True):
@@ -293,34 +302,48 @@ class _Case:
                     says[0].format(given.label), says[1].format(given.label), given.label,
                 ))  # fmt: skip
             elif not is_multiple(given.row, self.right_rows[i]):
-                findings += self._differences(given, i, known)
+                findings += self._differences(given, i, self.right_rows[i], known)
         return self._answer("wrong", findings=tuple(findings))
 
-    def _differences(self, given: _Given, i: int, known: dict[tuple[int, int], Mistake]) -> list[Finding]:
-        base = self.right_rows[i]
-        best = factors(given.vector, self.images.right[i])
-        agreed = [
-            q for q in base
-            if q in given.vector and best
-            and given.vector[q] == best[0][0] * self.images.right[i].get(q, 0) % PRIME
-        ]  # fmt: skip
+    def _solved_findings(self) -> tuple[Finding, ...]:
+        """The differences of rows that are solved for the accelerations from the right ones, solved too."""
+        findings: list[Finding] = []
+        base = solved_rows(self.m, self.right_rows)
+        for given in self.given:
+            i = next(k for k in range(self.m.n) if self.images.accelerations[k] in given.row)
+            if not is_multiple(given.row, base[i]):
+                findings += self._differences(given, i, base[i], {}, solved_term_name)
+        number = {2: "1.11", 3: "2.12"}.get(self.m.n, "3.10") if self.m.kind == "n-leg" else "22"
+        return tuple(replace(f, equation=number) for f in findings)
+
+    def _differences(
+        self,
+        given: _Given,
+        i: int,
+        base: Row,
+        known: Mapping[tuple[int, int], Mistake],
+        name: Callable[[Mechanism, int, int], str] = term_name,
+    ) -> list[Finding]:
+        """The terms of one row that differ from a right one when it is scaled so that most of its terms agree."""
+        vector = self.images.point.vector(base)
+        best = factors(given.vector, vector)
+        agreed = [q for q in base if best and given.vector.get(q) == best[0][0] * vector[q] % PRIME]
         factor = exact_factor(given.row, base, agreed)
-        found = given.row
         expected = base if factor is None else {q: f * factor for q, f in base.items()}
-        found, expected = self._shown(found), self._shown(expected)
+        found, expected = self._shown(given.row), self._shown(expected)
         findings = []
         for q in sorted(found.keys() | expected.keys(), key=lambda q: (q == 0, q)):
             one, other = found.get(q, NOTHING), expected.get(q, NOTHING)
-            if factor is None and q in agreed:
-                continue
-            if one == other:
+            if one == other or (factor is None and q in agreed):
                 continue
             mistake = known.get((i, q))
-            if mistake is not None:
-                cause, says = mistake.code, (mistake.english, mistake.japanese)
-            else:
-                cause, says = _plain(self.m, i, q, one, other)
-            findings.append(self._finding(i, q, one, other, cause, says, given.label))
+            cause, *says = (
+                (mistake.code, mistake.english, mistake.japanese)
+                if mistake
+                else told(self.m, i, q, one, other, name(self.m, i, q))
+            )
+            finding = self._finding(i, q, one, other, cause, (says[0], says[1]), given.label)
+            findings.append(replace(finding, term=name(self.m, i, q)))
         return findings
 
     # A Lagrangian -----------------------------------------------------------------------------------------------------
@@ -355,16 +378,6 @@ _ONE = fmpq(1)
 
 def _plain_term(term: str) -> tuple[str, str, str]:
     return "term-wrong", f"The term {term} of the Lagrangian is not right.", f"ラグランジアンの項 {term} が違います。"
-
-
-def _plain(m: Mechanism, i: int, q: int, found: Formula, expected: Formula) -> tuple[str, tuple[str, str]]:
-    """What to say of a wrong term that no mistake of the catalogue produces."""
-    name = f"{term_name(m, i, q)} ({motion_text(m.space, q)})" if q else term_name(m, i, q)
-    if not found:
-        return "term-missing", (f"Row {i + 1}: the term {name} is missing.", f"第{i + 1}式に項 {name} がありません。")
-    if not expected:
-        return "term-extra", (f"Row {i + 1}: there is no term {name}.", f"第{i + 1}式に項 {name} はありません。")
-    return "term-wrong", (f"Row {i + 1}: the term {name} is not right.", f"第{i + 1}式の項 {name} が違います。")
 
 
 def _same_equations(

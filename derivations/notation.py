@@ -8,7 +8,7 @@ import re
 from flint import fmpq
 
 from .mechanism import Mechanism
-from .trig import COS, Formula, Space, digits
+from .trig import COS, Formula, Space, digits, unit
 
 SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
@@ -129,6 +129,13 @@ def term_name(m: Mechanism, i: int, q: int) -> str:
         case [(j, 2)] if j >= n and not (m.kind == "n-leg" and j - n == i):
             return f"B[{i + 1},{j - n + 1}]"
     return f"row {i + 1}, {motion_text(m.space, q)}"
+
+
+def solved_term_name(m: Mechanism, i: int, q: int) -> str:
+    """Where a term stands in a row that is solved for α_i."""
+    if q == unit(i):
+        return f"a{i + 1}: denominator"
+    return f"a{i + 1}: {motion_text(m.space, q) if q else 'g'}"
 
 
 def equation_number(m: Mechanism) -> str:

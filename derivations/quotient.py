@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import NoReturn
 
 from flint import fmpq
 
@@ -14,7 +15,7 @@ from ..models.errors import InvalidInput
 from .trig import CONSTANT_ONE, NOTHING, Formula, constant
 
 LARGEST_DEGREE = 64  # of any product that is written or arises; the true equations have degree 6
-LARGEST_WORK = 600_000  # products of terms, for one file; about a second
+LARGEST_WORK = 250_000  # products of terms, for one file; less than a second
 
 
 class TooLarge(InvalidInput):
@@ -26,12 +27,24 @@ class Budget:
     """How much multiplying out is still allowed."""
 
     left: int = LARGEST_WORK
+    at: int = 0  # the column of what is being evaluated, for the refusal
+
+    def refuse(self, why: str) -> NoReturn:
+        """Say where it became too much."""
+        raise TooLarge(f"column {self.at + 1}: {why}")
+
+    def check_degree(self, degree: int) -> None:
+        """Refuse powers that no equation of motion has."""
+        if degree > LARGEST_DEGREE:
+            self.refuse(
+                f"a power beyond {LARGEST_DEGREE} arises when this is multiplied out; no equation of motion has one"
+            )
 
     def product(self, one: Formula, two: Formula) -> Formula:
         """``one · two``, paid for before it is done."""
         self.left -= len(one) * len(two) + 1
         if self.left < 0:
-            raise TooLarge("multiplied out, this has too many terms for an equation of motion; write it more simply")
+            self.refuse("multiplied out, this has too many terms for an equation of motion; write it more simply")
         return one * two
 
     def power(self, base: Formula, exponent: int) -> Formula:
@@ -57,7 +70,7 @@ class Quotient:
             return Quotient(self.top + theirs, self.below, max(self.degree, other.degree))
         common = {f: max(self.below.get(f, 0), other.below.get(f, 0)) for f in {**self.below, **other.below}}
         top = self._raised(common, self.top, budget) + other._raised(common, theirs, budget)
-        return _checked(top, common, self.degree + other.degree)
+        return _checked(top, common, self.degree + other.degree, budget)
 
     def _raised(self, common: Mapping[Formula, int], top: Formula, budget: Budget) -> Formula:
         for factor, power in common.items():
@@ -71,7 +84,7 @@ class Quotient:
         below = dict(self.below)
         for factor, power in other.below.items():
             below[factor] = below.get(factor, 0) + power
-        return _checked(budget.product(self.top, other.top), below, self.degree + other.degree)
+        return _checked(budget.product(self.top, other.top), below, self.degree + other.degree, budget)
 
     def inverse(self) -> Quotient:
         """One over it; the caller has seen to it that it is not zero."""
@@ -88,18 +101,16 @@ class Quotient:
         base = self if exponent >= 0 else self.inverse()
         size = abs(exponent)
         below = {factor: power * size for factor, power in base.below.items()} if size else {}
-        _check_degree(base.degree * size)
+        budget.check_degree(base.degree * size)
         return Quotient(budget.power(base.top, size), below, base.degree * size)
 
 
-def _checked(top: Formula, below: Mapping[Formula, int], degree: int) -> Quotient:
-    _check_degree(degree)
-    return Quotient(top, below if top else {}, degree)
-
-
-def _check_degree(degree: int) -> None:
+def _checked(top: Formula, below: Mapping[Formula, int], degree: int, budget: Budget) -> Quotient:
+    """``degree`` only bounds the powers from above; where it grows too large, they are looked at."""
     if degree > LARGEST_DEGREE:
-        raise TooLarge(f"a product of more than {LARGEST_DEGREE} factors arises; no equation of motion needs one")
+        degree = max((top.degree(), *(factor.degree() * power for factor, power in below.items())))
+    budget.check_degree(degree)
+    return Quotient(top, below if top else {}, degree)
 
 
 def number(value: int | fmpq) -> Quotient:

@@ -97,6 +97,17 @@ class Formula:
                 base = base * base
         return result
 
+    def degree(self) -> int:
+        """The largest power of a symbol, or multiple of an angle, in any term."""
+        largest = 0
+        for e, h, _ in self.terms:
+            for packed in (e, h):
+                shifted = packed + _bias(packed.bit_length() // BITS + 2)
+                while shifted:
+                    largest = max(largest, abs((shifted & DIGIT) - MIDDLE))
+                    shifted >>= BITS
+        return largest
+
     def is_number(self) -> bool:
         """Whether nothing but a rational number is left."""
         return not self.terms or (len(self.terms) == 1 and (0, 0, COS) in self.terms)
