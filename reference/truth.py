@@ -42,7 +42,7 @@ MOST_BITS = 16 * 1024
 ENTRIES_AT_ONCE = 200_000  # balls held in memory at a time; each takes about a hundred bytes
 AS_GOOD_AS_ZERO = 1e-300  # where a value is zero without its equation showing it
 SMALLEST = 5e-324
-RELATIVE_RADIUS = 2.0**-80  # promised, relative to the largest component of a state
+RELATIVE_RADIUS = 2.0**-80  # promised, relative to the largest component of a state, unless that is as good as zero
 
 
 @dataclass(frozen=True)
@@ -145,14 +145,14 @@ def _over_states(
         t_balls, w_balls = xp.array(t[part]), xp.array(w[part])
         return quantity(t_balls, w_balls, enclosed_accelerations(system, t_balls, w_balls) if accelerate else t_balls)
 
-    parts = [_rounded_precisely(partial(enclose, part)) for part in _chunks(len(t), system.n)]
+    parts = [rounded_precisely(partial(enclose, part)) for part in _chunks(len(t), system.n)]
     high, low, radius = (
         np.concatenate([part[k] for part in parts]) if parts else np.empty((0, *shape)) for k in range(3)
     )
     return Truth(*(values.reshape(*batch, *shape) for values in (high, low, radius)))
 
 
-def _rounded_precisely(enclose: Callable[[], Array]) -> tuple[Floats, Floats, Floats]:
+def rounded_precisely(enclose: Callable[[], Array]) -> tuple[Floats, Floats, Floats]:
     """High, low and radius of what ``enclose`` gives, with as many bits as the promised radius needs."""
     bits = BITS
     while True:

@@ -1,0 +1,105 @@
+"""Times of several calls, taken in turn: what slows the machine for a while slows them all, and ratios stand."""
+
+from __future__ import annotations
+
+import gc
+import math
+import time
+from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+SHORTEST = 1e-3  # [s] of one sample: ten thousand times what reading the clock takes
+ROUNDS = 9
+FEWEST = 3  # rounds, however long they take: a median of fewer says nothing
+
+
+@dataclass(frozen=True)
+class Subject:
+    """A call to be timed, and the context that it is timed in (entered once a sample, outside the clock)."""
+
+    call: Callable[[], object]
+    around: Callable[[], AbstractContextManager[object]] = nullcontext
+
+
+@dataclass(frozen=True)
+class Times:
+    """Seconds a call, one a round, shape (rounds,)."""
+
+    seconds: Array
+
+    @property
+    def minimum(self) -> float:
+        """What it takes when nothing disturbs."""
+        return float(self.seconds.min())
+
+    @property
+    def median(self) -> float:
+        """What it takes usually."""
+        return float(np.median(self.seconds))
+
+    def over(self, other: Times) -> float:
+        """How many times longer it takes than the other: the median of the rounds' own ratios."""
+        return float(np.median(self.seconds / other.seconds))
+
+
+def interleaved(
+    subjects: Mapping[str, Subject],
+    *,
+    budget: float = math.inf,
+    rounds: int = ROUNDS,
+    fewest: int = FEWEST,
+    shortest: float = SHORTEST,
+) -> dict[str, Times]:
+    """Time every subject once in every round, to and fro, after each has run to warm up.
+
+    No round begins once ``budget`` [s] is spent, save the first ``fewest``. A sample is as many calls as fill
+    ``shortest`` [s].
+    """
+    repeats = {name: _repeats(subject, shortest) for name, subject in subjects.items()}
+    samples: dict[str, list[float]] = {name: [] for name in subjects}
+    order = list(subjects)
+    begun = time.perf_counter()
+    for done in range(rounds):
+        if done >= fewest and time.perf_counter() - begun > budget:
+            break
+        for name in order:
+            samples[name].append(_sample(subjects[name], repeats[name]))
+        order.reverse()  # who came first comes last: a steady drift favours nobody
+    return {name: Times(np.array(found)) for name, found in samples.items()}
+
+
+def once(subject: Subject) -> float:
+    """Seconds of one call."""
+    return _sample(subject, 1)
+
+
+def _repeats(subject: Subject, shortest: float) -> int:
+    """Calls in a sample, found by doubling; the first call of all, which loads and compiles, is not counted."""
+    once(subject)
+    count, taken = 1, once(subject)
+    while taken < shortest:
+        count = max(2 * count, min(16 * count, math.ceil(count * shortest / max(taken, 1e-9))))
+        taken = _sample(subject, count) * count
+    return count
+
+
+def _sample(subject: Subject, calls: int) -> float:
+    """Mean seconds of so many calls in a row, without the garbage collector."""
+    call, numbers = subject.call, range(calls)
+    collecting = gc.isenabled()
+    with subject.around():
+        gc.disable()
+        try:
+            begun = time.perf_counter()
+            for _ in numbers:
+                call()
+            return (time.perf_counter() - begun) / calls
+        finally:
+            if collecting:
+                gc.enable()

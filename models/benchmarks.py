@@ -1,0 +1,24 @@
+"""The motions that ``furiko bench`` times unless it is told others: rods that start at rest, fanned out."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .scene import Scene
+from .systems import RodChain
+
+
+def _rods(name: str, n: int, length: float, first: float, last: float, duration: float) -> Scene:
+    theta = tuple(np.linspace(first, last, n).tolist())
+    says = f"{n} equal rods from rest, angles {first:g} to {last:g} rad, {duration:g} s"
+    return Scene(name, RodChain((length,) * n), theta, (0.0,) * n, duration, random=0, named=(), description=says)
+
+
+BENCHMARKS: dict[str, Scene] = {
+    scene.name: scene
+    for scene in (
+        _rods("bench-rods-2", 2, 1.0, 2.0, 2.5, 10.0),  # grows rounding errors a millionfold
+        _rods("bench-rods-5", 5, 1.0, 1.0, 2.0, 5.0),
+        _rods("bench-rods-100", 100, 0.05, 0.3, 1.2, 5.0),
+    )
+}
