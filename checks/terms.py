@@ -25,7 +25,7 @@ ROWS = 4_000  # inverse dynamics evaluated in one cell, at most: long chains get
 
 
 def compare(cell: Cell) -> Iterator[Result]:
-    """One result for each of M, C, G and the rest; C and the rest not where every rate is zero."""
+    """One result for each of M, C, G and the rest; what a scene has none of is skipped."""
     n = cell.scene.system.n
     chosen = slice(0, max(1, min(len(cell.states), ROWS // (2 * n + 2))))
     # The named states are special on purpose (many zeros); start from the other end, where the random ones are.
@@ -33,16 +33,16 @@ def compare(cell: Cell) -> Iterator[Result]:
     labels = cell.states.labels[::-1][chosen]
     entries = cell.amplitude.entries()
     yield _result(cell, "M", columns(cell, theta, "alpha") - mass_matrix(cell.scene.system, theta), entries, labels)
-    moving = bool(cell.states.omega.any())
-    if moving:
-        coriolis = coriolis_matrix(cell.scene.system, theta)
-        yield _result(cell, "C", columns(cell, theta, "omega") - coriolis, entries, labels)
     if cell.scene.system.gravity:
         rest = np.zeros_like(theta)
         error = cell.torques(theta, rest, rest, gravity=True) - gravity_vector(cell.scene.system, theta)
         scale = (cell.amplitude.gravity @ cell.amplitude.to_absolute) @ cell.amplitude.forces().T
         yield _result(cell, "G", error, scale, labels)
-    if moving:
+    else:
+        yield cell.result(f"{NAME} G", "skipped", reason="the scene has no gravity")
+    if cell.states.omega.any():
+        coriolis = coriolis_matrix(cell.scene.system, theta)
+        yield _result(cell, "C", columns(cell, theta, "omega") - coriolis, entries, labels)
         error = cell.torques(theta, omega, np.zeros_like(theta), gravity=False)
         error -= (coriolis @ (omega**2)[..., None])[..., 0]
         scale = (
@@ -51,6 +51,9 @@ def compare(cell: Cell) -> Iterator[Result]:
             @ cell.amplitude.forces().T
         )
         yield _result(cell, "velocity", error, scale, labels)
+    else:
+        for term in ("C", "velocity"):
+            yield cell.result(f"{NAME} {term}", "skipped", reason="every state of the scene is at rest")
 
 
 def columns(cell: Cell, theta: Array, unit: str) -> Array:
