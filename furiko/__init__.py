@@ -9,6 +9,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .derivations.diagnosis import Diagnosis
+    from .derivations.grade import grade
     from .engines import engine_names, load_engine
     from .models import EngineMissing, InvalidInput, NLegPendulum, RodChain, to_mjcf, to_urdf
     from .reference.kernels import accelerations
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _HOMES = {
+    "Diagnosis": "derivations.diagnosis",
     "EngineMissing": "models",
     "InvalidInput": "models",
     "NLegPendulum": "models",
@@ -26,6 +29,7 @@ _HOMES = {
     "accelerations": "reference.kernels",
     "check": "run",
     "engine_names": "engines",
+    "grade": "derivations.grade",
     "load_engine": "engines",
     "read_stream": "reports",
     "to_mjcf": "models",
@@ -33,6 +37,7 @@ _HOMES = {
 }
 
 __all__ = [
+    "Diagnosis",
     "EngineMissing",
     "InvalidInput",
     "NLegPendulum",
@@ -41,6 +46,7 @@ __all__ = [
     "accelerations",
     "check",
     "engine_names",
+    "grade",
     "load_engine",
     "read_stream",
     "to_mjcf",

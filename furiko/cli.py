@@ -192,6 +192,22 @@ def diff(before: Path, after: Path) -> int:
 
 
 @cli.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("--japanese", is_flag=True, help="Say it in Japanese.")
+@json_option
+def grade(file: Path, japanese: bool, as_json: bool) -> int:
+    """Grade a derivation: right, or which term is wrong and the mistake that makes it so."""
+    from .derivations.grade import grade as grade_file
+
+    diagnosis = grade_file(file)
+    if as_json:
+        print_json(diagnosis.to_dict())
+    else:
+        click.echo(diagnosis.text("ja" if japanese else "en"))
+    return diagnosis.exit_status
+
+
+@cli.command()
 @click.option("--clear", is_flag=True, help="Delete everything that is kept.")
 @json_option
 def cache(clear: bool, as_json: bool) -> int:
