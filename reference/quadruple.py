@@ -132,7 +132,7 @@ def chain_accelerations(xp: Arithmetic, system: RodChain, theta: Array, omega: A
 def _inverse(matrix: Array) -> Array:
     """Of a symmetric 2 × 2 matrix."""
     (a, b), (_, c) = matrix
-    return np.array([[c, -b], [-b, a]]) / (a * c - b * b)
+    return np.asarray(np.array([[c, -b], [-b, a]]) / (a * c - b * b))
 
 
 def _heyoka() -> Any:

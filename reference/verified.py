@@ -23,6 +23,7 @@ UNIT = 2.0**-53  # unit roundoff of double precision
 TINY = 1e-290  # more than any underflow in the products below adds up to
 NEGLIGIBLE = 2.0**-90  # relative to the solution
 UPWARDS = 1 + 2.0**-36  # more than the rounding of nested sums of up to 8000 non-negative products takes away
+BLOCK = 60  # BLAS leaves products of matrices of this size to one thread
 PARTS = 3  # doubles that the approximate solution is the sum of: 159 bits
 SMALL = 12  # up to here eliminating in balls is as fast
 
@@ -49,9 +50,24 @@ def solve(matrix: Array, right: Array) -> Array:
 def _approximate_inverse(matrix: Floats) -> Floats | None:
     row_scale = _power_of_two(np.abs(matrix).max(-1))
     try:
-        return np.asarray(np.linalg.inv(matrix * row_scale[:, :, None]) * row_scale[:, None, :])
+        return _inverse_by_halves(matrix * row_scale[:, :, None]) * row_scale[:, None, :]
     except np.linalg.LinAlgError:
         return None
+
+
+def _inverse_by_halves(matrix: Floats) -> Floats:
+    """Inverse in blocks that BLAS does not split among threads: where cores are shared, its threads wait for each other
+    longer than they compute (n = 100 on two busy cores: five times)."""
+    n = matrix.shape[-1]
+    if n <= BLOCK:
+        return np.asarray(np.linalg.inv(matrix))
+    h = n // 2
+    b, c = matrix[:, :h, h:], matrix[:, h:, :h]
+    first = _inverse_by_halves(matrix[:, :h, :h])
+    right, below = first @ b, c @ first
+    last = _inverse_by_halves(matrix[:, h:, h:] - c @ right)
+    upper = -right @ last
+    return np.block([[first - upper @ below, upper], [-last @ below, last]])
 
 
 def _enclose(balls: Array, right: Array, approximate: Floats, inverse: Floats, scale: Floats) -> list[Any] | None:
@@ -71,7 +87,7 @@ def _enclose(balls: Array, right: Array, approximate: Floats, inverse: Floats, s
     residual = ball_matrix(right[:, None])
     parts = []
     for _ in range(PARTS):
-        part = scale * (inverse @ np.array([float(r) for r in residual.entries()]))
+        part = scale * _times(inverse, np.array([float(r) for r in residual.entries()]))
         if not np.isfinite(part).all():
             return None
         residual = residual - M * arb_mat(n, 1, part.tolist())
@@ -80,7 +96,7 @@ def _enclose(balls: Array, right: Array, approximate: Floats, inverse: Floats, s
     exact = all(r.is_zero() for r in residual.entries())
     if not exact and NEGLIGIBLE * np.max(np.abs(parts[0]) / scale) < TINY:
         return None
-    first = np.zeros(n) if exact else R @ left_over * UPWARDS + TINY
+    first = np.zeros(n) if exact else _times(R, left_over) * UPWARDS + TINY
     radius = (first + delta / (1 - delta) * first.max()) * UPWARDS * scale
     return [sum(map(arb, part), arb(0, r)) for part, r in zip(zip(*parts, strict=True), radius.tolist(), strict=True)]
 
@@ -95,11 +111,15 @@ def _distance_from_identity(M: Any, approximate: Floats, inverse: Floats, scale:
 
     n = len(scale)
     R, A = np.abs(inverse), np.abs(approximate)
-    off = np.abs(inverse @ approximate - np.eye(n)).sum(-1)
-    rounding = (1.01 * n + 4) * UNIT * (R @ A.sum(-1))
+    off = np.abs(np.einsum("ij,jk->ik", inverse, approximate) - np.eye(n)).sum(-1)
+    rounding = (1.01 * n + 4) * UNIT * _times(R, A.sum(-1))
     radii = (M - M.mid()) * arb_mat(n, 1, scale.tolist())
-    from_balls = R @ (np.array([float(r.abs_upper()) for r in radii.entries()]) * UPWARDS)
+    from_balls = _times(R, np.array([float(r.abs_upper()) for r in radii.entries()]) * UPWARDS)
     return float(np.max((off + rounding + from_balls) * UPWARDS + TINY))
+
+
+def _times(matrix: Floats, vector: Floats) -> Floats:
+    return np.asarray((matrix * vector).sum(-1))
 
 
 def _power_of_two(x: Floats) -> Floats:

@@ -1,5 +1,8 @@
 """The one text in four arithmetics, and what the namespace adds to operators."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 from flint import arb
@@ -99,6 +102,17 @@ def test_arithmetic_is_told_by_the_elements():
     assert arithmetic_of(np.array([heyoka.expression("x")], dtype=object)).name == "heyoka"
     with pytest.raises(TypeError, match="str"):
         arithmetic_of(np.array(["x"], dtype=object))
+
+
+def test_importing_the_theory_costs_no_heavy_library():
+    heavy = "flint", "sympy", "heyoka", "scipy", "numba", "mpmath", "mujoco", "pinocchio", "exudyn"
+    found = subprocess.run(
+        [sys.executable, "-c", "import furiko.reference, furiko.reference.truth, sys; print(*sys.modules)"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert not set(found.stdout.split()) & set(heavy)
 
 
 def test_numbers_are_taken_for_exactly_what_they_are():
