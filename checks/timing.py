@@ -59,9 +59,9 @@ def interleaved(
     """Time every subject once in every round, to and fro, after each has run to warm up.
 
     No round begins once ``budget`` [s] is spent, save the first ``fewest``. A sample is as many calls as fill
-    ``shortest`` [s].
+    ``shortest`` [s]; with 0 it is one call, and nothing is warmed up: the subjects have just run.
     """
-    repeats = {name: _repeats(subject, shortest) for name, subject in subjects.items()}
+    repeats = {name: _repeats(subject, shortest) if shortest > 0 else 1 for name, subject in subjects.items()}
     samples: dict[str, list[float]] = {name: [] for name in subjects}
     order = list(subjects)
     begun = time.perf_counter()

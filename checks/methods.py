@@ -1,0 +1,126 @@
+"""Every way to a trajectory's end that is timed: an engine's own schemes, Pinocchio under scipy's DOP853, furiko's."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..engines import AnyShape, EngineInfo, Integrator, Native, cannot, engine_info, engine_version, load_engine
+from ..models import Scene
+
+Array = NDArray[np.float64]
+End = tuple[Array, Array]
+
+FURIKO = "furiko"
+STEP, TOLERANCE = "step [s]", "tolerance"
+FIRST_STEPS = 250  # of a fixed-step scheme's coarsest run; each further run halves the step
+HALVINGS = 16
+ADAPTIVE = tuple(10.0**-k for k in range(3, 14))
+# scipy takes no relative tolerance below 100 ε.
+DOP853 = (*(10.0**-k for k in range(3, 14)), 3e-14)
+TAYLOR = tuple(10.0**-k for k in range(4, 17))
+
+
+@dataclass(frozen=True)
+class Method:
+    """``run(setting)`` gives θ and ω at the end, (n,) each; ``settings`` from coarse to fine; ``by``: what they are."""
+
+    engine: str
+    scheme: str
+    by: str
+    settings: Sequence[float]
+    run: Callable[[float], End]
+    around: Callable[[], AbstractContextManager[object]] = nullcontext
+
+
+def methods(scene: Scene, engines: Sequence[str]) -> tuple[list[Method], list[str]]:
+    """All methods of these engines for the scene, furiko's own first, and sentences on what is left out."""
+    found, left_out = list(_own(scene)), []
+    for name in engines:
+        info = engine_info(name)
+        reason = why_not(info, scene)
+        if reason:
+            left_out.append(f"{name}: {reason}")
+            continue
+        ways = list(_of_engine(scene, name, info))
+        found += ways
+        if not ways:
+            left_out.append(f"{name}: {info.missing.get('trajectory', 'it has no trajectories')}")
+    return found, left_out
+
+
+def why_not(info: EngineInfo, scene: Scene) -> str:
+    """Why an engine takes no part; empty where it does."""
+    if info.package and not engine_version(info.name):
+        return f"not installed: pip install {info.package}"
+    return cannot(info, scene.system) or ""
+
+
+def start(scene: Scene) -> tuple[Array, Array]:
+    """The scene's state, θ and ω, (n,) each."""
+    return np.array(scene.theta), np.array(scene.omega)
+
+
+def _of_engine(scene: Scene, name: str, info: EngineInfo) -> Iterator[Method]:
+    engine = load_engine(name, scene.system)
+    contexts = {"": nullcontext, **{f", {says}": context for says, context in engine.lighter().items()}}
+    if "trajectory" not in info.missing:
+        for scheme in info.integrators:
+            settings = [scene.duration / (FIRST_STEPS << k) for k in range(HALVINGS)]
+            run = partial(_fixed, engine, scene, scheme)
+            for suffix, around in contexts.items():
+                yield Method(name, scheme.name + suffix, STEP, settings, run, around)
+        for adaptive in info.adaptive:
+            run = partial(_adaptive, engine, scene, adaptive)
+            yield Method(name, adaptive, TOLERANCE, ADAPTIVE, run)
+        return
+    native = engine.native()
+    if native is not None:
+        yield Method(name, "scipy DOP853", TOLERANCE, DOP853, partial(dop853, native, scene))
+
+
+def _fixed(engine: AnyShape, scene: Scene, scheme: Integrator, step: float) -> End:
+    theta, omega = start(scene)
+    return engine.trajectory(theta, omega, scheme.name, step, round(scene.duration / step))
+
+
+def _adaptive(engine: AnyShape, scene: Scene, scheme: str, tolerance: float) -> End:
+    theta, omega = start(scene)
+    return engine.adaptive(theta, omega, scheme, scene.duration, tolerance)
+
+
+def dop853(native: Native, scene: Scene, tolerance: float) -> End:
+    """The end by scipy's DOP853 in the engine's own coordinates, so that nothing is converted on the way."""
+    from scipy.integrate import solve_ivp
+
+    theta, omega = (native.from_absolute(x[None])[0] for x in start(scene))
+    n = len(theta)
+    accelerate = native.accelerate
+
+    def motion(_time: float, state: Array) -> Array:
+        return np.concatenate((state[n:], accelerate(state[:n], state[n:])))
+
+    solved = solve_ivp(
+        motion, (0.0, scene.duration), np.concatenate((theta, omega)), "DOP853", rtol=tolerance, atol=tolerance
+    )
+    end = solved.y[:, -1] if solved.success else np.full(2 * n, np.nan)
+    return native.to_absolute(end[None, :n])[0], native.to_absolute(end[None, n:])[0]
+
+
+def _own(scene: Scene) -> Iterator[Method]:
+    yield Method(FURIKO, "Taylor", TOLERANCE, TAYLOR, partial(taylor, scene))
+
+
+def taylor(scene: Scene, tolerance: float) -> End:
+    """The end by furiko's own Taylor series."""
+    from ..reference.taylor import simulate
+
+    theta, omega = start(scene)
+    found: Any = simulate(scene.system, theta, omega, [0.0, scene.duration], tolerance=tolerance)
+    return found.theta[-1], found.omega[-1]
