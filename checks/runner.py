@@ -97,21 +97,7 @@ class _Pool:
                 self._stop(worker)
 
     def _start(self) -> None:
-        ours, theirs = Pipe()
-        process = subprocess.Popen(
-            [sys.executable, "-m", "furiko.checks.worker", str(theirs.fileno())],
-            pass_fds=[theirs.fileno()],
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-            cwd=self.folder,
-            # One worker a core: threads of a linear algebra library would only be in each other's way.
-            env=os.environ | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"},
-            start_new_session=True,  # Ctrl-C is the parent's to handle
-        )
-        theirs.close()
-        ours.send([os.path.abspath(path) for path in sys.path])
-        self.workers.append(_Worker(process, ours))
+        self.workers.append(_Worker(*spawn(self.folder)))
 
     def _stop(self, worker: _Worker) -> None:
         self.workers.remove(worker)
@@ -151,7 +137,7 @@ class _Pool:
                 try:
                     message = worker.connection.recv()
                 except (EOFError, ConnectionError):
-                    yield from self._lost(worker, _death(worker.process))
+                    yield from self._lost(worker, death(worker.process))
                 else:
                     yield from self._heard(worker, message)
         for worker in list(self.workers):
@@ -220,6 +206,25 @@ class _Pool:
             yield from (_error(task, check, reason, details) for check in task.checks)
 
 
+def spawn(folder: str) -> tuple[subprocess.Popen[bytes], Connection]:
+    """A fresh worker process that runs in ``folder``, and our end of the connection to it."""
+    ours, theirs = Pipe()
+    process = subprocess.Popen(
+        [sys.executable, "-m", "furiko.checks.worker", str(theirs.fileno())],
+        pass_fds=[theirs.fileno()],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        cwd=folder,
+        # One worker a core: threads of a linear algebra library would only be in each other's way.
+        env=os.environ | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"},
+        start_new_session=True,  # Ctrl-C is the parent's to handle
+    )
+    theirs.close()
+    ours.send([os.path.abspath(path) for path in sys.path])
+    return process, ours
+
+
 def _preference(job: CellJob, here: set[str], elsewhere: set[str]) -> tuple[int, int]:
     name = job.task.engine
     return (0 if name in here else 2 if name in elsewhere else 1), -job.task.scene.system.n
@@ -231,7 +236,8 @@ def _error(task: Task, check: str, reason: str, details: dict[str, str] | None =
     )
 
 
-def _death(process: subprocess.Popen[bytes]) -> str:
+def death(process: subprocess.Popen[bytes]) -> str:
+    """How a worker that went silent came to its end, in words."""
     status = process.wait()
     if status < 0:
         return f"the engine's process died of {signal.Signals(-status).name}"
