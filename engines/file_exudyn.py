@@ -80,5 +80,7 @@ class ExudynFile:
     def accelerations(self, theta: Array, omega: Array, without: frozenset[str] = frozenset()) -> Array:
         return np.asarray(self._engine.accelerations(theta, omega))
 
-    def inverse_dynamics(self, theta: Array, omega: Array, alpha: Array, *, gravity: bool = True) -> Array:
-        return np.asarray(self._engine.inverse_dynamics(theta, omega, alpha, gravity=gravity))
+    def inverse_dynamics(
+        self, theta: Array, omega: Array, alpha: Array, without: frozenset[str] = frozenset()
+    ) -> Array:
+        return np.asarray(self._engine.inverse_dynamics(theta, omega, alpha))

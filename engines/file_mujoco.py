@@ -42,6 +42,8 @@ class MujocoFile:
         if self._model.nv != len(hinges):
             raise ValueError(f"MuJoCo compiled {self._model.nv} degrees of freedom, the file has {len(hinges)}")
         columns = [int(self._model.joint(hinge.name).dofadr[0]) for hinge in hinges]
+        if model.language == "urdf":  # which says nothing of gravity
+            self._model.opt.gravity[:] = model.mechanism.gravity_vector
         self._data = _quiet_data(self._model)
         self._coordinates = FileCoordinates(model.mechanism, columns)
 
@@ -151,12 +153,14 @@ class MujocoFile:
             model.opt.disableflags = kept
         return self._coordinates.absolute(found)
 
-    def inverse_dynamics(self, theta: Array, omega: Array, alpha: Array, *, gravity: bool = True) -> Array:
+    def inverse_dynamics(
+        self, theta: Array, omega: Array, alpha: Array, without: frozenset[str] = frozenset()
+    ) -> Array:
         model, data = self._model, self._data
         forces = np.empty_like(theta)
         kept = model.opt.disableflags
-        if not gravity:
-            model.opt.disableflags |= int(SWITCHES["gravity"])
+        for feature in without:
+            model.opt.disableflags |= int(SWITCHES[feature])
         try:
             where = self._coordinates.positions(theta), self._coordinates.rates(omega), self._coordinates.rates(alpha)
             for row, (q, v, a) in enumerate(zip(*where, strict=True)):

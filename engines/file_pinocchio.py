@@ -93,15 +93,11 @@ class PinocchioFile:
             found[row] = pinocchio.aba(self._model, self._data, q, v, torques)
         return self._coordinates.absolute(found)
 
-    def inverse_dynamics(self, theta: Array, omega: Array, alpha: Array, *, gravity: bool = True) -> Array:
-        kept = self._model.gravity.linear.copy()
-        if not gravity:
-            self._model.gravity.linear = np.zeros(3)
-        try:
-            where = self._positions(theta), self._coordinates.rates(omega), self._coordinates.rates(alpha)
-            rows = [pinocchio.rnea(self._model, self._data, q, v, a) for q, v, a in zip(*where, strict=True)]
-        finally:
-            self._model.gravity.linear = kept
+    def inverse_dynamics(
+        self, theta: Array, omega: Array, alpha: Array, without: frozenset[str] = frozenset()
+    ) -> Array:
+        where = self._positions(theta), self._coordinates.rates(omega), self._coordinates.rates(alpha)
+        rows = [pinocchio.rnea(self._model, self._data, q, v, a) for q, v, a in zip(*where, strict=True)]
         return self._coordinates.absolute_forces(np.array(rows).reshape(theta.shape))
 
     def _positions(self, theta: Array) -> Array:

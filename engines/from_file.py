@@ -40,7 +40,9 @@ class FileEngine(Protocol):
         """θ̈ [rad/s²], (B, n); with features of the engine switched off where it has such switches."""
         ...
 
-    def inverse_dynamics(self, theta: Array, omega: Array, alpha: Array, *, gravity: bool = True) -> Array:
+    def inverse_dynamics(
+        self, theta: Array, omega: Array, alpha: Array, without: frozenset[str] = frozenset()
+    ) -> Array:
         """Generalised forces [N m] of the absolute angles, (B, n)."""
         ...
 
