@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 from ..models import Scene
 from ..models.result import Result
@@ -23,6 +24,27 @@ class CellJob:
 
     task: Task
     facts: bytes
+
+
+class Case(Protocol):
+    """A self-contained measurement: the names under which its one result stands, and how it is made."""
+
+    @property
+    def scene(self) -> str: ...
+    @property
+    def engine(self) -> str: ...
+    @property
+    def check(self) -> str: ...
+    def run(self) -> Result:
+        """Measure; an exception is a finding about the engine."""
+        ...
+
+
+@dataclass(frozen=True)
+class CaseJob:
+    """Run one case."""
+
+    case: Case
 
 
 @dataclass(frozen=True)

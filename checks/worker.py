@@ -18,7 +18,7 @@ import msgspec
 
 from ..models import EngineMissing
 from ..models.result import Result
-from .messages import Begun, CellJob, Done, Facts, FactsJob, Failed, Message
+from .messages import Begun, CaseJob, CellJob, Done, Facts, FactsJob, Failed, Message
 
 
 def main() -> None:
@@ -35,11 +35,13 @@ def main() -> None:
         connection.send(Done())
 
 
-def do(job: FactsJob | CellJob) -> Iterator[Message]:
+def do(job: FactsJob | CellJob | CaseJob) -> Iterator[Message]:
     """Everything that a job has to say."""
     try:
         if isinstance(job, FactsJob):
             yield facts(job)
+        elif isinstance(job, CaseJob):
+            yield job.case.run()
         else:
             yield from cell(job)
     except Exception as error:

@@ -138,6 +138,15 @@ class ExudynRedundant:
     def path(self, theta: Array, omega: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
         return self._run(theta, omega, integrator, step, steps, all_states=True)
 
+    def gap(self) -> float:
+        """Largest distance [m] between the two points that a joint holds together, where the last run ended."""
+        mbs, position = self._mbs, exudyn.OutputVariableType.Position
+        ends = [
+            [mbs.GetMarkerOutput(marker, position, Current) for marker in mbs.GetObject(joint)["markerNumbers"]]
+            for joint in self._joints
+        ]
+        return float(np.linalg.norm(np.subtract(*np.swapaxes(ends, 0, 1)), axis=-1).max())
+
     def _run(
         self, theta: Array, omega: Array, integrator: str, step: float, steps: int, *, all_states: bool
     ) -> tuple[Array, Array]:

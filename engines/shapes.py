@@ -103,6 +103,10 @@ class AnyShape:
         """Contexts in which the engine is spared what its bindings alone add to each call, by name."""
         return self._engine.lighter() if hasattr(self._engine, "lighter") else {}
 
+    def gap(self) -> float | None:
+        """How far a joint has come apart [m] at the end of the last run; None where joints cannot."""
+        return float(self._engine.gap()) if hasattr(self._engine, "gap") else None
+
     def _start(
         self, theta: ArrayLike, omega: ArrayLike, integrator: str, step: float, steps: int
     ) -> tuple[Array, Array]:
