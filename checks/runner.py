@@ -25,6 +25,13 @@ from .cache import Cache
 from .messages import Begun, CellJob, Done, Facts, FactsJob, Failed
 from .plan import Plan, Task
 
+ENVIRONMENT = {
+    # One worker a core: threads of a linear algebra library would only be in each other's way.
+    "OPENBLAS_NUM_THREADS": "1",
+    "OMP_NUM_THREADS": "1",
+    # Nothing is drawn: MuJoCo need not look for a window system, which takes half of its import.
+    "MUJOCO_GL": "disable",
+}
 TIMEOUT = 60.0  # [s] for one check; the slowest sound one seen takes a few
 HANGS = 2  # after so many time-outs an engine is given up: each costs the whole time-out
 
@@ -216,8 +223,7 @@ def spawn(folder: str) -> tuple[subprocess.Popen[bytes], Connection]:
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
         cwd=folder,
-        # One worker a core: threads of a linear algebra library would only be in each other's way.
-        env=os.environ | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"},
+        env=os.environ | ENVIRONMENT,
         start_new_session=True,  # Ctrl-C is the parent's to handle
     )
     theirs.close()
