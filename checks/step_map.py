@@ -11,7 +11,8 @@ leave a residual of their tolerance on top. A scheme hands these on to the rates
 its square; that later stages start from earlier ones' errors multiplies them by at most exp(stages × step × fastest
 rate). In maximal coordinates the constraints come on top: see :func:`_constraints`.
 
-The step is an eighth over the fastest rate at which nearby states part (:func:`furiko.reference.variation.fastest_rate`).
+The step is an eighth over the fastest rate at which links turn or nearby states part
+(:func:`furiko.reference.variation.fastest_rate`).
 """
 
 from __future__ import annotations
@@ -84,7 +85,7 @@ def compare(cell: Cell) -> Iterator[Result]:
 def chosen_steps(cell: Cell) -> Steps:
     """The last of the cell's states (the random ones), and a step that is short for all of them."""
     theta, omega = cell.states.theta[-STATES:], cell.states.omega[-STATES:]
-    fastest = float(fastest_rate(cell.scene.system, theta, omega).max())
+    fastest = max(float(fastest_rate(cell.scene.system, theta, omega).max()), float(np.abs(omega).max()))
     # A power of two, so that halves and sums of steps are exact.
     h = 2.0 ** math.floor(math.log2(SHORT / fastest)) if fastest > 0 else SHORT
     return Steps(theta, omega, cell.facts.high[-STATES:], h)
@@ -216,7 +217,7 @@ def rounding_bounds(cell: Cell, integrator: Integrator, steps: Steps, candidate:
     """How far rounding may take angles and rates apart, shape (2, B, 1)."""
     scheme, h = candidate.scheme, steps.h
     amplified = scheme.reach * math.exp(scheme.stages * SHORT)
-    acceleration = acceleration_error(cell, integrator, steps)
+    acceleration = acceleration_error(cell, integrator, steps.theta, steps.omega, steps.alpha)
     size = np.abs(steps.omega) + h * np.abs(steps.alpha)
     turns = np.abs(steps.theta) + h * size
     sums = EPSILON * (scheme.stages + 2)  # additions of a term for each stage, and the changes of coordinates
@@ -228,11 +229,11 @@ def rounding_bounds(cell: Cell, integrator: Integrator, steps: Steps, candidate:
     return np.stack([angles, rates])[..., None]
 
 
-def acceleration_error(cell: Cell, integrator: Integrator, steps: Steps) -> Array:
+def acceleration_error(cell: Cell, integrator: Integrator, theta: Array, omega: Array, alpha: Array) -> Array:
     """Forward error [rad/s²] of the engine's accelerations at each state, (B,): backward error times |M⁻¹|."""
     amplitude, system = cell.amplitude, cell.scene.system
-    spread = np.abs(np.linalg.inv(mass_matrix(system, steps.theta)) @ amplitude_transform(amplitude))
-    rows = amplitude.rows(steps.alpha, steps.omega)
+    spread = np.abs(np.linalg.inv(mass_matrix(system, theta)) @ amplitude_transform(amplitude))
+    rows = amplitude.rows(alpha, omega)
     left = integrator.tolerance * np.linalg.norm(rows, axis=-1, keepdims=True)
     backward = EPSILON * allowed(system.n, cell.info.accuracy) * rows + left
     return np.asarray((spread @ backward[..., None])[..., 0].max(axis=-1))
@@ -273,8 +274,8 @@ def _reason(integrator: Integrator, fits: list[Fit]) -> str:
     name = best.candidate.name
     if best.excess > 1:
         return (
-            f"one step of {integrator.name} is no textbook scheme's; the nearest, {name}, misses by {best.measured:.3g} "
-            f"rad/s, and rounding explains {best.bound:.3g}"
+            f"one step of {integrator.name} is no textbook scheme's; the nearest, {name}, misses by "
+            f"{best.measured:.3g} rad/s, and rounding explains {best.bound:.3g}"
         )
     if best.candidate.scheme.order != integrator.order:
         return f"{integrator.name} is said to be of order {integrator.order}; one step is that of {name}"

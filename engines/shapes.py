@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..models import InvalidInput
+from ..models import InvalidInput, System
 from ..models.errors import nearest
 from .protocol import Array, BareCall, Engine, EngineInfo, ModelFields, Native, Quantity
 
@@ -26,6 +26,10 @@ class AnyShape:
         self.info = info
         self._engine = engine
         self._n = n
+
+    def of(self, system: System) -> AnyShape:
+        """The same engine with another mechanism. Raises :class:`InvalidInput` where it cannot take it."""
+        return AnyShape(type(self._engine)(system), self.info, system.n)
 
     def fields(self) -> ModelFields:
         """The model as the engine compiled it."""

@@ -1,0 +1,198 @@
+"""Invariants along trajectories, which need no truth: energy, angular momentum without gravity, and the way back.
+
+From one moving state each integrator runs over the same time in a number of steps, twice as many, and four times. What
+a run leaves of an invariant is a scheme's error, C h^p + O(h^(p+1)) for order p, or there is friction or a drive in the
+model. Richardson's extrapolation to step zero tells which: it must be zero within its own uncertainty, which the two
+extrapolations from neighbouring runs give, and what rounding leaves.
+
+* Energy: by the engine's own account of it, where it has one.
+* Angular momentum about the support, for the mechanism without gravity: Σ_j (M ω)_j of the documents' mass matrix. No
+  force but the support's acts on it then.
+* There and back: with all rates reversed half-way, a run ends where it began, all rates reversed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..engines import AnyShape, Integrator
+from ..models.result import Result
+from ..reference import energy, literal_accelerations, mass_matrix
+from ..reference.motion import Mechanism
+from ..reference.variation import fastest_rate
+from .cell import Cell
+from .energy import energy_amplitudes
+from .rounding import EPSILON, allowed, amplitudes
+from .step_map import acceleration_error
+
+Array = NDArray[np.float64]
+
+NAME = "invariant"
+NEEDS = "trajectory"
+
+STEPS = 32  # of the coarsest run
+SHORT = 1 / 8  # step × fastest rate, in the coarsest run
+LARGEST_N = 32  # links; beyond, engines need seconds for it
+
+
+@dataclass(frozen=True)
+class Start:
+    """A moving state (n,) of a mechanism in an engine, and the coarsest step [s].
+
+    ``growth``: how much a small difference can have grown over the run: exp(time × fastest rate). ``off``: error of
+    the rates [rad/s] that each integrator's rounding and unfinished iterations may leave at the end of a run, before
+    it has grown; by the integrator's name.
+    """
+
+    system: Mechanism
+    engine: AnyShape
+    theta: Array
+    omega: Array
+    step: float
+    growth: float
+    off: dict[str, float]
+
+    def run(self, integrator: Integrator, steps: int, theta: Array, omega: Array) -> tuple[Array, Array]:
+        """θ and ω after the whole time in so many steps."""
+        return self.engine.trajectory(theta, omega, integrator.name, self.step * STEPS / steps, steps)
+
+
+def compare(cell: Cell) -> Iterator[Result]:
+    """Three results for each integrator."""
+    system = cell.scene.system
+    if system.n > LARGEST_N:
+        yield cell.result(NAME, "skipped", reason=f"runs are made up to {LARGEST_N} links, not with {system.n}")
+        return
+    theta, omega = cell.states.theta[-1], cell.states.omega[-1]
+    start = begin(cell, system, cell.engine, theta, omega)
+    weightless = replace(system, gravity=0.0)
+    engine = cell.engine.of(weightless) if system.gravity else cell.engine
+    afloat = begin(cell, weightless, engine, theta, omega)
+    for integrator in cell.info.integrators:
+        for invariant in INVARIANTS:
+            yield _compare(cell, integrator, start, invariant)
+        yield _compare(cell, integrator, afloat, AFLOAT)
+
+
+def begin(cell: Cell, system: Mechanism, engine: AnyShape, theta: Array, omega: Array) -> Start:
+    """Choose the step: an eighth over the fastest rate at which links turn or states near this one part."""
+    fastest = max(float(fastest_rate(system, theta, omega)), float(np.abs(omega).max()))
+    step = 2.0 ** math.floor(math.log2(SHORT / fastest)) if fastest > 0 else SHORT
+    time, alpha = step * STEPS, literal_accelerations(system, theta, omega)
+    rates = float(np.abs(omega).max() + time * np.abs(alpha).max())
+    off = {
+        integrator.name: EPSILON * 4 * STEPS * rates
+        + time * float(acceleration_error(cell, integrator, theta[None], omega[None], alpha[None])[0])
+        for integrator in cell.info.integrators
+    }
+    return Start(system, engine, theta, omega, step, math.exp(time * fastest), off)
+
+
+@dataclass(frozen=True)
+class Invariant:
+    """``left`` of it after a run in so many steps, and what of that is ``noise``: by rounding alone."""
+
+    name: str
+    unit: str
+    says: str
+    left: Callable[[Start, Integrator, int], Array]
+    noise: Callable[[Start, Integrator], float]
+
+
+def _compare(cell: Cell, integrator: Integrator, start: Start, invariant: Invariant) -> Result:
+    name, unit = f"{NAME} {invariant.name} {integrator.name}", invariant.unit
+    runs = [np.atleast_1d(invariant.left(start, integrator, STEPS << k)) for k in range(3)]
+    if not np.isfinite(runs).all():
+        reason = f"{integrator.name} comes to grief at a step of {start.step:.3g} s or a part of it"
+        return cell.result(name, "skipped", reason=reason)
+    limit, uncertainty = extrapolated(runs, integrator.order)
+    bound = uncertainty + invariant.noise(start, integrator)
+    agrees = limit <= bound
+    return cell.result(
+        name,
+        "agrees" if agrees else "differs",
+        measured=limit,
+        allowed=bound,
+        unit=unit,
+        reason=invariant.says if agrees else f"at step zero {limit:.3g} {unit} are left, and {invariant.says}",
+        details={
+            "integrator": integrator.name,
+            "steps": [start.step / 2**k for k in range(3)],
+            "left": [float(np.abs(run).max()) for run in runs],
+        },
+    )
+
+
+def extrapolated(runs: list[Array], order: int) -> tuple[float, float]:
+    """Magnitude at step zero, from runs at h, h/2 and h/4, and how far off it may be."""
+    a, b, c = runs
+    before, last = b + (b - a) / (2**order - 1), c + (c - b) / (2**order - 1)
+    return float(np.abs(last).max()), float(np.abs(last - before).max())
+
+
+def energy_left(start: Start, integrator: Integrator, steps: int) -> Array:
+    """Energy at the end less that at the start [J]."""
+    theta, omega = start.run(integrator, steps, start.theta, start.omega)
+    return np.array([_energy(start, theta, omega) - _energy(start, start.theta, start.omega)])
+
+
+def _energy(start: Start, theta: Array, omega: Array) -> float:
+    if "energy" in start.engine.info.missing:
+        return float(sum(energy(start.system, theta, omega)))
+    return float(start.engine.energy(theta, omega).sum())
+
+
+def energy_noise(start: Start, integrator: Integrator) -> float:
+    """[J]: |M ω| times the rates' error, and the sum's own rounding."""
+    size = energy_amplitudes(start.system.tree(), amplitudes(start.system, "relative"), start.omega[None]).sum()
+    off = start.growth * start.off[integrator.name]
+    return float(off * np.abs(_stretched(start) @ np.abs(start.omega)).sum() + EPSILON * allowed(start.system.n) * size)
+
+
+def _stretched(start: Start) -> Array:
+    """The mass matrix with every cosine one: no entry is larger in any other state."""
+    return mass_matrix(start.system, np.zeros_like(start.theta))
+
+
+def momentum_left(start: Start, integrator: Integrator, steps: int) -> Array:
+    """Angular momentum about the support at the end less that at the start [kg m²/s]."""
+    theta, omega = start.run(integrator, steps, start.theta, start.omega)
+    return np.array([_momentum(start.system, theta, omega) - _momentum(start.system, start.theta, start.omega)])
+
+
+def _momentum(system: Mechanism, theta: Array, omega: Array) -> float:
+    return float((mass_matrix(system, theta) @ omega).sum())
+
+
+def momentum_noise(start: Start, integrator: Integrator) -> float:
+    """[kg m²/s]: Σ|M_jk| times the rates' error, and the sum's own rounding."""
+    M = _stretched(start)
+    off = start.growth * start.off[integrator.name]
+    return float(off * M.sum() + EPSILON * allowed(start.system.n) * (M @ np.abs(start.omega)).sum())
+
+
+def way_back_left(start: Start, integrator: Integrator, steps: int) -> Array:
+    """Where the way there and back ends, less where it began: angles and rates, (2n,)."""
+    theta, omega = start.run(integrator, steps, start.theta, start.omega)
+    theta, omega = start.run(integrator, steps, theta, -omega)
+    return np.concatenate([theta - start.theta, -omega - start.omega])
+
+
+def way_back_noise(start: Start, integrator: Integrator) -> float:
+    """[rad, rad/s]: the rates' error of both ways; that of the first has grown on the second as well."""
+    angles = EPSILON * float(np.abs(start.theta).max() + 2 * np.pi)
+    return 2 * start.growth**2 * (start.off[integrator.name] + angles)
+
+
+INVARIANTS = (
+    Invariant("energy", "J", "nothing takes energy away or brings any", energy_left, energy_noise),
+    Invariant("there and back", "rad, rad/s", "with rates reversed the way leads back", way_back_left, way_back_noise),
+)
+AFLOAT = Invariant(
+    "angular momentum", "kg m²/s", "without gravity no torque acts about the support", momentum_left, momentum_noise
+)
