@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..engines import AnyShape, EngineInfo, Integrator, Native, cannot, engine_info, engine_version, load_engine
-from ..models import Scene
+from ..models import InvalidInput, Scene
+from ..reference.endpoints import lookup
+from ..reference.quadruple import TrueTrajectory
 
 Array = NDArray[np.float64]
 End = tuple[Array, Array]
@@ -24,7 +27,7 @@ HALVINGS = 16
 ADAPTIVE = tuple(10.0**-k for k in range(3, 14))
 # scipy takes no relative tolerance below 100 ε.
 DOP853 = (*(10.0**-k for k in range(3, 14)), 3e-14)
-TAYLOR = tuple(10.0**-k for k in range(4, 17))
+TAYLOR = tuple(10.0**-k for k in range(2, 15))
 
 
 @dataclass(frozen=True)
@@ -65,6 +68,21 @@ def why_not(info: EngineInfo, scene: Scene) -> str:
 def start(scene: Scene) -> tuple[Array, Array]:
     """The scene's state, θ and ω, (n,) each."""
     return np.array(scene.theta), np.array(scene.omega)
+
+
+@cache
+def truth(scene: Scene) -> TrueTrajectory:
+    """The scene's motion in quadruple precision; its last row is the end."""
+    if scene.theta is None or scene.omega is None or not scene.duration:
+        raise InvalidInput(f"{scene.name}: a [state] with a duration is needed, or there is no motion to time")
+    return lookup(scene.system, scene.theta, scene.omega, scene.duration)
+
+
+def end_error(scene: Scene, end: End) -> float:
+    """The largest error of θ [rad] and ω [rad/s] at the end; infinite where the run came to grief."""
+    true = truth(scene)
+    off = np.abs((np.array(end) - (true.theta[-1], true.omega[-1])) - (true.theta_low[-1], true.omega_low[-1])).max()
+    return float(off) if np.isfinite(off) else math.inf
 
 
 def _of_engine(scene: Scene, name: str, info: EngineInfo) -> Iterator[Method]:

@@ -10,16 +10,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ..models import Scene
 from ..models.bench import Motion, Point, Reach
-from ..reference.endpoints import lookup
-from .methods import FURIKO, Method, methods
+from .methods import FURIKO, End, Method, end_error, methods, truth
 from .timing import Subject, Times, interleaved, once
-
-Array = NDArray[np.float64]
 
 ERRORS = (1e-6, 1e-9, 1e-12)  # that ratios are given at
 EXPLORING = 0.22  # of the scene's time goes into finding the errors, the rest into three rounds of timing or more
@@ -45,23 +39,13 @@ def work_precision(
     scene: Scene, engines: Sequence[str], budget: float, watch: Callable[[str], None] = lambda _: None
 ) -> Motion:
     """Measure one scene, which must have a state and a duration, in about ``budget`` [s]."""
-    assert scene.theta is not None
-    assert scene.omega is not None
-    truth = lookup(scene.system, scene.theta, scene.omega, scene.duration)
-    true_end = np.array([truth.theta[-1], truth.omega[-1]])
-    low = np.array([truth.theta_low[-1], truth.omega_low[-1]])
-
-    def error(end: tuple[Array, Array]) -> float:
-        off = np.abs((np.array(end) - true_end) - low).max()
-        return float(off) if np.isfinite(off) else math.inf
-
     chosen, left_out = methods(scene, engines)
     share = EXPLORING * budget / len(chosen)
     runs: list[Run] = []
     stopped: dict[tuple[str, str], str] = {}
     for method in chosen:
         watch(f"{scene.name} {method.engine} {method.scheme}")
-        found, stopped[method.engine, method.scheme] = refine(method, error, share)
+        found, stopped[method.engine, method.scheme] = refine(method, partial(end_error, scene), share)
         runs += found
     watch(f"{scene.name}: {len(runs)} runs in turn")
     times = interleaved(
@@ -73,14 +57,14 @@ def work_precision(
         system=scene.system.kind,
         n=scene.system.n,
         duration=scene.duration,
-        truth=float(truth.error[-1]),
+        truth=float(truth(scene).error[-1]),
         points=_points(timed),
         reaches=reaches(timed, stopped),
         left_out=left_out,
     )
 
 
-def refine(method: Method, error: Callable[[tuple[Array, Array]], float], share: float) -> tuple[list[Run], str]:
+def refine(method: Method, error: Callable[[End], float], share: float) -> tuple[list[Run], str]:
     """Runs from coarse to fine within ``share`` [s], at least one; and why there are no finer ones."""
     runs: list[Run] = []
     spent, stuck, best = 0.0, 0, math.inf
@@ -89,7 +73,7 @@ def refine(method: Method, error: Callable[[tuple[Array, Array]], float], share:
             growth = max(1.0, runs[-1].seconds / runs[-2].seconds)
             if spent + min(growth, 2.0) * runs[-1].seconds > share:
                 return runs, "finer runs were not within the time given"
-        ends: list[tuple[Array, Array]] = []
+        ends: list[End] = []
         call = partial(_keep, method, setting, ends)
         if not runs:
             call()  # warm: what is loaded or compiled at the first call is no part of the method
@@ -104,7 +88,7 @@ def refine(method: Method, error: Callable[[tuple[Array, Array]], float], share:
     return runs, "no finer setting was tried"
 
 
-def _keep(method: Method, setting: float, ends: list[tuple[Array, Array]]) -> None:
+def _keep(method: Method, setting: float, ends: list[End]) -> None:
     ends.append(method.run(setting))
 
 

@@ -180,6 +180,46 @@ def export(scene: str, language: str | None, out: Path | None) -> int:
 
 
 @cli.command()
+@click.argument("scenes", nargs=-1, metavar="[SCENE|FILE.toml]...")
+@click.option("--engine", "-e", "engines", multiple=True, metavar="NAME", help="Only this engine; may be repeated.")
+@click.option("--out", type=click.Path(path_type=Path), default=REPORT_FOLDER, show_default=True, help="Report folder.")
+@click.option("--budget", type=click.FloatRange(1), default=60.0, show_default=True, help="Seconds, about.")
+@click.option("--skips", is_flag=True, help="Prove what a check leaves out: verdicts and times with and without.")
+@click.option("--targets", is_flag=True, help="Measure every figure that furiko is to reach (some minutes).")
+@json_option
+def bench(
+    scenes: tuple[str, ...],
+    engines: tuple[str, ...],
+    out: Path,
+    budget: float,
+    skips: bool,
+    targets: bool,
+    as_json: bool,
+) -> int:
+    """Time against error, of every engine and of furiko itself: motions and accelerations.
+
+    Writes bench.json and bench.html. With scenes only their motions, without any the benchmark's own (bench-rods-2,
+    bench-rods-5, bench-rods-100) and accelerations from 2 to 1000 links.
+    """
+    for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
+        os.environ.setdefault(name, "1")  # numpy reads them once, when it is imported
+    from .bench import bench as run_bench
+    from .bench import write
+
+    with saying() as watch:
+        found = run_bench(scenes or None, engines or None, budget=budget, skips=skips, targets=targets, watch=watch)
+    page = write(out, found)
+    if as_json:
+        print_json(found)
+    else:
+        from .reports.bench_terminal import print_bench
+
+        print_bench(found, page)
+    wrong = any(not skip.same for skip in found.skips) or any(target.met is False for target in found.targets)
+    return DIFFERS if wrong else AGREES
+
+
+@cli.command()
 @click.argument("before", type=click.Path(path_type=Path))
 @click.argument("after", type=click.Path(path_type=Path))
 def diff(before: Path, after: Path) -> int:
@@ -275,6 +315,19 @@ def progress() -> Iterator[Callable[[Plan, Result], None] | None]:
             bar.update(task, completed=min(len(seen), total), total=total, description=now)
 
         yield watch
+
+
+@contextmanager
+def saying() -> Iterator[Callable[[str], None]]:
+    """What is going on, in one line of a terminal's standard error; silence in a pipe."""
+    if not sys.stderr.isatty():
+        yield lambda _: None
+        return
+    from rich.console import Console
+    from rich.markup import escape
+
+    with Console(stderr=True).status("") as status:
+        yield lambda words: status.update(escape(words))
 
 
 def main() -> None:

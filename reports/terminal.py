@@ -36,7 +36,7 @@ def print_report(
 
     ``file`` is standard output unless given; ``width`` [columns] that of the terminal, or 120 in a pipe.
     """
-    page = _Page(file or sys.stdout, width)
+    page = Page(file or sys.stdout, width)
     _print_table(report, page)
     _print_differing(report, page)
     _print_reasons(report, "error", "Failed", page)
@@ -52,7 +52,7 @@ def print_report(
         page.line(f"Report: {path}")
 
 
-class _Page:
+class Page:
     """A console that shows text as it is: no markup, no control codes, and ASCII where the stream knows no more."""
 
     def __init__(self, file: TextIO, width: int | None) -> None:
@@ -81,7 +81,7 @@ class _Page:
         return self._text(words, style=style)
 
 
-def _print_table(report: Report, page: _Page) -> None:
+def _print_table(report: Report, page: Page) -> None:
     """Scene × engine. In a window too narrow for words, glyphs stand for them; if need be, the engines are split."""
     say: Callable[[Cell], str]
     for say in (_in_words, _in_glyphs):
@@ -113,7 +113,7 @@ def _blocks(report: Report, say: Callable[[Cell], str], width: int) -> list[list
     return blocks
 
 
-def _table(report: Report, engines: Sequence[str], say: Callable[[Cell], str], page: _Page) -> Table:
+def _table(report: Report, engines: Sequence[str], say: Callable[[Cell], str], page: Page) -> Table:
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
 
@@ -129,7 +129,7 @@ def _table(report: Report, engines: Sequence[str], say: Callable[[Cell], str], p
     return table
 
 
-def _print_differing(report: Report, page: _Page) -> None:
+def _print_differing(report: Report, page: Page) -> None:
     found = report.having("differs")
     if found:
         page.line("\nDiffers", STYLES["differs"])
@@ -139,7 +139,7 @@ def _print_differing(report: Report, page: _Page) -> None:
         page.line(f"  … and {len(found) - MOST_LISTED} more, which the report lists")
 
 
-def _print_reasons(report: Report, outcome: Outcome, title: str, page: _Page) -> None:
+def _print_reasons(report: Report, outcome: Outcome, title: str, page: Page) -> None:
     """Each reason once, with where it holds: one missing engine is one line, not one for each of its comparisons."""
     found = report.reasons(outcome)
     if found:

@@ -1,0 +1,145 @@
+"""One run of the benchmark: what is measured, on what, and the files it leaves."""
+
+from __future__ import annotations
+
+import os
+import platform
+import shlex
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+
+from . import __version__
+from .engines import engine_info, engine_names, engine_version
+from .models import EngineMissing, InvalidInput, Scene, find_scene
+from .models.bench import Bench, Motion, Skip, Speed, Target
+from .models.benchmarks import BENCHMARKS
+from .run import PACKAGES, machine, version_of
+
+SKIP_SCENES = ("double-pendulum", "rods-5")
+THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+NOTES = (
+    "All methods of a motion, and all calls of a table, ran in turn in one process, to and fro, after a warm-up; "
+    "times are the median of the rounds, ratios those of the medians or of the rounds themselves.",
+    "MuJoCo's Python package lets the C library read a clock again and again in every step; 'timer off' is without.",
+    "Engines' accelerations are timed by their barest calls, input in place; what furiko's adapters add is not.",
+    "Errors of motions: the largest of θ [rad] and ω [rad/s] at the end, against a run in quadruple precision. Errors "
+    "of accelerations: relative to a state's largest, against enclosures in ball arithmetic.",
+    "Where a method did not come as near as asked, it says 'not reached'; nothing is extrapolated.",
+)
+Watch = Callable[[str], None]
+
+
+def bench(
+    scenes: Sequence[str] | None = None,
+    engines: Sequence[str] | None = None,
+    *,
+    budget: float = 60.0,
+    skips: bool = False,
+    targets: bool = False,
+    watch: Watch = lambda _: None,
+) -> Bench:
+    """Measure time against error: motions of ``scenes``, and accelerations where none are named.
+
+    ``scenes``: names or TOML files, of the benchmark's own motions or the catalogue; ``engines``: names, None for all
+    that are installed; ``budget``: about so many seconds. ``skips`` and ``targets`` are measured instead, as long as
+    it takes. Raises :class:`InvalidInput` for unknown names and :class:`EngineMissing`, before anything runs.
+    """
+    begun = time.monotonic()
+    started = datetime.now(UTC).isoformat(timespec="seconds")
+    chosen = [] if skips or targets else [_scene(name) for name in (BENCHMARKS if scenes is None else scenes)]
+    names = _engines(engines)
+    motions: list[Motion] = []
+    speeds: list[Speed] = []
+    skipped: list[Skip] = []
+    reached: list[Target] = []
+    if skips:
+        from .checks.skips import skips as prove
+
+        skipped = list(prove(list(scenes or SKIP_SCENES), names, watch))
+    if targets:
+        from .checks.targets import targets as measure
+
+        reached = list(measure(watch))
+    if not (skips or targets):
+        both = scenes is None
+        motions = list(_motions(chosen, names, 0.6 * budget if both else budget, watch))
+        speeds = list(_speeds(names, 0.4 * budget, watch)) if both else []
+    return Bench(
+        furiko=__version__,
+        started=started,
+        command=shlex.join(["furiko", *sys.argv[1:]]),
+        machine=machine(),
+        threads={"each call": "1 thread unless a row says more", **_threads()},
+        versions={"python": platform.python_version(), **{name: version_of(name) for name in PACKAGES}},
+        budget=budget,
+        seconds=time.monotonic() - begun,
+        notes=list(NOTES),
+        motions=motions,
+        speeds=speeds,
+        skips=skipped,
+        targets=reached,
+    )
+
+
+def _motions(scenes: Sequence[Scene], engines: Sequence[str], budget: float, watch: Watch) -> Iterator[Motion]:
+    from .checks.work_precision import work_precision
+
+    for scene in scenes:
+        yield work_precision(scene, engines, budget / len(scenes), watch)
+
+
+def _speeds(engines: Sequence[str], budget: float, watch: Watch) -> Iterator[Speed]:
+    from .checks.acceleration_speed import SIZES, speeds
+
+    cases = [(kind, n) for kind, sizes in SIZES.items() for n in sizes]
+    for kind, n in cases:
+        watch(f"accelerations of {kind}, {n} links")
+        yield from speeds(kind, n, engines, budget / len(cases), threads=_processors())
+
+
+def _scene(name: str) -> Scene:
+    """A motion of the benchmark's own or of a scene. Raises :class:`InvalidInput` where nothing moves."""
+    scene = BENCHMARKS[name] if name in BENCHMARKS else find_scene(name)
+    if scene.theta is None or not scene.duration:
+        raise InvalidInput(f"scene {name!r}: it has no [state] with a duration, so there is no motion to time")
+    return scene
+
+
+def _engines(given: Sequence[str] | None) -> list[str]:
+    """The engines by name; those asked for must be there."""
+    if given is None:
+        return [name for name in engine_names() if engine_version(name)]
+    for name in given:
+        info = engine_info(name)
+        if info.package and not engine_version(name):
+            raise EngineMissing(f"{name} needs the package {info.package!r}: pip install {info.package}")
+    return list(dict.fromkeys(given))
+
+
+def _processors() -> int:
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _threads() -> dict[str, str]:
+    return {name: os.environ.get(name, "not set") for name in THREADS}
+
+
+def write(folder: Path, found: Bench) -> Path:
+    """Write ``bench.json`` and ``bench.html``; returns the page's path. Raises :class:`InvalidInput`."""
+    import msgspec
+
+    from .reports.bench_page import to_html
+
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, text in (
+            ("bench.json", msgspec.json.format(msgspec.json.encode(found), indent=1).decode() + "\n"),
+            ("bench.html", to_html(found)),
+        ):
+            (folder / name).write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise InvalidInput(f"{folder}: cannot be written: {error.strerror or error}") from None
+    return folder / "bench.html"
