@@ -194,7 +194,8 @@ def _ask(reader: Reader, file: ModelFile) -> _Asked:
     asked.left = measured.worst(planar.parameters(theory))
     if asked.left > 1:
         asked.status = "differs"
-        asked.findings = _why(reader, engine, viewed, file, theory, measured, asked.compiled)[:ALTOGETHER]
+        found = _why(reader, engine, viewed, file, theory, measured, asked.compiled)[:ALTOGETHER]
+        asked.findings = [f if reader.name in f.where else replace(f, where=f"{reader.name}: {f.where}") for f in found]
         asked.says = f"{len(asked.findings)} finding{'s' * (len(asked.findings) != 1)}"
     return asked
 
@@ -307,32 +308,48 @@ def _against(file: ModelFile, wanted: Mechanism) -> list[Finding]:
     found = file.mechanism
     if found.n != wanted.n:
         return _other_number(found, wanted)
-    passive, best = None, None
-    for seen in (found, mirrored(found)):
+    own = suspects(file, own=True)
+    ways: list[tuple[tuple[int, ...], list[Finding]]] = []
+    for side, seen in enumerate((found, mirrored(found))):
         for order in orders(seen, wanted):
             ordered = rearranged(seen, order, [0.0] * seen.n)
             alike = same_motion(ordered.ideal(), wanted.ideal())
-            for turns in natural_turns(ordered, wanted):
-                view = rearranged(ordered, range(ordered.n), turns)
-                named = _named_alike(view, wanted)
-                differ = differences(
-                    named, wanted, "the file", suspects=suspects(file) if order == sorted(order) else None
-                )
-                if alike:
-                    passive = [f for f in differ if f.where.startswith("joint")]
-                    free = [f for f in passive if f.cause not in ("length", "gravity", "gravity-turned")]
-                    if best is None or len(free) < len(best):
-                        best = free
-                elif passive is None and (best is None or len(differ) < len(best)):
-                    best = differ
-            if alike:
-                break
-        if passive is not None:
-            break
+            kept = own if order == sorted(order) else None
+            for way, turns in enumerate(natural_turns(ordered, wanted)):
+                view = _named_alike(rearranged(ordered, range(ordered.n), turns), wanted)
+                differ = differences(view, wanted, "the file", suspects=kept)
+                if alike:  # numbers that do not change the motion are no difference
+                    differ = [finding for finding in differ if finding.where.startswith("joint")]
+                ways.append(((not alike, *_weight(differ), way, not _recognised(differ), side), differ))
+    best = min(ways, key=lambda way: way[0])[1] if ways else None
     if best is None:
         says = f"the file: links hang on {[p + 1 for p in found.parents]}, wanted {[p + 1 for p in wanted.parents]}"
         return [Finding("joint-order", "the file", str(found.parents), str(wanted.parents), f"{says} (0: the support)")]
-    return _gravity_turned(found, wanted, best) + best
+    return _gravity_turned(found, wanted, best) + _weighed(file, best) + best
+
+
+def _recognised(findings: list[Finding]) -> bool:
+    return any(finding.cause == "degree-vs-radian" for finding in findings)
+
+
+def _weight(findings: list[Finding]) -> tuple[int, int]:
+    """How many places they name, then how many things: the fewer, the better two mechanisms were brought together."""
+    named = [finding for finding in findings if finding.cause != "degree-vs-radian"]  # always told beside another
+    return len({finding.where for finding in named}), len(named)
+
+
+def _weighed(file: ModelFile, findings: list[Finding]) -> list[Finding]:
+    """Where bodies get their inertials from their geoms and differ, that is what to look at first."""
+    by_link = {"mass", "inertia", "com-displaced", "inertial-com-rotated", "length"}
+    if not file.from_geoms:
+        return []
+    if not any(finding.cause in by_link for finding in findings):
+        return []
+    passed = [name for name in file.from_geoms if name in file.tensors]
+    why = "the compiler is told to (inertiafromgeom), and passes the inertials over" if passed else "they have no inertial"
+    names = ", ".join(file.from_geoms[:3]) + (" …" if len(file.from_geoms) > 3 else "")
+    says = f"the file: {names}: mass and inertia are those of the geoms: {why}"
+    return [Finding("inertia-from-geoms", f"link {names}", None, None, says)]
 
 
 def _named_alike(view: Mechanism, wanted: Mechanism) -> Mechanism:

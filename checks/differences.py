@@ -110,7 +110,7 @@ def _links(found: Mechanism, expected: Mechanism, who: str, asked: str, suspects
         )
         heavier = abs(got.mass - wanted.mass) > SAME * max(got.mass, wanted.mass)
         about_hinge = wanted.inertia + wanted.mass * reach**2
-        stiffer = abs(got.inertia - wanted.inertia) > 1e-12 * max(wanted.inertia, got.inertia) + 1e-15 * about_hinge
+        stiffer = abs(got.inertia - wanted.inertia) > 1e-12 * max(wanted.inertia, got.inertia) + 1e-13 * about_hinge
         if not (moved or heavier or stiffer):
             continue
         name = link(expected, i)
@@ -263,8 +263,11 @@ def _suspect(i: int, got: object, suspects: Suspects) -> str | None:
     return None
 
 
-def suspects(file: ModelFile) -> Suspects:
-    """Each way in which a reader of this file may go wrong, and what each link would be then."""
+def suspects(file: ModelFile, own: bool = False) -> Suspects:
+    """Each way in which a reader of this file may go wrong, and what each link would be then.
+
+    ``own``: it is the file itself that is held against something: then what its geoms weigh may be what is wrong.
+    """
     rotation_lost, turned, fused, drawn, ignored = {}, {}, {}, {}, {}
     right = _links_of(file, lambda body: body.inertial)
     lost = _links_of(file, lambda body: _lost(file, body.name, body.inertial))
@@ -277,7 +280,7 @@ def suspects(file: ModelFile) -> Suspects:
             if not _near(found[i], value):
                 place[i] = found[i]
     if file.from_geoms:
-        drawn.clear()
+        drawn = {i: geoms[i] for i in right} if own else {}
     wrong = {
         "urdf-inertial-rpy-lost": rotation_lost,
         "inertial-com-rotated": turned,
