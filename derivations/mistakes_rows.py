@@ -349,8 +349,9 @@ def _chain_matrix(m: Mechanism) -> Iterator[Mistake]:
                 row: Row = {0: length(j) * s.g * s.sin({j: 1})}
                 for k in range(n):
                     alpha = (length(pick(j, k)) - (s.l(j).times(delta) if j == k else NOTHING)) * s.l(k)
-                    row[unit(k)] = alpha * s.cos({j: 1, k: -1})
-                    row[2 * unit(n + k)] = alpha * s.sin({j: 1, k: -1})
+                    between = {j: 1, k: -1} if j != k else {}
+                    row[unit(k)] = alpha * s.cos(between)
+                    row[2 * unit(n + k)] = alpha * s.sin(between)
                 d.rows[j] = {q: f for q, f in row.items() if f}
 
         return apply
@@ -368,6 +369,12 @@ def _chain_matrix(m: Mechanism) -> Iterator[Mistake]:
         ("delta-sign", rebuilt(below, max, -sixth),
          "δ_jk l_j/6 is added; it is subtracted", "δ_jk l_j/6 を足しています。引きます"),
         ("delta-missing", rebuilt(below, max, fmpq(0)), "δ_jk l_j/6 is left out", "δ_jk l_j/6 が抜けています"),
+        ("sum-index-own", rebuilt(lambda j: s.l(j).times(HALF) + s.l(j).times(n - 1 - j), max, sixth),
+         "the sum in L_j adds l_j again and again; its index must run over the rods below (Takeno's (12) prints l_m)",
+         "L_j の和で l_j ばかり足しています。添字は下の棒を動きます（(12) の印刷では l_m）"),
+        ("sum-index-last", rebuilt(lambda j: s.l(j).times(HALF) + s.l(n - 1).times(n - 1 - j), max, sixth),
+         "the sum in L_j adds l_n again and again; its index must run over the rods below (Takeno's (12) prints l_m)",
+         "L_j の和で l_n ばかり足しています。添字は下の棒を動きます（(12) の印刷では l_m）"),
         ("delta-third", rebuilt(below, max, fmpq(1, 3)),
          "δ_jk l_j/3 stands where δ_jk l_j/6 belongs", "δ_jk l_j/6 とすべき所が l_j/3 です"),
     ]  # fmt: skip

@@ -76,7 +76,9 @@ def exact_factor(row: Row, base: Row, agreed: Iterable[int] | None = None) -> Fo
 
 
 def divided(f: Formula, by: Formula) -> Formula | None:
-    """f / by where it is a sum of products of symbols: by a single term with the same angle, or term against term."""
+    """f / by where it is easily told: by a single product, a single term with the same wave, or term against term."""
+    if by.is_monomial():
+        return f * by.inverse_monomial()
     if len(by) == 1:
         ((e, h, phase), c), *_ = by.terms.items()
         if any((h2, phase2) != (h, phase) for _, h2, phase2 in f.terms):
