@@ -10,13 +10,10 @@ import contextlib
 import os
 import signal
 import subprocess
-import sys
-import tempfile
 import time
 from collections import Counter, deque
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from multiprocessing import Pipe
 from multiprocessing.connection import Connection, wait
 
 from ..engines import engine_version
@@ -24,22 +21,19 @@ from ..models.result import Result
 from .cache import Cache
 from .messages import Begun, CellJob, Done, Facts, FactsJob, Failed
 from .plan import Plan, Task
+from .spawn import Workshop
 
-ENVIRONMENT = {
-    # One worker a core: threads of a linear algebra library would only be in each other's way.
-    "OPENBLAS_NUM_THREADS": "1",
-    "OMP_NUM_THREADS": "1",
-    # Nothing is drawn: MuJoCo need not look for a window system, which takes half of its import.
-    "MUJOCO_GL": "disable",
-}
 TIMEOUT = 60.0  # [s] for one check; the slowest sound one seen takes a few
 HANGS = 2  # after so many time-outs an engine is given up: each costs the whole time-out
 
 
-def run(plan: Plan, *, cache: Cache, jobs: int | None = None, timeout: float = TIMEOUT) -> Iterator[Result]:
+def run(
+    plan: Plan, *, cache: Cache, place: Workshop, jobs: int | None = None, timeout: float = TIMEOUT
+) -> Iterator[Result]:
     """Every result of the plan: first what is settled or kept already, then the others in the order in which they come.
 
-    ``jobs``: worker processes, as many as there are cores for None; ``timeout``: seconds for one check.
+    ``place``: where workers come from; ``jobs``: how many, as many as there are cores for None; ``timeout``: seconds
+    for one check.
     """
     yield from plan.settled
     tasks = []
@@ -50,8 +44,7 @@ def run(plan: Plan, *, cache: Cache, jobs: int | None = None, timeout: float = T
         else:
             yield from kept
     if tasks:
-        with tempfile.TemporaryDirectory(prefix="furiko-") as folder:
-            yield from _Pool(tasks, cache, jobs or os.cpu_count() or 1, timeout, folder).results()
+        yield from _Pool(tasks, cache, place, jobs or os.cpu_count() or 1, timeout).results()
 
 
 @dataclass(eq=False)
@@ -75,8 +68,8 @@ class _Worker:
 class _Pool:
     """Workers, the jobs that wait, and the bookkeeping between them."""
 
-    def __init__(self, tasks: list[Task], cache: Cache, jobs: int, timeout: float, folder: str) -> None:
-        self.cache, self.timeout, self.folder = cache, timeout, folder
+    def __init__(self, tasks: list[Task], cache: Cache, place: Workshop, jobs: int, timeout: float) -> None:
+        self.cache, self.place, self.timeout = cache, place, timeout
         scenes = {task.scene.name: FactsJob(task.scene, task.random_states) for task in tasks}
         # The largest truths first: they take longest, and cells wait for them.
         self.facts_jobs = deque(sorted(scenes.values(), key=lambda job: -job.scene.system.n))
@@ -104,7 +97,7 @@ class _Pool:
                 self._stop(worker)
 
     def _start(self) -> None:
-        self.workers.append(_Worker(*spawn(self.folder)))
+        self.workers.append(_Worker(*self.place.worker()))
 
     def _stop(self, worker: _Worker) -> None:
         self.workers.remove(worker)
@@ -211,24 +204,6 @@ class _Pool:
             tasks, reason = self.waiting.pop(job.scene.name), f"the truth could not be computed: {reason}"
         for task in tasks:
             yield from (_error(task, check, reason, details) for check in task.checks)
-
-
-def spawn(folder: str) -> tuple[subprocess.Popen[bytes], Connection]:
-    """A fresh worker process that runs in ``folder``, and our end of the connection to it."""
-    ours, theirs = Pipe()
-    process = subprocess.Popen(
-        [sys.executable, "-m", "furiko.checks.worker", str(theirs.fileno())],
-        pass_fds=[theirs.fileno()],
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-        cwd=folder,
-        env=os.environ | ENVIRONMENT,
-        start_new_session=True,  # Ctrl-C is the parent's to handle
-    )
-    theirs.close()
-    ours.send([os.path.abspath(path) for path in sys.path])
-    return process, ours
 
 
 def _preference(job: CellJob, here: set[str], elsewhere: set[str]) -> tuple[int, int]:

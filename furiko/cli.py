@@ -59,20 +59,24 @@ def check(
     as_json: bool,
 ) -> int:
     """Hold engines against the documents' equations, in the catalogue's scenes or your own."""
-    from .run import check as run_check
+    from .checks.spawn import workshop
 
-    before = _read(baseline) if baseline else None
-    with progress() as watch:
-        report = run_check(
-            scenes or None,
-            engines or None,
-            profile=profile,
-            out=out,
-            jobs=jobs,
-            timeout=timeout,
-            use_cache=not no_cache,
-            watch=watch,
-        )
+    with workshop(ahead=jobs or os.cpu_count() or 1) as place:
+        from .run import check as run_check
+
+        before = _read(baseline) if baseline else None
+        with progress() as watch:
+            report = run_check(
+                scenes or None,
+                engines or None,
+                profile=profile,
+                out=out,
+                jobs=jobs,
+                timeout=timeout,
+                use_cache=not no_cache,
+                place=place,
+                watch=watch,
+            )
     status = report.exit_status
     if as_json:
         print_json({"header": report.header, "results": report.results, "footer": report.footer})

@@ -12,17 +12,16 @@ from contextlib import nullcontext
 from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from threading import Thread
 
 from . import __version__
 from .checks.cache import Cache, user_cache
 from .checks.plan import Plan, make_plan
 from .checks.runner import TIMEOUT, run
+from .checks.spawn import Workshop, workshop
 from .engines import engine_version
 from .models import Scene, catalogue
 from .models.result import OUTCOMES, EngineEntry, Footer, Header, Result, SceneEntry
 from .reports import Report, StreamWriter, open_report, write_reports
-from .reports.write import prepare
 
 PACKAGES = ("numpy", "scipy", "mujoco", "pin", "exudyn", "python-flint", "heyoka", "numba")
 SEED = "sha256 of the scene's name, PCG64"
@@ -37,6 +36,7 @@ def check(
     jobs: int | None = None,
     timeout: float = TIMEOUT,
     use_cache: bool = True,
+    place: Workshop | None = None,
     watch: Callable[[Plan, Result], None] | None = None,
 ) -> Report:
     """Hold engines against the documents' equations.
@@ -44,8 +44,8 @@ def check(
     ``scenes``: names of the catalogue's or paths of TOML files, None for those of the profile; ``engines``: names,
     None for all; ``profile``: ``smoke``, ``quick`` or ``full``; ``out``: folder for ``report.jsonl`` and its
     renderings, None for none; ``jobs``: worker processes, None for one a core; ``timeout`` [s] of one check;
-    ``use_cache``: take results
-    of an earlier run with the very same inputs; ``watch`` is called with each result as it comes.
+    ``use_cache``: take results of an earlier run with the very same inputs; ``place``: workers started ahead;
+    ``watch`` is called with each result as it comes.
 
     Raises :class:`furiko.InvalidInput` for unknown names and bad files, before anything runs.
     """
@@ -54,18 +54,18 @@ def check(
     plan = make_plan(given, engines, profile)
     cache = user_cache() if use_cache else Cache(None)
     header = make_header(plan, given)
-    rendering = Thread(target=prepare if out is not None else None, daemon=True)
-    rendering.start()
     results = []
-    with nullcontext() if out is None else open_report(out, header) as stream:
-        for result in run(plan, cache=cache, jobs=jobs, timeout=timeout):
+    with (
+        nullcontext() if out is None else open_report(out, header) as stream,
+        nullcontext(place) if place else workshop() as workers,
+    ):
+        for result in run(plan, cache=cache, place=workers, jobs=jobs, timeout=timeout):
             results.append(result if stream is None else stream.write(result))
             if watch is not None:
                 watch(plan, results[-1])
         footer = _footer(stream, results, time.monotonic() - begun)
     report = Report(header, tuple(results), footer)
     if out is not None:
-        rendering.join()
         write_reports(out, report)
     return report
 
