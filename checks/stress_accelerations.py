@@ -170,7 +170,7 @@ def ulp_effect(system: Mechanism, theta: Array, omega: Array, random: np.random.
         there = close_accelerations(
             moved_system(system, random), moved_by_ulp(theta, random), moved_by_ulp(omega, random)
         )
-        moved = max(moved, max(abs(float(a - b)) for a, b in zip(here, there, strict=True)))
+        moved = max(moved, *(abs(float(a - b)) for a, b in zip(here, there, strict=True)))
     return moved / size if size else 0.0
 
 

@@ -36,8 +36,8 @@ class Recipe:
     """A mechanism and how its states are drawn.
 
     ``kind``; ``n`` angles; ``first_mass``, ``leg_mass`` and ``light_leg_mass`` [kg]: of links 1, 2 and 3 of an N-leg
-    pendulum, all others being 1; ``other_length`` [m]: of every second link, all others being 1; ``gravity`` [m/s²]; ``rate``
-    [rad/s]: the largest; ``turns``: angles have up to so many radians added; ``spread`` [rad]: angles are within it of
+    pendulum, all others being 1; ``other_length`` [m]: of every second link, all others being 1; ``gravity`` [m/s²];
+    ``rate`` [rad/s]: the largest; ``turns``: angles have up to so many radians added; ``spread`` [rad]: angles are within it of
     one direction; ``folded``: every second link points back.
     """
 
@@ -171,9 +171,7 @@ class Pair:
 
     def label(self, rung: int) -> str:
         """Both values."""
-        return ", ".join(
-            f"{self._value(axis, rung):.3g} {axis.unit}".rstrip() for axis in (self.first, self.second)
-        )
+        return ", ".join(f"{self._value(axis, rung):.3g} {axis.unit}".rstrip() for axis in (self.first, self.second))
 
     def _base(self) -> Recipe:
         """The larger of the two mechanisms."""

@@ -1,0 +1,208 @@
+"""One stress test: the questions, what is known of them already, workers, stream and pages, tied together."""
+
+from __future__ import annotations
+
+import os
+import platform
+import shlex
+import sys
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from . import __version__
+from .checks.stress import FAMILIES, Results, Search, key, make_searches
+from .checks.stress import run as run_cases
+from .checks.stress_accelerations import DOCUMENT, KERNELS, OWN
+from .checks.stress_axes import AXES, Ladder, find_axes, pairs
+from .engines import EngineInfo, engine_info, engine_names, engine_version
+from .models import EngineMissing, InvalidInput
+from .models.result import EngineEntry, Header
+from .reports.journal import Journal
+
+STREAM = "stress.jsonl"
+BUDGET = 60.0  # [s]
+SEED = 2018
+PROFILE = "stress"
+
+Watch = Callable[["Progress"], None]
+
+
+@dataclass(frozen=True)
+class Progress:
+    """Where a run stands: cases done in all and in this run, questions that are open, and what runs now."""
+
+    done: int
+    new: int
+    open: int
+    now: str
+    elapsed: float
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a run is about."""
+
+    searches: list[Search]
+    engines: list[EngineInfo]
+
+
+def stress(
+    axes: Sequence[str] | None = None,
+    engines: Sequence[str] | None = None,
+    *,
+    budget: float = BUDGET,
+    seed: int = SEED,
+    out: str | Path | None = None,
+    fresh: bool = False,
+    jobs: int | None = None,
+    timeout: float = 30.0,
+    long_steps: int = 10_000_000,
+    watch: Watch | None = None,
+) -> dict[str, Any]:
+    """Find out where engines, integrators and formulas break; the summary as plain data.
+
+    ``axes``: names of ladders, of pairs (``A x B``) or of families (``steps``, ``chain``, …), None for all but pairs;
+    ``engines``: names, ``document`` and ``kernels`` among them, None for all; ``budget`` [s] of the whole; ``out``:
+    folder of the stream and the pages, where a run that was cut off is gone on with unless ``fresh``; None keeps
+    nothing. ``jobs``: worker processes; ``timeout`` [s] of one case; ``long_steps``: of a long run.
+    Raises :class:`InvalidInput` for unknown names and for a folder that holds another run.
+    """
+    begun = time.monotonic()
+    plan = make_plan(axes, engines, seed=seed, long_steps=long_steps)
+    folder = None if out is None else _folder(out, fresh)
+    header = make_header(plan, seed)
+    results: dict[Any, Any] = {}
+    if folder is None:
+        _work(plan.searches, results, budget, jobs, timeout, watch, None)
+    else:
+        with Journal(folder / STREAM, header) as journal:
+            results.update((key(result), result) for result in journal.results)
+            _work(plan.searches, results, budget, jobs, timeout, watch, journal)
+            journal.finish(time.monotonic() - begun)
+            header = journal.header
+    return summarise(plan.searches, results, header, seed, folder)
+
+
+def summarise(
+    searches: Sequence[Search], results: Results, header: Header, seed: int, folder: Path | None
+) -> dict[str, Any]:
+    """The summary, and its pages in the folder."""
+    from .checks.stress_summary import summary
+
+    found = summary(searches, results, seed=seed)
+    if folder is not None:
+        from .reports.stress_page import write_pages
+
+        write_pages(folder, found, header)
+    return found
+
+
+def make_plan(
+    axes: Sequence[str] | None, engines: Sequence[str] | None, *, seed: int, long_steps: int = 10_000_000
+) -> Plan:
+    """The questions; raises :class:`InvalidInput` for unknown names, EngineMissing for engines not installed."""
+    ladders, families = chosen_axes(axes)
+    names = list(dict.fromkeys((*OWN, *engine_names()) if engines is None else engines))
+    own = [name for name in names if name in OWN]
+    infos = [engine_info(name) for name in names if name not in OWN]
+    missing = [info for info in infos if info.package and not engine_version(info.name)]
+    if missing and engines is not None:
+        raise EngineMissing(f"{missing[0].name}: not installed: pip install {missing[0].package}")
+    infos = [info for info in infos if info not in missing]
+    searches = make_searches(ladders, infos, own, seed=seed, families=families, long_steps=long_steps)
+    if not searches:
+        raise InvalidInput(f"stress: nothing to ask: {', '.join(names)} has no part in {', '.join(axes or ())}")
+    return Plan(searches, infos)
+
+
+def chosen_axes(axes: Sequence[str] | None) -> tuple[tuple[Ladder, ...], tuple[str, ...]]:
+    """Ladders and families that were asked for."""
+    if axes is None:
+        return AXES, tuple(family for family in FAMILIES if family != "pairs")
+    families = [name for name in FAMILIES if name in axes]
+    ladders: list[Ladder] = []
+    for name in axes:
+        if name == "accelerations":
+            ladders += AXES
+        elif name == "pairs":
+            ladders += pairs()
+        elif name == "all":
+            ladders += [*AXES, *pairs()]
+            families += FAMILIES
+        elif name not in FAMILIES:
+            found = find_axes((name,))
+            ladders += found
+            families += ["pairs" if " x " in name else "accelerations"]
+    return tuple(dict.fromkeys(ladders)), tuple(dict.fromkeys(families))
+
+
+def make_header(plan: Plan, seed: int) -> Header:
+    """What the stream's first line says of this run."""
+    from .run import PACKAGES, machine, version_of
+
+    return Header(
+        furiko=__version__,
+        started=datetime.now(UTC).isoformat(timespec="seconds"),
+        command=shlex.join(["furiko", *sys.argv[1:]]),
+        profile=PROFILE,
+        seed=str(seed),
+        machine=machine(),
+        versions={"python": platform.python_version(), **{name: version_of(name) for name in PACKAGES}},
+        scenes=[],
+        engines=[
+            *(
+                EngineEntry(name=name, formulation=says, package="furiko", version=__version__)
+                for name, says in (
+                    (DOCUMENT, "the documents' own formulas, a dense system solved in double precision"),
+                    (KERNELS, "furiko's O(n) elimination: single states, batches, and plain numpy"),
+                )
+            ),
+            *(
+                EngineEntry(name=i.name, formulation=i.formulation, package=i.package, version=engine_version(i.name))
+                for i in map(engine_info, engine_names())
+            ),
+        ],
+    )
+
+
+def _work(
+    searches: Sequence[Search],
+    results: dict[Any, Any],
+    budget: float,
+    jobs: int | None,
+    timeout: float,
+    watch: Watch | None,
+    journal: Journal | None,
+) -> None:
+    begun, new, now = time.monotonic(), 0, ""
+
+    def tell() -> None:
+        if watch is not None:
+            waiting = sum(search.next(results)[0] is not None for search in searches)
+            watch(Progress(len(results), new, waiting, now, time.monotonic() - begun))
+
+    def begins(case: Any) -> None:
+        nonlocal now
+        now = f"{case.engine}: {case.scene}"
+
+    number = jobs or min(os.cpu_count() or 1, 8)
+    for result in run_cases(searches, results, budget=budget, jobs=number, timeout=timeout, watch=begins):
+        if journal is not None:
+            journal.write(result)
+        new += 1
+        tell()
+
+
+def _folder(out: str | Path, fresh: bool) -> Path:
+    folder = Path(out)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        if fresh:
+            (folder / STREAM).unlink(missing_ok=True)
+    except OSError as error:
+        raise InvalidInput(f"{folder}: cannot be written: {error.strerror or error}") from None
+    return folder
