@@ -14,11 +14,19 @@ from ..models.result import Outcome, Result
 CHECKS = {
     "model fields": "fields",
     "accelerations": "accelerations",
+    "symmetry": "accelerations",
     "terms": "inverse_dynamics",
     "joint forces": "joint_forces",
     "energy": "energy",
+    "step map": "trajectory",
     "trajectory": "trajectory",
+    "invariant": "trajectory",
+    "horizon": "trajectory",
 }
+
+# Seconds rather than milliseconds a scene and an engine: in a full run only.
+LONG = ("invariant", "horizon")
+SHORT = tuple(check for check in CHECKS if check not in LONG)
 
 
 @dataclass(frozen=True)
@@ -36,8 +44,8 @@ PROFILES = {
     profile.name: profile
     for profile in (
         Profile("smoke", "one scene of each system, accelerations alone", ("accelerations",), 20, tag="smoke"),
-        Profile("quick", "the whole catalogue, every check", tuple(CHECKS), 200),
-        Profile("full", "the same in five times as many random states", tuple(CHECKS), 1000),
+        Profile("quick", "the whole catalogue, every check that is quick", SHORT, 200),
+        Profile("full", "every check, in five times as many random states", tuple(CHECKS), 1000),
     )
 }
 
@@ -100,6 +108,10 @@ def skip(check: str, scene: Scene, info: EngineInfo) -> str:
     quantity = CHECKS[check]
     if quantity in info.missing:
         return info.missing[quantity]
+    if check == "horizon" and "chaotic" not in scene.tags:
+        return "the scene is not tagged 'chaotic': how its trajectories part is not asked"
+    if check == "horizon" and scene.theta is None:
+        return "the scene has no state for a trajectory to start from"
     if check == "trajectory" and not scene.duration:
         return "the scene has no duration: nothing moves in it"
     return ""

@@ -19,6 +19,7 @@ import msgspec
 from ..models import EngineMissing
 from ..models.result import Result
 from .messages import Begun, CaseJob, CellJob, Done, Facts, FactsJob, Failed, Message
+from .plan import CHECKS
 
 
 def main() -> None:
@@ -72,7 +73,7 @@ def cell(job: CellJob) -> Iterator[Message]:
     differ = False
     for check in task.checks:
         yield Begun(check)
-        if check == "trajectory" and differ:
+        if CHECKS[check] == "trajectory" and differ:
             reason = "the accelerations differ already: no trajectory can agree"
             yield this.result(check, "skipped", reason=reason)
             continue
@@ -102,7 +103,11 @@ MODULES = {
     "terms": ".terms",
     "joint forces": ".joint_forces",
     "energy": ".energy",
+    "symmetry": ".symmetries",
+    "step map": ".step_map",
     "trajectory": ".trajectories",
+    "invariant": ".invariants",
+    "horizon": ".horizon",
 }
 
 

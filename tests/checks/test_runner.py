@@ -7,7 +7,9 @@ from pathlib import Path
 import pytest
 
 import furiko
-from furiko.checks.plan import CHECKS
+from furiko.checks.plan import PROFILES
+
+CHECKS = PROFILES["quick"].checks
 
 
 def check(*engines, scenes=("rods-2",), **options):
