@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -19,12 +20,18 @@ F = TypeVar("F", bound=Callable[..., Any])
 # error_model: Python's check for division by zero would keep every loop with a division from being vectorised.
 # fastmath: fused multiply-add and reciprocals of constants, but no reassociation: compensated sums stay exact.
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract", "nsz", "arcp"}}
-SOURCES = ("elimination.py", "compiling.py", "sincos.py", "kernels_compiled.py", "taylor_compiled.py")
+SOURCES = ("elimination.py", "compiling.py", "sincos.py", "convolution.py", "kernels_compiled.py", "taylor_compiled.py")
 
 
 def inlined(function: F) -> F:
     """Compile an elementwise function into every place that calls it."""
     compiled_function: F = njit(forceinline=True, **OPTIONS)(function)
+    return compiled_function
+
+
+def called(function: F) -> F:
+    """Compile a larger function once, to be called from other compiled code."""
+    compiled_function: F = njit(**OPTIONS)(function)
     return compiled_function
 
 
@@ -48,6 +55,7 @@ def compiled(*, releases_gil: bool) -> Callable[[F], F]:
     return decorate
 
 
+@cache
 def source_stamp() -> str:
     """A digest of all source text that goes into compiled code."""
     folder = Path(__file__).parent

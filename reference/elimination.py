@@ -26,6 +26,15 @@ Written out so, A', B', C' and P', Q' subtract nearly equal numbers. Multiplied 
 (the last because B² ≤ AC); so C' sin² + … after the rotation into the frame of rod j-1, by θ_j - θ_{j-1}, does not
 cancel either. Only sines and cosines of differences of neighbouring angles are needed, of θ_1 - 0 first.
 
+One cancellation is left: T = -(Λ a + β) between a heavy rod and a light one, where what moves the light rod is a small
+difference of the heavy one's Λ a and β. Such chains (:data:`UNEQUAL`) get one step of iterative refinement. The forces
+follow from the motion just found by (3) alone, T_n = 0 upwards, and are as exact as they are large; what is missing in
+
+    δ = q·T_j - (m/2) b - (m/3) lθ''
+
+is eliminated as before, with w = 0 and g = 0 (τ = δ - Q, P' = P + κB (δ - Q), Q' = (1 + κ m/6) δ - (κ m/6) Q), and
+added to lθ''. Where 1 state in 50 had errors up to 1e-13 (lengths 1 to 1000, 20 rods), the worst is then 2e-15.
+
 **N-leg pendulum** (Shiki (3.9), (3.12)). S_i = sin(θ1 - θi), C_i = cos(θ1 - θi), h = g cos θ1 + l1 ω1², w_i = l_i ω_i².
 Row i > 1 gives l_i θi'' = l1 ω1² S_i - C_i l1 θ1'' - g sin θi. Put into row 1, Σm - Σ m_i C_i² = m1 + Σ m_i S_i², and
 with l1 θ1'' = G - g sin θ1 and sin θi = C_i sin θ1 - S_i cos θ1 all that cancels for aligned legs drops out:
@@ -38,6 +47,7 @@ from __future__ import annotations
 
 from typing import Any
 
+UNEQUAL = 4.0  # ratio of the longest to the shortest rod from which on a chain is refined
 Number = Any  # a float, a numpy array of any float type, or what numba makes of them
 
 
@@ -95,6 +105,36 @@ def swing_rod(
     b = c * across - s * along
     moved = kappa_tau - kappa_B * a - kappa_m6 * b
     return moved - b, a - w, moved
+
+
+def turn_down(s: Number, c: Number, along: Number, across: Number) -> tuple[Number, Number]:
+    """A vector from the parent's frame into the rod's."""
+    return c * along + s * across, c * across - s * along
+
+
+def turn_up(s: Number, c: Number, along: Number, across: Number) -> tuple[Number, Number]:
+    """A vector from the rod's frame into its parent's."""
+    return c * along - s * across, s * along + c * across
+
+
+def force_above(
+    m: Number, w: Number, a: Number, b: Number, x: Number, along: Number, across: Number
+) -> tuple[Number, Number]:
+    """T_{j-1} from T_j, both in rod j's frame, by (3); a, b: a_{j-1} in it, x: lθ''."""
+    return along - m * (a - w / 2), across - m * (b + x / 2)
+
+
+def missing(m: Number, b: Number, x: Number, across: Number) -> Number:
+    """δ, by which the moments of rod j do not add up; across: q·T_j."""
+    return (across - (m / 2) * b) - (m / 3) * x
+
+
+def absorb_missing(
+    m: Number, delta: Number, kappa_B: Number, kappa_m6: Number, P: Number, Q: Number
+) -> tuple[Number, Number, Number]:
+    """P', Q' and κτ of the correction, in the rod's frame."""
+    rest = delta - Q
+    return P + kappa_B * rest, delta + kappa_m6 * rest, kappa_m6 * rest / (m / 6)
 
 
 def pull_of_leg(m: Number, w: Number, h: Number, s: Number, c: Number) -> tuple[Number, Number]:

@@ -22,7 +22,19 @@ from numpy.typing import NDArray
 
 from ..models.errors import InvalidInput
 from ..models.systems import System
-from .elimination import absorb_rod, difference, pull_of_leg, swing_rod, turn
+from .elimination import (
+    UNEQUAL,
+    absorb_missing,
+    absorb_rod,
+    difference,
+    force_above,
+    missing,
+    pull_of_leg,
+    swing_rod,
+    turn,
+    turn_down,
+    turn_up,
+)
 from .limits import checked_state, refuse_outside
 
 Array = NDArray[np.float64]
@@ -32,7 +44,8 @@ FloatArray = NDArray[np.floating[Any]]
 # asked eight times will ask again, one that asks a few times (a quick check) never pays for numba.
 MANY_ANGLES, MANY_CALLS = 4096, 8
 ANGLES_A_THREAD = 50_000  # about 0.2 ms of work; handing a part to a thread takes 0.05 ms
-SCRATCH_COLUMNS = 6
+SCRATCH_COLUMNS = 9
+BLOCK = 64  # states the batch kernels take at a time
 
 _COMPILED = f"{__package__}.kernels_compiled"
 _FLOAT64 = np.dtype(np.float64)
@@ -90,7 +103,8 @@ class Kernel:
         self.n = system.n
         self.masses, self.lengths = link_masses(system), np.array(system.lengths)
         self.gravity = system.gravity
-        self._table = table(self.masses, self.lengths, self.gravity)
+        self.refined = unequal(self.lengths)
+        self._table = table(self.masses, self.lengths, self.gravity, self.refined)
         self._single = _entry(compiled.rods_single if rods else compiled.legs_single, self._table)
         self._batch = compiled.rods_batch if rods else compiled.legs_batch
         self._shape, self._strides = (self.n,), (8,)
@@ -117,10 +131,10 @@ class Kernel:
         parts = _parts(states[0].shape[0], self.n, threads)
 
         def run(part: slice) -> int:
-            status: int = self._batch(*(a[part] for a in states), self.masses, self.lengths, self.gravity)
+            status: int = self._batch(*(a[part] for a in states), self.masses, self.lengths, self.gravity, self.refined)
             return status
 
-        if any([run(parts[0])] if len(parts) == 1 else _pool().map(run, parts)):
+        if any([run(parts[0])] if len(parts) == 1 else thread_pool().map(run, parts)):
             refuse_outside(theta, omega)
         return out
 
@@ -135,14 +149,19 @@ def kernel_of(system: System) -> Kernel:
     return found
 
 
-def table(masses: Array, lengths: Array, gravity: float) -> Array:
+def table(masses: Array, lengths: Array, gravity: float, refined: bool) -> Array:
     """What the single-state kernels read and write, in one array: they take 50 ns to unpack each.
 
-    Shape (n + 1, 8): mass, length and six places of scratch a link; last row: gravity.
+    Shape (n + 1, 11): mass, length and nine places of scratch a link; last row: gravity, and 1 where to refine.
     """
     rows = np.zeros((len(masses) + 1, 2 + SCRATCH_COLUMNS))
-    rows[:-1, 0], rows[:-1, 1], rows[-1, 0] = masses, lengths, gravity
+    rows[:-1, 0], rows[:-1, 1], rows[-1, :2] = masses, lengths, (gravity, refined)
     return rows
+
+
+def unequal(lengths: FloatArray) -> bool:
+    """Whether a chain of such rods needs refinement."""
+    return bool(lengths.max() > UNEQUAL * lengths.min())
 
 
 def _entry(dispatcher: Any, arguments: Array) -> Callable[[Array, Array, Array, Array], int]:
@@ -159,20 +178,26 @@ def _worth_compiling(angles: int) -> bool:
     return _COMPILED in sys.modules or angles >= MANY_ANGLES or _calls > MANY_CALLS
 
 
-def _parts(batch: int, n: int, threads: int | None) -> list[slice]:
-    """Equal runs of whole blocks of states, one for each thread that is worth its start."""
+def processors(threads: int | None) -> int:
+    """How many threads may run: those asked for, and no more than there are processors for this process."""
     if threads is not None and threads < 1:
         raise InvalidInput(f"threads: at least 1 is needed, got {threads}")
-    processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    count = max(1, min(threads or processors, processors, batch * n // ANGLES_A_THREAD))
-    size = -(-batch // count)
-    size += -size % 64  # whole blocks of lanes
-    return [slice(first, first + size) for first in range(0, max(batch, 1), size)] if batch else [slice(0, 0)]
+    available = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return min(threads or available, available)
 
 
 @cache
-def _pool() -> ThreadPoolExecutor:
-    return ThreadPoolExecutor(thread_name_prefix="furiko")
+def thread_pool() -> ThreadPoolExecutor:
+    """The threads that compiled code runs on; started once."""
+    return ThreadPoolExecutor(processors(None), thread_name_prefix="furiko")
+
+
+def _parts(batch: int, n: int, threads: int | None) -> list[slice]:
+    """Equal runs of whole blocks of states, one for each thread that is worth its start."""
+    count = max(1, min(processors(threads), batch * n // ANGLES_A_THREAD))
+    size = -(-batch // count)
+    size += -size % BLOCK
+    return [slice(first, first + size) for first in range(0, max(batch, 1), max(size, 1))]
 
 
 def _plain_rods(
@@ -183,17 +208,37 @@ def _plain_rods(
     sines, cosines = _sincos_of_differences(theta, np.concatenate([np.zeros_like(theta[:1]), theta[:-1]]))
     w = (omega * omega) * lengths.reshape(n, *[1] * (theta.ndim - 1))
     A = B = C = D = P = Q = np.zeros_like(theta[0])
-    terms: list[tuple[Any, ...]] = []
+    terms: list[Any] = [None] * n
     for j in reversed(range(n)):
         A, B, C, P, Q, *swing = absorb_rod(masses[j], w[j], A, B, C, D, P, Q)
         A, B, C, D, P, Q = turn(sines[j], cosines[j], A, B, C, P, Q)
-        terms.append((sines[j], cosines[j], w[j], *swing))
-    out = np.empty_like(np.moveaxis(theta, 0, -1))
+        terms[j] = (sines[j], cosines[j], w[j], *swing)
+    moved = np.empty_like(theta)
+    above = np.empty((2, *theta.shape), theta.dtype)
     along, across = np.full_like(theta[0], -gravity), np.zeros_like(theta[0])
     for j in range(n):
-        moved, along, across = swing_rod(*terms.pop(), along, across)
-        out[..., j] = moved / lengths[j]
-    return out
+        above[:, j] = turn_down(sines[j], cosines[j], along, across)
+        moved[j], along, across = swing_rod(*terms[j], along, across)
+    if unequal(lengths):
+        moved += _plain_correction(masses, terms, above, moved)
+    return np.ascontiguousarray(np.moveaxis(moved, 0, -1)) / lengths
+
+
+def _plain_correction(masses: FloatArray, terms: list[Any], above: FloatArray, moved: FloatArray) -> FloatArray:
+    """What one step of refinement adds to lθ''; above: a_{j-1} in each rod's frame, (2, n, ...)."""
+    along = across = P = Q = np.zeros_like(moved[0])
+    taus: list[Any] = [None] * len(terms)
+    for j, (s, c, w, _, kappa_B, kappa_m6) in reversed([*enumerate(terms)]):
+        delta = missing(masses[j], above[1, j], moved[j], across)
+        P, Q, taus[j] = absorb_missing(masses[j], delta, kappa_B, kappa_m6, P, Q)
+        P, Q = turn_up(s, c, P, Q)
+        along, across = force_above(masses[j], w, *above[:, j], moved[j], along, across)
+        along, across = turn_up(s, c, along, across)
+    more = np.empty_like(moved)
+    along = across = np.zeros_like(moved[0])
+    for j, (s, c, _, _, kappa_B, kappa_m6) in enumerate(terms):
+        more[j], along, across = swing_rod(s, c, 0, taus[j], kappa_B, kappa_m6, along, across)
+    return more
 
 
 def _plain_legs(

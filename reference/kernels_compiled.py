@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from . import elimination
-from .compiling import compiled, inlined, prefetch, wide_vectors
+from .compiling import called, compiled, inlined, prefetch, wide_vectors
 from .limits import LARGEST_ANGLE, LARGEST_RATE
 from .sincos import sincos
 
@@ -24,6 +24,11 @@ difference = inlined(elimination.difference)
 absorb_rod = inlined(elimination.absorb_rod)
 turn = inlined(elimination.turn)
 swing_rod = inlined(elimination.swing_rod)
+turn_up = inlined(elimination.turn_up)
+turn_down = inlined(elimination.turn_down)
+force_above = inlined(elimination.force_above)
+missing = inlined(elimination.missing)
+absorb_missing = inlined(elimination.absorb_missing)
 pull_of_leg = inlined(elimination.pull_of_leg)
 
 LANES = 64
@@ -31,6 +36,8 @@ A, B, C, D, P, Q, ANGLE, ABOVE, BAD = (k * LANES for k in range(9))  # of each l
 STATE = 9 * LANES
 SIN, COS, RATE, TAU, KB, KM = (k * LANES for k in range(6))  # of each lane and rod
 ROW = 6 * LANES
+ALONG, ACROSS, MOVED = (k * LANES for k in range(3))  # of each lane and rod, for the refinement
+KEPT = 3 * LANES
 
 
 @inlined
@@ -52,6 +59,15 @@ def outside(theta: float, omega: float) -> float:
     return 0.0 if abs(theta) <= LARGEST_ANGLE and abs(omega) <= LARGEST_RATE else 1.0
 
 
+@inlined
+def any_marked(lane: Any) -> int:
+    """1 if any of the numbers is above zero."""
+    found = 0
+    for i in range(LANES):
+        found |= 1 if lane[i] > 0.0 else 0
+    return found
+
+
 @compiled(releases_gil=False)
 def rods_single(theta: Any, omega: Any, out: Any, table: Any) -> int:
     """θ'' of a rod chain in one state, shape (n,) each; table: see :func:`.kernels.table`."""
@@ -71,9 +87,31 @@ def rods_single(theta: Any, omega: Any, out: Any, table: Any) -> int:
     along, across = -gravity, 0.0
     for j in range(n):
         row = table[j]
-        moved, along, across = swing_rod(row[2], row[3], row[4], row[5], row[6], row[7], along, across)
-        out[j] = moved / row[1]
+        row[8], row[9] = turn_down(row[2], row[3], along, across)
+        row[10], along, across = swing_rod(row[2], row[3], row[4], row[5], row[6], row[7], along, across)
+    if table[n, 1] > 0.0:
+        refine_single(table, n)
+    for j in range(n):
+        out[j] = table[j, 10] / table[j, 1]
     return 1 if bad > 0.0 else 0
+
+
+@called
+def refine_single(table: Any, n: int) -> None:
+    """One step of iterative refinement of lθ''."""
+    along = across = p = q = 0.0
+    for j in range(n - 1, -1, -1):
+        row = table[j]
+        delta = missing(row[0], row[9], row[10], across)
+        p, q, row[5] = absorb_missing(row[0], delta, row[6], row[7], p, q)
+        p, q = turn_up(row[2], row[3], p, q)
+        along, across = force_above(row[0], row[4], row[8], row[9], row[10], along, across)
+        along, across = turn_up(row[2], row[3], along, across)
+    along = across = 0.0
+    for j in range(n):
+        row = table[j]
+        more, along, across = swing_rod(row[2], row[3], 0.0, row[5], row[6], row[7], along, across)
+        row[10] += more
 
 
 @compiled(releases_gil=False)
@@ -103,12 +141,13 @@ def legs_single(theta: Any, omega: Any, out: Any, table: Any) -> int:
 
 
 @compiled(releases_gil=True)
-def rods_batch(theta: Any, omega: Any, out: Any, masses: Any, lengths: Any, gravity: float) -> int:
+def rods_batch(theta: Any, omega: Any, out: Any, masses: Any, lengths: Any, gravity: float, refined: bool) -> int:
     """θ'' of a rod chain in many states, shape (B, n) each."""
     wide_vectors()
     batch, n = theta.shape
     scratch = np.empty(STATE + n * ROW)
     lane = scratch[:STATE]
+    motion = np.empty(n * KEPT if refined else 0)
     status = 0
     for first in range(0, batch, LANES):
         angles, rates = block(theta, first), block(omega, first)
@@ -127,13 +166,16 @@ def rods_batch(theta: Any, omega: Any, out: Any, masses: Any, lengths: Any, grav
             eliminate_rod(lane, rod, masses[j], lengths[j])
         for i in range(LANES):
             lane[P + i], lane[Q + i] = -gravity, 0.0
+        if refined:
+            refine(lane, scratch, motion, masses)
         for j in range(n):
             rod = scratch[STATE + j * ROW : STATE + (j + 1) * ROW]
-            accelerate_rod(lane, rod, 1.0 / lengths[j])
+            if refined:
+                correct_rod(lane, rod, motion[j * KEPT : (j + 1) * KEPT], 1.0 / lengths[j])
+            else:
+                accelerate_rod(lane, rod, 1.0 / lengths[j])
             scatter(lane[ANGLE : ANGLE + LANES], out, first, min(LANES, batch - first), j)
-        for i in range(LANES):
-            if lane[BAD + i] > 0.0:
-                status = 1
+        status |= any_marked(lane[BAD : BAD + LANES])
     return status
 
 
@@ -177,6 +219,64 @@ def accelerate_rod(lane: Any, rod: Any, inverse_length: float) -> None:
 
 
 @inlined
+def refine(lane: Any, scratch: Any, motion: Any, masses: Any) -> None:
+    """From the motion to what is missing in every lane and rod; leaves P, Q ready for :func:`correct_rod`."""
+    for j in range(masses.size):
+        rod = scratch[STATE + j * ROW : STATE + (j + 1) * ROW]
+        keep_motion(lane, rod, motion[j * KEPT : (j + 1) * KEPT])
+    for i in range(LANES):
+        lane[A + i], lane[B + i], lane[P + i], lane[Q + i] = 0.0, 0.0, 0.0, 0.0
+    for j in range(masses.size - 1, -1, -1):
+        rod = scratch[STATE + j * ROW : STATE + (j + 1) * ROW]
+        eliminate_missing(lane, rod, motion[j * KEPT : (j + 1) * KEPT], masses[j])
+    for i in range(LANES):
+        lane[P + i], lane[Q + i] = 0.0, 0.0
+
+
+@inlined
+def keep_motion(lane: Any, rod: Any, kept: Any) -> None:
+    """The downward step of one rod in every lane, keeping a_{j-1} and lθ''."""
+    wide_vectors()
+    for i in range(LANES):
+        kept[ALONG + i], kept[ACROSS + i] = turn_down(rod[SIN + i], rod[COS + i], lane[P + i], lane[Q + i])
+        kept[MOVED + i], lane[P + i], lane[Q + i] = swing_rod(
+            rod[SIN + i],
+            rod[COS + i],
+            rod[RATE + i],
+            rod[TAU + i],
+            rod[KB + i],
+            rod[KM + i],
+            lane[P + i],
+            lane[Q + i],
+        )
+
+
+@inlined
+def eliminate_missing(lane: Any, rod: Any, kept: Any, mass: float) -> None:
+    """The upward step of the correction of one rod in every lane; T_j stands in A, B."""
+    wide_vectors()
+    for i in range(LANES):
+        s, co, a, b, x = rod[SIN + i], rod[COS + i], kept[ALONG + i], kept[ACROSS + i], kept[MOVED + i]
+        delta = missing(mass, b, x, lane[B + i])
+        p, q, rod[TAU + i] = absorb_missing(mass, delta, rod[KB + i], rod[KM + i], lane[P + i], lane[Q + i])
+        lane[P + i], lane[Q + i] = turn_up(s, co, p, q)
+        along, across = force_above(mass, rod[RATE + i], a, b, x, lane[A + i], lane[B + i])
+        lane[A + i], lane[B + i] = turn_up(s, co, along, across)
+
+
+@inlined
+def correct_rod(lane: Any, rod: Any, kept: Any, inverse_length: float) -> None:
+    """The downward step of the correction of one rod in every lane; θ'' is left in ANGLE."""
+    wide_vectors()
+    for i in range(LANES):
+        more, along, across = swing_rod(
+            rod[SIN + i], rod[COS + i], 0.0, rod[TAU + i], rod[KB + i], rod[KM + i], lane[P + i], lane[Q + i]
+        )
+        lane[ANGLE + i] = (kept[MOVED + i] + more) * inverse_length
+        lane[P + i], lane[Q + i] = along, across
+
+
+@inlined
 def block(states: Any, first: int) -> Any:
     """The LANES states from the first on; where fewer are left, a copy that repeats the last."""
     left = states.shape[0] - first
@@ -215,7 +315,7 @@ FEW_LEGS = 48  # up to here lanes are states; from here on the legs of one state
 
 
 @compiled(releases_gil=True)
-def legs_batch(theta: Any, omega: Any, out: Any, masses: Any, lengths: Any, gravity: float) -> int:
+def legs_batch(theta: Any, omega: Any, out: Any, masses: Any, lengths: Any, gravity: float, _refined: bool) -> int:
     """θ'' of an N-leg pendulum in many states, shape (B, n) each."""
     wide_vectors()
     batch, n = theta.shape
@@ -243,9 +343,7 @@ def legs_batch(theta: Any, omega: Any, out: Any, masses: Any, lengths: Any, grav
         for j in range(1, n):
             accelerate_leg(lane, scratch[FIRST_STATE + j * LEG : FIRST_STATE + (j + 1) * LEG], 1.0 / lengths[j])
             scatter(lane[X : X + LANES], out, first, count, j)
-        for i in range(LANES):
-            if lane[WRONG + i] > 0.0:
-                status = 1
+        status |= any_marked(lane[WRONG : WRONG + LANES])
     return status
 
 
