@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache, partial
 from typing import Any
 
@@ -21,6 +21,9 @@ Array = NDArray[np.float64]
 End = tuple[Array, Array]
 
 FURIKO = "furiko"
+# Engines whose motions are timed unless others are named: the further variants of Pinocchio differ in how a model is
+# read or a matrix is solved, which no integrator notices.
+ENGINES = ("mujoco", "pinocchio-aba", "exudyn-tree", "exudyn-redundant")
 STEP, TOLERANCE = "step [s]", "tolerance"
 FIRST_STEPS = 250  # of a fixed-step scheme's coarsest run; each further run halves the step
 HALVINGS = 16
@@ -30,16 +33,25 @@ DOP853 = (*(10.0**-k for k in range(3, 14)), 3e-14)
 TAYLOR = tuple(10.0**-k for k in range(2, 15))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Method:
-    """``run(setting)`` gives θ and ω at the end, (n,) each; ``settings`` from coarse to fine; ``by``: what they are."""
+    """``run(setting)`` gives θ and ω at the end, (n,) each; ``settings`` from coarse to fine; ``by``: what they are.
+
+    ``contexts``: in which it is timed, by name; they change its time and nothing else.
+    """
 
     engine: str
     scheme: str
     by: str
     settings: Sequence[float]
     run: Callable[[float], End]
-    around: Callable[[], AbstractContextManager[object]] = nullcontext
+    contexts: Mapping[str, Callable[[], AbstractContextManager[object]]] = field(
+        default_factory=lambda: {"": nullcontext}
+    )
+
+    def named(self, context: str) -> str:
+        """The scheme's name, in this context."""
+        return f"{self.scheme}, {context}" if context else self.scheme
 
 
 def methods(scene: Scene, engines: Sequence[str]) -> tuple[list[Method], list[str]]:
@@ -87,16 +99,13 @@ def end_error(scene: Scene, end: End) -> float:
 
 def _of_engine(scene: Scene, name: str, info: EngineInfo) -> Iterator[Method]:
     engine = load_engine(name, scene.system)
-    contexts = {"": nullcontext, **{f", {says}": context for says, context in engine.lighter().items()}}
+    contexts = {"": nullcontext, **engine.lighter()}
     if "trajectory" not in info.missing:
         for scheme in info.integrators:
             settings = [scene.duration / (FIRST_STEPS << k) for k in range(HALVINGS)]
-            run = partial(_fixed, engine, scene, scheme)
-            for suffix, around in contexts.items():
-                yield Method(name, scheme.name + suffix, STEP, settings, run, around)
+            yield Method(name, scheme.name, STEP, settings, partial(_fixed, engine, scene, scheme), contexts)
         for adaptive in info.adaptive:
-            run = partial(_adaptive, engine, scene, adaptive)
-            yield Method(name, adaptive, TOLERANCE, ADAPTIVE, run)
+            yield Method(name, adaptive, TOLERANCE, ADAPTIVE, partial(_adaptive, engine, scene, adaptive))
         return
     native = engine.native()
     if native is not None:

@@ -10,14 +10,18 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
+import numpy as np
+
 from ..models import Scene
 from ..models.bench import Motion, Point, Reach
 from .methods import FURIKO, End, Method, end_error, methods, truth
-from .timing import Subject, Times, interleaved, once
+from .timing import FEWEST, Subject, Times, interleaved, once
 
 ERRORS = (1e-6, 1e-9, 1e-12)  # that ratios are given at
-EXPLORING = 0.22  # of the scene's time goes into finding the errors, the rest into three rounds of timing or more
+EXPLORING = 0.35  # of the scene's time goes into finding the errors, the rest into timing
 NO_BETTER = 0.7  # two finer runs in a row whose error is not below this part of the best: rounding has been reached
+HOPELESS = 1e-3  # above it an error that does not fall is not yet rounding: steps may be too coarse to tell
+Curve = Sequence[tuple[float, float]]  # (seconds, error) of a method's runs
 
 
 @dataclass(frozen=True)
@@ -29,37 +33,32 @@ class Run:
     error: float
     seconds: float
 
-    @property
-    def subject(self) -> Subject:
-        """What is timed."""
-        return Subject(partial(self.method.run, self.setting), self.method.around)
-
 
 def work_precision(
     scene: Scene, engines: Sequence[str], budget: float, watch: Callable[[str], None] = lambda _: None
 ) -> Motion:
     """Measure one scene, which must have a state and a duration, in about ``budget`` [s]."""
     chosen, left_out = methods(scene, engines)
-    share = EXPLORING * budget / len(chosen)
     runs: list[Run] = []
     stopped: dict[tuple[str, str], str] = {}
-    for method in chosen:
+    left = EXPLORING * budget
+    for i, method in enumerate(chosen):
         watch(f"{scene.name} {method.engine} {method.scheme}")
-        found, stopped[method.engine, method.scheme] = refine(method, partial(end_error, scene), share)
+        # What a method does not use of its share is shared by those that follow.
+        found, why = refine(method, partial(end_error, scene), left / (len(chosen) - i))
+        left = max(0.0, left - sum(run.seconds for run in found))
         runs += found
-    watch(f"{scene.name}: {len(runs)} runs in turn")
-    times = interleaved(
-        {str(i): run.subject for i, run in enumerate(runs)}, budget=(1 - EXPLORING) * budget, shortest=0.0
-    )
-    timed = [(run, times[str(i)]) for i, run in enumerate(runs)]
+        stopped |= dict.fromkeys(((method.engine, method.named(context)) for context in method.contexts), why)
+    watch(f"{scene.name}: in turn")
+    points = _timed(runs, (1 - EXPLORING) * budget)
     return Motion(
         scene=scene.name,
         system=scene.system.kind,
         n=scene.system.n,
         duration=scene.duration,
         truth=float(truth(scene).error[-1]),
-        points=_points(timed),
-        reaches=reaches(timed, stopped),
+        points=points,
+        reaches=reaches(points, stopped),
         left_out=left_out,
     )
 
@@ -69,41 +68,81 @@ def refine(method: Method, error: Callable[[End], float], share: float) -> tuple
     runs: list[Run] = []
     spent, stuck, best = 0.0, 0, math.inf
     for setting in method.settings:
-        if len(runs) > 1:
-            growth = max(1.0, runs[-1].seconds / runs[-2].seconds)
-            if spent + min(growth, 2.0) * runs[-1].seconds > share:
-                return runs, "finer runs were not within the time given"
+        growth = runs[-1].seconds / runs[-2].seconds if len(runs) > 1 else 2.0
+        if runs and spent + min(max(growth, 1.0), 2.0) * runs[-1].seconds > share:
+            return runs, "finer runs were not within the time given"
         ends: list[End] = []
-        call = partial(_keep, method, setting, ends)
-        if not runs:
-            call()  # warm: what is loaded or compiled at the first call is no part of the method
-        seconds = once(Subject(call, method.around))
-        run = Run(method, setting, error(ends[-1]), seconds)
-        runs.append(run)
+        subject = Subject(partial(_keep, method, setting, ends))
+        seconds = once(subject)
+        if not runs and seconds < share:  # what is loaded or compiled at the first call is no part of the method
+            seconds = once(subject)
+        runs.append(Run(method, setting, error(ends[-1]), seconds))
         spent += seconds
-        stuck = stuck + 1 if run.error > NO_BETTER * best and best < math.inf else 0
-        best = min(best, run.error)
-        if stuck == 2 and best < 1e-3:
+        stuck = stuck + 1 if runs[-1].error > NO_BETTER * best and best < HOPELESS else 0
+        best = min(best, runs[-1].error)
+        if stuck == 2:
             return runs, "rounding: finer runs end no nearer"
-    return runs, "no finer setting was tried"
+    return runs, "finer settings were not tried"
 
 
 def _keep(method: Method, setting: float, ends: list[End]) -> None:
     ends.append(method.run(setting))
 
 
-def front(points: Sequence[tuple[float, float]]) -> list[bool]:
+def _timed(runs: Sequence[Run], budget: float) -> list[Point]:
+    """All runs as points. Those that a coarser run of the same method beats keep the one time that was taken."""
+    worth: dict[str, tuple[Run, str]] = {}
+    once_taken: list[Run] = []
+    for method in dict.fromkeys(run.method for run in runs):
+        own = [run for run in runs if run.method is method]
+        for run, on in zip(own, front([(run.seconds, run.error) for run in own]), strict=True):
+            if on:
+                worth |= {f"{len(worth)} {context}": (run, context) for context in method.contexts}
+            else:
+                once_taken.append(run)
+    round_seconds = sum(run.seconds for run, _ in worth.values()) + 1e-9
+    times = interleaved(
+        {
+            key: Subject(partial(run.method.run, run.setting), run.method.contexts[context])
+            for key, (run, context) in worth.items()
+        },
+        budget=budget,
+        fewest=min(FEWEST, max(1, int(budget / round_seconds))),
+        shortest=0.0,
+    )
+    found = [
+        *((run, context, times[key]) for key, (run, context) in worth.items()),
+        *((run, "", Times(np.array([run.seconds]))) for run in once_taken),
+    ]
+    fronts = front([(took.median, run.error) for run, _, took in found])
+    return [
+        Point(
+            engine=run.method.engine,
+            scheme=run.method.named(context),
+            setting=run.setting,
+            by=run.method.by,
+            error=run.error if math.isfinite(run.error) else None,
+            minimum=took.minimum,
+            median=took.median,
+            rounds=len(took.seconds),
+            front=on,
+        )
+        for (run, context, took), on in zip(found, fronts, strict=True)
+    ]
+
+
+def front(points: Curve) -> list[bool]:
     """Which of these (seconds, error) no other beats: none is as fast and nearer, or as near and faster."""
     best = math.inf
     kept = [False] * len(points)
     for i in sorted(range(len(points)), key=lambda i: points[i]):
         _, error = points[i]
-        if error < best and math.isfinite(error):
+        if error < best:
             kept[i], best = True, error
     return kept
 
 
-def reach(points: Sequence[tuple[float, float]], error: float) -> tuple[float, bool] | None:
+def reach(points: Curve, error: float) -> tuple[float, bool] | None:
     """Seconds to come within ``error``, on the points' own front, straight in logarithms between two of them.
 
     None where no point is as near. The coarsest one's seconds where that is nearer already, and True: it is at most
@@ -115,41 +154,23 @@ def reach(points: Sequence[tuple[float, float]], error: float) -> tuple[float, b
             if i == 0 or off == error:
                 return seconds, off < error
             before, above = kept[i - 1]
-            logs = [math.log(max(value, 5e-324)) for value in (above, error, off)]
-            part = (logs[0] - logs[1]) / (logs[0] - logs[2])
-            return before * (seconds / before) ** part, False
+            coarse, asked, fine = (math.log(max(value, 5e-324)) for value in (above, error, off))
+            return before * (seconds / before) ** ((coarse - asked) / (coarse - fine)), False
     return None
 
 
-def _points(timed: Sequence[tuple[Run, Times]]) -> list[Point]:
-    fronts = front([(times.median, run.error) for run, times in timed])
-    return [
-        Point(
-            engine=run.method.engine,
-            scheme=run.method.scheme,
-            setting=run.setting,
-            by=run.method.by,
-            error=run.error,
-            minimum=times.minimum,
-            median=times.median,
-            rounds=len(times.seconds),
-            front=on,
-        )
-        for (run, times), on in zip(timed, fronts, strict=True)
-    ]
-
-
-def reaches(timed: Sequence[tuple[Run, Times]], stopped: dict[tuple[str, str], str]) -> list[Reach]:
+def reaches(points: Sequence[Point], stopped: dict[tuple[str, str], str]) -> list[Reach]:
     """Each method at each of :data:`ERRORS`: seconds by its medians, and their ratio to furiko's own."""
     curves: dict[tuple[str, str], list[tuple[float, float]]] = {key: [] for key in stopped}
-    for run, times in timed:
-        curves[run.method.engine, run.method.scheme].append((times.median, run.error))
+    for point in points:
+        if point.error is not None:
+            curves[point.engine, point.scheme].append((point.median, point.error))
     found = []
     for error in ERRORS:
         own = next((reach(curve, error) for (engine, _), curve in curves.items() if engine == FURIKO), None)
         for (engine, scheme), curve in curves.items():
             got = reach(curve, error)
-            best = min(off for _, off in curve)
+            nearest = min((off for _, off in curve), default=math.inf)
             found.append(
                 Reach(
                     error=error,
@@ -158,7 +179,7 @@ def reaches(timed: Sequence[tuple[Run, Times]], stopped: dict[tuple[str, str], s
                     seconds=got and got[0],
                     at_most=bool(got and got[1]),
                     ratio=got[0] / own[0] if got and own and engine != FURIKO else None,
-                    reason="" if got else f"nearest {best:.1e}; {stopped[engine, scheme]}",
+                    reason="" if got else f"nearest {nearest:.1e}; {stopped[engine, scheme]}",
                 )
             )
     return found

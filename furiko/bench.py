@@ -50,7 +50,10 @@ def bench(
     begun = time.monotonic()
     started = datetime.now(UTC).isoformat(timespec="seconds")
     chosen = [] if skips or targets else [_scene(name) for name in (BENCHMARKS if scenes is None else scenes)]
+    from .checks.methods import ENGINES
+
     names = _engines(engines)
+    moving = names if engines is not None else [name for name in names if name in ENGINES]
     motions: list[Motion] = []
     speeds: list[Speed] = []
     skipped: list[Skip] = []
@@ -65,7 +68,7 @@ def bench(
         reached = list(measure(watch))
     if not (skips or targets):
         both = scenes is None
-        motions = list(_motions(chosen, names, 0.6 * budget if both else budget, watch))
+        motions = list(_motions(chosen, moving, 0.6 * budget if both else budget, watch))
         speeds = list(_speeds(names, 0.4 * budget, watch)) if both else []
     return Bench(
         furiko=__version__,

@@ -18,10 +18,10 @@ class Point(msgspec.Struct, frozen=True, kw_only=True):
     scheme: str
     setting: float
     by: str  # what the setting is: "step [s]" or "tolerance"
-    error: float
+    error: float | None  # None: it did not come to its end
     minimum: float
     median: float
-    rounds: int  # how often it was timed, in turn with all the others
+    rounds: int  # how often it was timed, in turn with all the others; 1: a coarser run of its own beats it
     front: bool  # on the Pareto front: no other run was both faster and nearer
 
 

@@ -46,17 +46,13 @@ def _motion(motion: Motion, page: Page) -> None:
     errors = list(dict.fromkeys(reach.error for reach in motion.reaches))
     methods = dict.fromkeys((reach.engine, reach.scheme) for reach in motion.reaches)
     at = {(reach.engine, reach.scheme, reach.error): reach for reach in motion.reaches}
-    nearest = {
-        key: min((point for point in motion.points if (point.engine, point.scheme) == key), key=lambda p: p.error)
-        for key in methods
-    }
     on_front = {(point.engine, point.scheme) for point in motion.points if point.front}
     rows = [
         (
             ("* " if key in on_front else "  ") + key[0],
             key[1],
             *(reached(at[*key, error]) for error in errors),
-            f"{figure(nearest[key].error)} in {duration(nearest[key].median)}",
+            nearest(motion, key),
         )
         for key in methods
     ]
@@ -64,6 +60,19 @@ def _motion(motion: Motion, page: Page) -> None:
     page.line("* on the Pareto front; in brackets: how many times furiko's own time", "dim")
     for sentence in motion.left_out:
         page.line(f"left out: {sentence}", "dim")
+
+
+def nearest(motion: Motion, method: tuple[str, str]) -> str:
+    """The smallest error that a method came to, and what it took."""
+    found = [
+        (point.error, point.median)
+        for point in motion.points
+        if (point.engine, point.scheme) == method and point.error is not None
+    ]
+    if not found:
+        return "none came to its end"
+    error, seconds = min(found)
+    return f"{figure(error)} in {duration(seconds)}"
 
 
 def reached(reach: Reach) -> str:
