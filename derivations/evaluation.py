@@ -10,7 +10,7 @@ from .mechanism import Mechanism
 from .parser import Call, Name, Node, Number, Power, Product, Sum, Symbol
 from .quotient import Budget, Quotient, number
 from .tokens import fail
-from .trig import COS, NOTHING, SIN, Formula
+from .trig import COS, SIN, Formula
 
 LARGEST_ANGLE_FACTOR = 16  # cos(16 θ) at most: harmonics stay small, and nobody writes more
 QUARTER = fmpq(1, 2)  # a quarter turn is π/2

@@ -17,7 +17,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from .derivation import NEWTON, Mistake, derive
-from .fingerprint import PRIME, Point, Vector, combine, solved
+from .fingerprint import PRIME, Vector, combine, solved
 from .images import Image, Images
 
 MOST_FACTORS = 14  # guesses at a row's factor that are followed

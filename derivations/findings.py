@@ -19,7 +19,7 @@ from .mechanism import Mechanism
 from .notation import equation_number, solved_term_name, term_name, text
 from .rows import by_waves, columns_to_relative, common_factor, exact_factor, for_view, is_multiple, merged
 from .solved_form import is_solved, solved_rows
-from .trig import COS, CONSTANT_ONE, NOTHING, Formula
+from .trig import CONSTANT_ONE, COS, NOTHING, Formula
 
 ONE = fmpq(1)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from .derivation import Derivation, Mistake, Stage, across, add, newton_sides, total
+from .derivation import Derivation, Mistake, Stage, add
 from .mechanism import Mechanism
 from .mistakes_energy import body, everywhere
 from .notation import sub

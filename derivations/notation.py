@@ -28,13 +28,28 @@ def text(space: Space, f: Formula) -> str:
             halves, c = tuple(-h for h in halves), (c if phase == COS else -c)
         groups.setdefault((halves, phase), []).append((powers, c))
     written = [
-        _group(space, halves, phase, terms)
+        part
         for (halves, phase), terms in sorted(
             groups.items(), key=lambda item: [[-abs(h) for h in item[0][0]], item[0][1]]
         )
+        for part in _parts(space, halves, phase, terms)
     ]
     line = " ".join(("- " if negative else "+ ") + body for negative, body in written)
     return line.removeprefix("+ ").replace("- ", "-", 1) if line.startswith("- ") else line.removeprefix("+ ") or "0"
+
+
+def _parts(
+    space: Space, halves: tuple[int, ...], phase: int, terms: list[tuple[tuple[int, ...], fmpq]]
+) -> list[tuple[bool, str]]:
+    """Sign and text of the terms with one angle: together, or one by one where they have nothing in common."""
+    if any(halves) or _common(terms):
+        return [_group(space, halves, phase, terms)]
+    return [_group(space, halves, phase, [term]) for term in sorted(terms, key=lambda term: tuple(-p for p in term[0]))]
+
+
+def _common(terms: list[tuple[tuple[int, ...], fmpq]]) -> bool:
+    """Whether the terms have a symbol in common."""
+    return any(min(powers) > 0 or max(powers) < 0 for powers in zip(*(powers for powers, _ in terms), strict=True))
 
 
 def _group(

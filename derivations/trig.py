@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cache, cached_property
 
 from flint import fmpq
 
@@ -182,7 +182,7 @@ def digit(packed: int, place: int) -> int:
     return (((packed + _bias(place + 1)) >> (BITS * place)) & DIGIT) - MIDDLE
 
 
-@lru_cache(maxsize=None)
+@cache
 def _bias(count: int) -> int:
     return sum(MIDDLE << (BITS * i) for i in range(count))
 
