@@ -40,7 +40,7 @@ Wide = NDArray[Any]
 NAME = "step map"
 NEEDS = "trajectory"
 
-STATES = 4  # random states in which a step is taken
+STATES = 3  # random states in which a step is taken
 SHORT = 1 / 8  # step × fastest rate
 LARGEST_N = 20  # links; beyond, extended precision takes longer than all other checks together
 

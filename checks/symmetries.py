@@ -30,7 +30,7 @@ Accelerations = Callable[[Mechanism, Array, Array], Array]
 NAME = "symmetry"
 NEEDS = "accelerations"
 
-STATES = 4  # random ones; every symmetry is asked for in each
+STATES = 3  # random ones; every symmetry is asked for in each
 TURN = 0.75  # [rad], of the support
 
 # 2π lies within 2.45e-16 of its double.

@@ -72,7 +72,8 @@ class Tableau:
 
 
 def _weighed(weights: tuple[Any, ...], slopes: list[Array], like: Array) -> Array:
-    return sum((w * slope for w, slope in zip(weights, slopes, strict=True) if w != 0), np.zeros_like(like))
+    number = like.dtype.type  # coefficients have more digits than a double: they must not widen it
+    return sum((number(w) * slope for w, slope in zip(weights, slopes, strict=True) if w != 0), np.zeros_like(like))
 
 
 def explicit_euler(a: Acceleration, theta: Array, omega: Array, h: Any) -> tuple[Array, Array]:
@@ -157,14 +158,16 @@ def _newmark_family(beta: Any, gamma: Any, alpha_m: Any, alpha_f: Any) -> Step:
 
 def _fixed_point(a: Acceleration, state: Callable[[Array], tuple[Array, Array]], guess: Array) -> Array:
     """The acceleration x with x = a(state(x)), to rounding. Raises ArithmeticError where it is not found."""
-    x = guess
-    smallest = np.inf
+    x, smallest = guess, np.inf
     for _ in range(ITERATIONS):
         found = a(*state(x))
         change = float(np.max(np.abs(found - x), initial=0.0))
         x = found
-        if change == 0 or (change >= smallest / 2 and change <= 1e3 * np.finfo(x.dtype).eps * float(np.abs(x).max())):
+        rounding = 1e3 * float(np.finfo(x.dtype).eps) * float(np.max(np.abs(x), initial=0.0))
+        if change == 0 or smallest / 2 <= change <= rounding:
             return x
+        if not change <= 1e3 * smallest:
+            break
         smallest = min(smallest, change)
     raise ArithmeticError("the implicit step's equations were not solved: the step is too long")
 
