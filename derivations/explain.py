@@ -65,7 +65,7 @@ def align(images: Images, rows: Sequence[Vector], labels: Sequence[str]) -> Alig
 def singles(images: Images, rows: Sequence[Vector]) -> list[tuple[Mistake, ...]]:
     """Single mistakes whose rows are the given ones, up to order and factors; some rows may be missing."""
     given = Counter(images.point.projective(row) for row in rows)
-    found = []
+    found: list[tuple[Mistake, ...]] = []
     for image in images.wrong:
         made = Counter(image.projective.get(i, right) for i, right in enumerate(images.right_projective))
         if given <= made and any(number in given for number in image.projective.values()):
@@ -78,7 +78,7 @@ def singles_solved(images: Images, rows: Sequence[Vector]) -> list[tuple[Mistake
     target = solved(list(rows), images.accelerations)
     if target is None:
         return []
-    found = []
+    found: list[tuple[Mistake, ...]] = []
     for image in images.wrong:
         made = [image.rows.get(i, right) for i, right in enumerate(images.right)]
         if solved(made, images.accelerations) == target:
@@ -228,9 +228,9 @@ def partial(images: Images, rows: Sequence[Vector], alignment: Alignment) -> dic
     by_row: dict[int, dict[frozenset[int], dict[int, Mistake]]] = defaultdict(lambda: defaultdict(dict))
     for image in images.wrong:
         if image.mistake.stage == "equation" and len(image.rows) == 1:
-            ((i, row),) = image.rows.items()
-            change = combine([(1, row), (-1, images.right[i])])
-            by_row[i][frozenset(change)].setdefault(point.linear(change), image.mistake)
+            ((place, wrong),) = image.rows.items()
+            change = combine([(1, wrong), (-1, images.right[place])])
+            by_row[place][frozenset(change)].setdefault(point.linear(change), image.mistake)
     found: dict[tuple[int, int], Mistake] = {}
     for row, i in zip(rows, alignment.row_of, strict=True):
         if i is None:

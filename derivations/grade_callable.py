@@ -150,7 +150,7 @@ def _explanations(
     changes = np.array([values.changes(mistake) for mistake in mistakes])  # (mistakes, n, STATES)
     left = (residual + changes) / scale
     single = [mistakes[k] for k in np.flatnonzero(np.all(np.abs(left) <= ALLOWED * 10, axis=(1, 2)))]
-    confirmed = [(mistake,) for mistake in single if values.give(derive(m, [mistake]).rows)]
+    confirmed: list[tuple[Mistake, ...]] = [(mistake,) for mistake in single if values.give(derive(m, [mistake]).rows)]
     if confirmed:
         return ranked(confirmed)
     flat = (changes / scale).reshape(len(mistakes), -1)

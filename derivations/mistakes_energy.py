@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from flint import fmpq
 
-from .derivation import ROTATION, Derivation, Mistake, Stage, segment_position
+from .derivation import ROTATION, Derivation, Mistake, Pair, Stage, segment_position
 from .mechanism import Mechanism
 from .notation import sub
 from .trig import HALF, NOTHING, Formula
@@ -24,6 +24,21 @@ def put(parts: list[dict[K, V]], b: int, key: K, value: V) -> None:
 def drop(parts: list[dict[K, V]], b: int, key: K) -> None:
     """Leave one part of mass b out."""
     parts[b] = {k: v for k, v in parts[b].items() if k != key}
+
+
+def at(change: Callable[[Derivation, int], None], b: int) -> Callable[[Derivation], None]:
+    """A change made at one place."""
+    return lambda d: change(d, b)
+
+
+def times(factor: Formula) -> Callable[[Formula], Formula]:
+    """Multiplication by a factor."""
+    return lambda f: f * factor
+
+
+def instead(value: Formula) -> Callable[[Formula], Formula]:
+    """Something else, whatever stood there."""
+    return lambda f: value
 
 
 def body(m: Mechanism, b: int) -> tuple[str, str]:
@@ -64,7 +79,7 @@ def _position(m: Mechanism, b: int) -> Iterator[Mistake]:
                 "segment-missing", "position", (b, k),
                 f"The position of {en} leaves out link {k + 1}: l{sub(k)} sin θ{sub(k)}, -l{sub(k)} cos θ{sub(k)} belong to it.",
                 f"{ja}の位置にリンク{k + 1}の分 l{sub(k)} sin θ{sub(k)}, -l{sub(k)} cos θ{sub(k)} が抜けています。",
-                lambda d, k=k: drop(d.position, b, k),
+                at(lambda d, link: drop(d.position, b, link), k),
             )  # fmt: skip
         yield moved(
             "sine-cosine-swapped",
@@ -123,6 +138,21 @@ def _relative(m: Mechanism, b: int, k: int, fraction: fmpq) -> tuple[Formula, Fo
 # Velocities -----------------------------------------------------------------------------------------------------------
 
 
+def scaled(factor: Formula) -> Callable[[Pair], Pair]:
+    """Both components times a factor."""
+    return lambda v: (v[0] * factor, v[1] * factor)
+
+
+def x_instead(x: Formula) -> Callable[[Pair], Pair]:
+    """Something else for x."""
+    return lambda v: (x, v[1])
+
+
+def y_instead(y: Formula) -> Callable[[Pair], Pair]:
+    """Something else for y."""
+    return lambda v: (v[0], y)
+
+
 def _velocity(m: Mechanism, b: int) -> Iterator[Mistake]:
     s, (en, ja) = m.space, body(m, b)
     for k, fraction in m.path(b):
@@ -131,37 +161,37 @@ def _velocity(m: Mechanism, b: int) -> Iterator[Mistake]:
         th, l = f"θ{sub(k)}", f"l{sub(k)}"
 
         def changed(
-            code: str, english: str, japanese: str, change: Callable[[Formula, Formula], tuple[Formula, Formula]],
+            code: str, english: str, japanese: str, change: Callable[[Pair], Pair],
             k: int = k, more: tuple[int, ...] = (),
         ) -> Mistake:  # fmt: skip
             return Mistake(
                 code, "velocity", (b, k, *more), english, japanese,
-                lambda d: put(d.velocity, b, k, change(*d.velocity[b].get(k, (NOTHING, NOTHING)))),
+                lambda d: put(d.velocity, b, k, change(d.velocity[b].get(k, (NOTHING, NOTHING)))),
             )  # fmt: skip
 
         yield changed(
             "inner-derivative-missing",
             f"In the velocity of {en}, sin {th} and cos {th} are differentiated without the inner derivative θ̇{sub(k)}.",
             f"{ja}の速度で sin {th}, cos {th} を時間で微分したときの θ̇{sub(k)} が抜けています。",
-            lambda vx, vy, inverse=inverse: (vx * inverse, vy * inverse),
+            scaled(inverse),
         )  # fmt: skip
         yield changed(
             "cosine-derivative-sign",
             f"In the velocity of {en}, the derivative of -{l} cos {th} has the wrong sign: it is +{l} θ̇{sub(k)} sin {th}.",
             f"{ja}の速度で -{l} cos {th} の微分の符号が逆です。+{l} θ̇{sub(k)} sin {th} になります。",
-            lambda vx, vy: (vx, -vy),
+            lambda v: (v[0], -v[1]),
         )  # fmt: skip
         yield changed(
             "sine-not-differentiated",
             f"In the velocity of {en}, sin {th} stays sin {th}; its derivative is θ̇{sub(k)} cos {th}.",
             f"{ja}の速度で sin {th} がそのまま残っています。微分すると θ̇{sub(k)} cos {th} です。",
-            lambda vx, vy, x=x, rate=rate: (x * rate, vy),
+            x_instead(x * rate),
         )  # fmt: skip
         yield changed(
             "cosine-not-differentiated",
             f"In the velocity of {en}, cos {th} stays cos {th}; its derivative is -θ̇{sub(k)} sin {th}.",
             f"{ja}の速度で cos {th} がそのまま残っています。微分すると -θ̇{sub(k)} sin {th} です。",
-            lambda vx, vy, y=y, rate=rate: (vx, -(y * rate)),
+            y_instead(-(y * rate)),
         )  # fmt: skip
         for j in range(m.n):
             if j != k:
@@ -170,7 +200,7 @@ def _velocity(m: Mechanism, b: int) -> Iterator[Mistake]:
                     "wrong-rate-in-velocity",
                     f"In the velocity of {en} stands θ̇{sub(j)} where θ̇{sub(k)} belongs.",
                     f"{ja}の速度で θ̇{sub(k)} とすべき所が θ̇{sub(j)} になっています。",
-                    lambda vx, vy, ratio=ratio: (vx * ratio, vy * ratio),
+                    scaled(ratio),
                     more=(j,),
                 )  # fmt: skip
     for axis, name in enumerate("xy"):
@@ -199,22 +229,22 @@ def _speed(m: Mechanism, b: int) -> Iterator[Mistake]:
         yield _part(
             b, (k, k), "own-term-missing",
             f"The squared speed of {en} leaves out {own}.",
-            f"{ja}の速度の2乗に {own} が抜けています。", lambda f: NOTHING,
+            f"{ja}の速度の2乗に {own} が抜けています。", instead(NOTHING),
         )  # fmt: skip
         yield _part(
             b, (k, k), "length-not-squared",
             f"In the squared speed of {en}, l{sub(k)} stands where l{sub(k)}² belongs.",
-            f"{ja}の速度の2乗で l{sub(k)}² とすべき所が l{sub(k)} です。", lambda f, l=l: f * l,
+            f"{ja}の速度の2乗で l{sub(k)}² とすべき所が l{sub(k)} です。", times(l),
         )  # fmt: skip
         yield _part(
             b, (k, k), "length-missing-in-speed",
             f"In the squared speed of {en}, l{sub(k)}² is missing beside θ̇{sub(k)}².",
-            f"{ja}の速度の2乗で θ̇{sub(k)}² に l{sub(k)}² が掛かっていません。", lambda f, l=l: f * l * l,
+            f"{ja}の速度の2乗で θ̇{sub(k)}² に l{sub(k)}² が掛かっていません。", times(l * l),
         )  # fmt: skip
         yield _part(
             b, (k, k), "rate-not-squared",
             f"In the squared speed of {en}, θ̇{sub(k)} stands where θ̇{sub(k)}² belongs.",
-            f"{ja}の速度の2乗で θ̇{sub(k)}² とすべき所が θ̇{sub(k)} です。", lambda f, w=w: f * w,
+            f"{ja}の速度の2乗で θ̇{sub(k)}² とすべき所が θ̇{sub(k)} です。", times(w),
         )  # fmt: skip
     for place, j in enumerate(path):
         for k in path[place + 1 :]:
@@ -243,7 +273,7 @@ def _cross(m: Mechanism, b: int, pair: tuple[int, int]) -> Iterator[Mistake]:
     yield _part(
         b, pair, "cross-term-missing",
         f"The squared speed of {en} leaves out the cross term: (A + B)² also has 2AB, here {cross}.",
-        f"{ja}の速度の2乗に交差項 {cross} が抜けています。(A + B)² には 2AB があります。", lambda f: NOTHING,
+        f"{ja}の速度の2乗に交差項 {cross} が抜けています。(A + B)² には 2AB があります。", instead(NOTHING),
     )  # fmt: skip
     yield _part(
         b, pair, "cross-term-halved",
@@ -304,7 +334,7 @@ def _energy(m: Mechanism, b: int) -> Iterator[Mistake]:
     )  # fmt: skip
     yield potential(
         "potential-energy-missing", f"The potential energy of {en} is left out: gravity pulls on it too.",
-        f"{ja}の位置エネルギーが抜けています。重力は{ja}にも働きます。", lambda f: NOTHING,
+        f"{ja}の位置エネルギーが抜けています。重力は{ja}にも働きます。", instead(NOTHING),
     )  # fmt: skip
     yield potential(
         "potential-energy-sign", f"The potential energy of {en} has the wrong sign: it grows with height.",
@@ -327,7 +357,7 @@ def _energy(m: Mechanism, b: int) -> Iterator[Mistake]:
         yield potential(
             "wrong-mass-in-potential-energy",
             f"The potential energy of {en} has the mass of {other[0]}.",
-            f"{ja}の位置エネルギーに{other[1]}の質量が使われています。", lambda f, ratio=ratio: f * ratio, j,
+            f"{ja}の位置エネルギーに{other[1]}の質量が使われています。", times(ratio), j,
         )  # fmt: skip
     for k, fraction in m.path(b):
         yield from _height(m, b, k, fraction)
@@ -349,7 +379,7 @@ def _height(m: Mechanism, b: int, k: int, fraction: fmpq) -> Iterator[Mistake]:
     if len(m.path(b)) > 1:
         yield height(
             "height-incomplete", f"The potential energy of {en} leaves out the height of link {k + 1}, -l{sub(k)} cos {th}.",
-            f"{ja}の位置エネルギーにリンク{k + 1}の高さ -l{sub(k)} cos {th} が抜けています。", lambda f: NOTHING,
+            f"{ja}の位置エネルギーにリンク{k + 1}の高さ -l{sub(k)} cos {th} が抜けています。", instead(NOTHING),
         )  # fmt: skip
     yield height(
         "height-sine", f"The potential energy of {en} has sin {th} where cos {th} belongs.",
@@ -361,12 +391,12 @@ def _height(m: Mechanism, b: int, k: int, fraction: fmpq) -> Iterator[Mistake]:
         ratio = s.l(j) * s.l(k).inverse_monomial()
         yield height(
             "wrong-length-in-height", f"The potential energy of {en} has l{sub(j)} where l{sub(k)} belongs.",
-            f"{ja}の位置エネルギーで l{sub(k)} とすべき所が l{sub(j)} です。", lambda f, ratio=ratio: f * ratio, j,
+            f"{ja}の位置エネルギーで l{sub(k)} とすべき所が l{sub(j)} です。", times(ratio), j,
         )  # fmt: skip
         turned = weight * s.l(k) * s.cos({j: 1}).times(-fraction)
         yield height(
             "wrong-angle-in-height", f"The potential energy of {en} has θ{sub(j)} where {th} belongs.",
-            f"{ja}の位置エネルギーで {th} とすべき所が θ{sub(j)} です。", lambda f, turned=turned: turned, j,
+            f"{ja}の位置エネルギーで {th} とすべき所が θ{sub(j)} です。", instead(turned), j,
         )  # fmt: skip
 
 
@@ -536,7 +566,7 @@ def _rods(m: Mechanism) -> Iterator[Mistake]:
             en, ja = body(m, b)
             yield Mistake(
                 code, stage, (b,), f"Of {en}, {english}.", f"{ja}：{japanese}。",
-                lambda d, b=b, change=change: change(d, b),
+                at(change, b),
             )  # fmt: skip
         if m.n > 1:
             yield everywhere(code, stage, f"Of every rod, {english}.", f"すべての棒：{japanese}。", change)
@@ -566,7 +596,7 @@ def _point_masses(m: Mechanism) -> Iterator[Mistake]:
             en, ja = body(m, b)
             yield Mistake(
                 code, "energy", (b,), f"Of {en}, {english}.", f"{ja}：{japanese}。",
-                lambda d, b=b, change=change: change(d, b),
+                at(change, b),
             )  # fmt: skip
         yield everywhere(code, "energy", f"Of every mass, {english}.", f"すべての質点：{japanese}。", change)
     for b in range(2, m.n):
@@ -574,5 +604,5 @@ def _point_masses(m: Mechanism) -> Iterator[Mistake]:
             "hung-from-a-leg", "position", (b,),
             f"Mass {b + 1} is hung from mass {b}; every leg hangs from mass 1.",
             f"質点{b + 1}が質点{b}から吊られています。どの足も質点1から吊られています。",
-            lambda d, b=b: put(d.position, b, b - 1, segment_position(m, b - 1, fmpq(1))),
+            at(lambda d, leg: put(d.position, leg, leg - 1, segment_position(m, leg - 1, fmpq(1))), b),
         )  # fmt: skip

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 
 from .derivation import Derivation, Mistake, Stage, add
 from .mechanism import Mechanism
-from .mistakes_energy import body, everywhere
+from .mistakes_energy import at, body, everywhere
 from .notation import sub
 from .trig import HALF, NOTHING, Formula, Space, digit
 
@@ -131,7 +131,7 @@ def _one_row(m: Mechanism, i: int) -> Iterator[Mistake]:
     for code, stage, change, english, japanese in ROWS:
         yield Mistake(
             code, stage, (i,), f"Row {i + 1}: {english}.", f"第{i + 1}式：{japanese}。",
-            lambda d, change=change: change(d, i),
+            at(change, i),
         )  # fmt: skip
 
 
@@ -242,7 +242,7 @@ def _forces(m: Mechanism) -> Iterator[Mistake]:
             en, ja = body(m, b)
             yield Mistake(
                 code, "force", (b,), f"Of {en}, {english}.", f"{ja}：{japanese}。",
-                lambda d, b=b, change=change: change(d, b),
+                at(change, b),
             )  # fmt: skip
         if m.n > 1:
             every = "rod" if m.kind == "rod-chain" else "mass"
@@ -309,7 +309,7 @@ def _moments(m: Mechanism) -> Iterator[Mistake]:
             en, ja = body(m, j)
             yield Mistake(
                 code, "moment", (j,), f"Of {en}, {english}.", f"{ja}：{japanese}。",
-                lambda d, j=j, change=change: change(d, j),
+                at(change, j),
             )  # fmt: skip
         if m.n > 1:
             yield everywhere(code, "moment", f"Of every rod, {english}.", f"すべての棒：{japanese}。", change)

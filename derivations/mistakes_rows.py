@@ -8,9 +8,9 @@ from flint import fmpq
 
 from .derivation import Derivation, Mistake, Row, right
 from .mechanism import Mechanism
-from .mistakes_energy import everywhere
+from .mistakes_energy import everywhere, times
 from .notation import motion_text, pretty, sub, term_name
-from .trig import COS, HALF, NOTHING, Formula, Space, digit, digits, unit
+from .trig import COS, HALF, NOTHING, Formula, Key, Space, digit, digits, unit
 
 Change = Callable[[Formula], Formula]
 
@@ -90,13 +90,20 @@ def _whole_term(m: Mechanism, i: int, q: int, f: Formula) -> Iterator[Mistake]:
                 yield _term(
                     m, i, q, "wrong-angle", f"θ{sub(k)} stands where θ{sub(old_angle)} belongs",
                     f"θ{sub(old_angle)} とすべき所が θ{sub(k)} です",
-                    lambda f, old=old_angle, k=k: _waves(
-                        s, f, lambda angle, phase: s.wave({k if j == old else j: a for j, a in angle.items()}, phase)
-                    ),
+_other_angle(s, old_angle, k),
                     old_angle, k,
                 )  # fmt: skip
     if q == 0:
         yield _term(m, i, q, "g-missing", "g is missing", "g が抜けています", lambda f: f * s.g.inverse_monomial())
+
+
+def _other_angle(s: Space, old: int, new: int) -> Change:
+    """θ_new inside cos and sin where θ_old stood."""
+
+    def wave(angle: dict[int, int], phase: int) -> Formula:
+        return s.wave({new if j == old else j: a for j, a in angle.items()}, phase)
+
+    return lambda f: _waves(s, f, wave)
 
 
 def _waves(s: Space, f: Formula, change: Callable[[dict[int, int], int], Formula]) -> Formula:
@@ -120,11 +127,11 @@ def _symbols(m: Mechanism, i: int, q: int, f: Formula) -> Iterator[Mistake]:
             name, place = f"{letter}{sub(k)}", offset + k
             yield _term(
                 m, i, q, f"{_WORDS[letter]}-missing", f"{name} is missing", f"{name} が抜けています",
-                lambda f, place=place: f * s.symbol(place).inverse_monomial(), k,
+                times(s.symbol(place).inverse_monomial()), k,
             )  # fmt: skip
             yield _term(
                 m, i, q, f"{_WORDS[letter]}-too-many", f"there is one {name} too many",
-                f"{name} が一つ多く掛かっています", lambda f, place=place: f * s.symbol(place), k,
+                f"{name} が一つ多く掛かっています", times(s.symbol(place)), k,
             )  # fmt: skip
             for j in range(n):
                 if j != k:
@@ -132,7 +139,7 @@ def _symbols(m: Mechanism, i: int, q: int, f: Formula) -> Iterator[Mistake]:
                     yield _term(
                         m, i, q, f"wrong-{_WORDS[letter]}",
                         f"{letter}{sub(j)} stands where {name} belongs",
-                        f"{name} とすべき所が {letter}{sub(j)} です", lambda f, ratio=ratio: f * ratio, k, j,
+                        f"{name} とすべき所が {letter}{sub(j)} です", times(ratio), k, j,
                     )  # fmt: skip
         if letter == "l" and m.kind == "n-leg":
             for k in range(n):
@@ -140,7 +147,7 @@ def _symbols(m: Mechanism, i: int, q: int, f: Formula) -> Iterator[Mistake]:
                     yield _term(
                         m, i, q, "length-too-many", f"there is one l{sub(k)} too many",
                         f"l{sub(k)} が一つ多く掛かっています",
-                        lambda f, place=offset + k: f * s.symbol(place), k,
+                        times(s.symbol(offset + k)), k,
                     )  # fmt: skip
 
 
@@ -156,17 +163,17 @@ def _parts(m: Mechanism, i: int, q: int, f: Formula) -> Iterator[Mistake]:
         summand = pretty(_summand(s, key))
         yield _term(
             m, i, q, "sum-incomplete", f"the sum leaves out {summand}", f"和に {summand} が入っていません",
-            lambda f, key=key: _change_summand(f, key, fmpq(0)), *_own(m, key),
+            _summand_sized(key, 0), *_own(m, key),
         )  # fmt: skip
         if abs(c) != 1:
             yield _term(
                 m, i, q, "fraction-missing", f"{summand} stands in the sum without its {abs(c)}",
                 f"和の {summand} に {abs(c)} が掛かっていません",
-                lambda f, key=key: _change_summand(f, key, fmpq(1)), *_own(m, key),
+                _summand_sized(key, 1), *_own(m, key),
             )  # fmt: skip
 
 
-def _own(m: Mechanism, key: tuple[int, int, int]) -> tuple[int, ...]:
+def _own(m: Mechanism, key: Key) -> tuple[int, ...]:
     """The link that a summand is about, as a place for the mistake's name."""
     s, n = m.space, m.n
     powers = digits(key[0], s.symbols)
@@ -174,7 +181,7 @@ def _own(m: Mechanism, key: tuple[int, int, int]) -> tuple[int, ...]:
     return tuple(k for k in range(n) for _ in range(powers[offset + k]) if powers[offset + k] > 0)
 
 
-def _summand(s: Space, key: tuple[int, int, int]) -> str:
+def _summand(s: Space, key: Key) -> str:
     powers = digits(key[0], s.symbols)
     return " ".join(
         s.names[place] + (f"^{power}" if power != 1 else "")
@@ -183,11 +190,16 @@ def _summand(s: Space, key: tuple[int, int, int]) -> str:
     )
 
 
-def _change_summand(f: Formula, key: tuple[int, int, int], size: fmpq) -> Formula:
-    c = f.terms.get(key)
-    if c is None:
-        return f
-    return f - Formula({key: c}) + (Formula({key: size if c > 0 else -size}) if size else NOTHING)
+def _summand_sized(key: Key, size: int) -> Change:
+    """A summand left out (0), or without its fraction (1); its sign stays."""
+
+    def change(f: Formula) -> Formula:
+        c = f.terms.get(key)
+        if c is None:
+            return f
+        return f + Formula({key: -c}) + (Formula({key: fmpq(size if c > 0 else -size)}) if size else NOTHING)
+
+    return change
 
 
 def _motion(m: Mechanism, i: int, q: int) -> Iterator[Mistake]:
@@ -238,7 +250,7 @@ def _is_acceleration(s: Space, q: int) -> bool:
 def _row_scaled(m: Mechanism, i: int) -> Iterator[Mistake]:
     """Row i divided, or multiplied, by something on one side of the equals sign only."""
     s = m.space
-    factors = [(f"l{sub(i)}", s.l(i), (i,))]
+    factors: list[tuple[str, Formula, tuple[int, ...]]] = [(f"l{sub(i)}", s.l(i), (i,))]
     if m.kind == "n-leg":
         factors.append((f"m{sub(i)}", s.m(i), (i, i)))
     for name, factor, places in factors:

@@ -23,10 +23,10 @@ def text(space: Space, f: Formula) -> str:
     """A formula in the ASCII notation, common factors of terms with the same angle taken out; "0" for nothing."""
     groups: dict[tuple[tuple[int, ...], int], list[tuple[tuple[int, ...], fmpq]]] = {}
     for powers, halves, phase, c in space.monomials(f):
-        flipped = next((h < 0 for h in halves if h), False)
-        if flipped:
-            halves, c = tuple(-h for h in halves), (c if phase == COS else -c)
-        groups.setdefault((halves, phase), []).append((powers, c))
+        if next((h < 0 for h in halves if h), False):  # the first angle is written with a plus
+            groups.setdefault((tuple(-h for h in halves), phase), []).append((powers, c if phase == COS else -c))
+        else:
+            groups.setdefault((halves, phase), []).append((powers, c))
     written = [
         part
         for (halves, phase), terms in sorted(
@@ -74,7 +74,7 @@ def _group(
 
 def _product(space: Space, c: fmpq, powers: tuple[int, ...], inner: str, wave: str) -> str:
     above = [inner] if inner else []
-    below = []
+    below: list[str] = []
     for place in _order(space):
         power = powers[place]
         if power:

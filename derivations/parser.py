@@ -118,6 +118,10 @@ class _Parser:
         self.place += 1
         return token
 
+    def sees_times(self) -> bool:
+        """Whether a sign of multiplication comes next."""
+        return self.next.kind == "operator" and self.next.text == "*"
+
     def expect_end(self, why: str) -> None:
         token = self.next
         if token.kind != "end":
@@ -234,7 +238,7 @@ class _Parser:
             case "end":
                 fail(token.at, "the line ends where a term is expected")
             case _:
-                fail(token.at, f"a term is expected before {token.text!r}")
+                return fail(token.at, f"a term is expected before {token.text!r}")
 
     def call(self, depth: int) -> Node:
         function = self.advance()
@@ -255,7 +259,7 @@ class _Parser:
         if self.next.kind == "number":
             token = self.advance()
             parts.append((True, Number(token.value, token.at)))
-            if self.next.kind == "operator" and self.next.text == "*":
+            if self.sees_times():
                 self.advance()
         if self.next.kind == "fraction" and not parts:
             return self.fraction(depth)

@@ -27,7 +27,8 @@ def columns_to_relative(m: Mechanism) -> tuple[dict[int, int], ...]:
 
 def merged(view: View, f: Formula) -> Formula:
     """All lengths, all masses, written as the first, where the derivation has one symbol for them."""
-    n, places = view.mechanism.n, {}
+    n = view.mechanism.n
+    places: dict[int, int] = {}
     if view.equal_lengths:
         places |= {2 * n + k: 2 * n for k in range(1, n)}
     if view.equal_masses:
@@ -66,7 +67,7 @@ def is_multiple(row: Row, base: Row) -> bool:
 
 
 def exact_factor(row: Row, base: Row, agreed: Iterable[int] | None = None) -> Formula | None:
-    """The factor in row = factor · base, found where ``agreed`` coefficients allow the division; None where none does."""
+    """The factor in row = factor · base, from coefficients that ``agreed``; None where none of them can be divided."""
     shared = [q for q in (agreed if agreed is not None else base) if q in row and q in base]
     for q in sorted(shared, key=lambda q: (len(base[q]), len(row[q]), q)):
         factor = divided(row[q], base[q])

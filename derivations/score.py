@@ -43,11 +43,11 @@ class Tally:
         if detail and len(self.failures) < 20:
             self.failures.append(f"{what}: {detail}")
 
-    def timed(self, work: Callable[[], Diagnosis]) -> Diagnosis:
+    def timed(self, work: Callable[..., Diagnosis], *arguments: Any) -> Diagnosis:
         """Run one grading and keep the slowest."""
         start = time.perf_counter()
         try:
-            return work()
+            return work(*arguments)
         finally:
             self.slowest = max(self.slowest, time.perf_counter() - start)
 
@@ -67,13 +67,13 @@ def singles(sizes: Sequence[int] = SIZES, seed: int = 1) -> Tally:
         seen = images(View(m))
         classes = same_equations(seen)
         for mistake in seen.equivalent:
-            verdict = tally.timed(lambda mistake=mistake: _grade(m, [mistake], draw)).verdict
+            verdict = tally.timed(_grade, m, [mistake], draw).verdict
             tally.add(
                 "equivalent to right, called correct" if verdict == "correct" else "FALSELY ACCUSED",
                 "" if verdict == "correct" else mistake.name,
             )
         for image in seen.wrong:
-            answer = tally.timed(lambda image=image: _grade(m, [image.mistake], draw))
+            answer = tally.timed(_grade, m, [image.mistake], draw)
             tally.add(*_single(answer, image.mistake, classes, m))
     return tally
 
@@ -110,7 +110,7 @@ def pairs(count: int = 1000, sizes: Sequence[int] = SIZES, seed: int = 2) -> Tal
             tally.add("left out: together they make the equations of one mistake, or none")
             continue
         done += 1
-        answer = tally.timed(lambda m=m, one=one, two=two: _grade(m, [one, two], draw))
+        answer = tally.timed(_grade, m, [one, two], draw)
         tally.add(*_pair(answer, (one, two), classes, m))
     return tally
 
@@ -149,7 +149,7 @@ def rewritings(count: int = 1000, sizes: Sequence[int] = SIZES, seed: int = 3) -
     for _ in range(count):
         m = draw.choice(mechanisms)
         text = rewritten(m, right(m).rows, draw)
-        answer = tally.timed(lambda text=text: grade_text(text))
+        answer = tally.timed(grade_text, text)
         tally.add("correct" if answer.verdict == "correct" else "REJECTED", "" if answer.verdict == "correct" else text)
     return tally
 
@@ -160,7 +160,7 @@ def hostile_inputs(count: int = 10_000, seed: int = 4) -> Tally:
     for _ in range(count):
         text = hostile(draw)
         try:
-            answer = tally.timed(lambda text=text: grade_text(text))
+            answer = tally.timed(grade_text, text)
             tally.add(f"read after all: {answer.verdict}")
         except InvalidInput as error:
             message = str(error)
@@ -177,9 +177,13 @@ def cold(sizes: Sequence[int] = (4,)) -> Tally:
     for m in _mechanisms(sizes):
         images.cache_clear()
         right.cache_clear()
-        answer = tally.timed(lambda m=m: _grade(m, [images(View(m)).wrong[-1].mistake], random.Random(0)))
+        answer = tally.timed(_grade_last, m)
         tally.add(f"{m.kind}, {m.n} angles: {answer.verdict}")
     return tally
+
+
+def _grade_last(m: Mechanism) -> Diagnosis:
+    return _grade(m, [images(View(m)).wrong[-1].mistake], random.Random(0))
 
 
 def _grade(m: Mechanism, mistakes: Sequence[Mistake], draw: random.Random) -> Diagnosis:

@@ -117,7 +117,7 @@ def _define(evaluation: Evaluation, table: object) -> None:
             raise InvalidInput(f"define.{name!s:.40}: a name is a letter, then letters and digits, and not one in use")
         if re.fullmatch(r"(t|w|a|l|m|I|theta|omega|alpha)_?[0-9]+", name):
             raise InvalidInput(f"define.{name!s:.40}: already has a meaning")
-        node = _located(f"define.{name}", lambda line=line: _expression(evaluation, line))
+        node = _located(f"define.{name}", _expression, evaluation, line)
         evaluation.definitions[name] = node
 
 
@@ -134,8 +134,7 @@ def _rows(evaluation: Evaluation, table: object) -> tuple[tuple[str, Formula], .
     if len(table) > n:
         raise InvalidInput(f"equations: {len(table)} rows for {n} angles; one row for each angle is needed")
     return tuple(
-        (str(label)[:40], _located(f"equations.{label!s:.40}", lambda line=line: _row(evaluation, line)))
-        for label, line in table.items()
+        (str(label)[:40], _located(f"equations.{label!s:.40}", _row, evaluation, line)) for label, line in table.items()
     )
 
 
@@ -161,9 +160,9 @@ def _line(line: object) -> str:
     return re.sub(r"[.,;、。，．]\s*$", "", line)
 
 
-def _located(where: str, read: Callable[[], T]) -> T:
+def _located(where: str, read: Callable[..., T], *arguments: Any) -> T:
     """What ``read`` gives; its refusal is told with the field it is about."""
     try:
-        return read()
+        return read(*arguments)
     except InvalidInput as error:
         raise InvalidInput(f"{where}: {error}") from None

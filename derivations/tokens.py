@@ -22,6 +22,9 @@ LARGEST_EXPONENT_OF_TEN = 40
 Kind = Literal["number", "symbol", "function", "name", "operator", "open", "close", "fraction", "end"]
 
 
+ZERO = fmpq(0)
+
+
 @dataclass(frozen=True)
 class Token:
     """One token; ``at`` is the column it starts in, counted from 0. ``index`` is a symbol's, from 1, or 0 for none."""
@@ -30,7 +33,7 @@ class Token:
     text: str
     at: int
     index: int = 0
-    value: fmpq = fmpq(0)
+    value: fmpq = ZERO
 
 
 def fail(at: int, message: str) -> NoReturn:

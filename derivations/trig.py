@@ -224,7 +224,7 @@ class Space:
         """ω_k, an angular rate."""
         return self.symbol(self.n + k)
 
-    def l(self, k: int) -> Formula:
+    def l(self, k: int) -> Formula:  # noqa: E743 -- the documents' letter
         """l_k."""
         return self.symbol(2 * self.n + k)
 
