@@ -6,7 +6,7 @@ at constant offsets (many arrays mean many checks for overlap, and LLVM gives up
 own.
 A last block that is not full repeats its last state, so that a state's result does not depend on its neighbours.
 
-Status: 0, or 1 where an angle or rate is not finite or beyond what the kernels hold for.
+Status: 0, or 1 where an angle or rate is not finite or beyond what the kernels hold for, or their number is wrong.
 """
 
 from __future__ import annotations
@@ -71,7 +71,9 @@ def any_marked(lane: Any) -> int:
 @compiled(releases_gil=False)
 def rods_single(theta: Any, omega: Any, out: Any, table: Any) -> int:
     """θ'' of a rod chain in one state, shape (n,) each; table: see :func:`.kernels.table`."""
-    n = theta.size
+    n = len(table) - 1
+    if theta.size != n or omega.size != n:
+        return 1
     gravity = table[n, 0]
     a = b = c = d = p = q = 0.0
     bad = 0.0
@@ -117,7 +119,9 @@ def refine_single(table: Any, n: int) -> None:
 @compiled(releases_gil=False)
 def legs_single(theta: Any, omega: Any, out: Any, table: Any) -> int:
     """θ'' of an N-leg pendulum in one state, shape (n,) each; table: see :func:`.kernels.table`."""
-    n = theta.size
+    n = len(table) - 1
+    if theta.size != n or omega.size != n:
+        return 1
     gravity = table[n, 0]
     bad = outside(theta[0], omega[0])
     s1, c1 = sincos(theta[0], 0.0)

@@ -17,7 +17,14 @@ LARGEST_RATE = 1e100  # rad/s: squares and products with masses and lengths stay
 
 
 def checked_state(system: System, theta: Any, omega: Any) -> tuple[Array, Array]:
-    """``theta`` and ``omega`` as contiguous float64 of one shape (..., n), or InvalidInput."""
+    """``theta`` and ``omega`` as contiguous float64 of one shape (..., n) and within range, or InvalidInput."""
+    angles, rates = shaped_state(system, theta, omega)
+    refuse_outside(angles, rates)
+    return angles, rates
+
+
+def shaped_state(system: System, theta: Any, omega: Any) -> tuple[Array, Array]:
+    """:func:`checked_state` for those who look at the numbers themselves."""
     angles, rates = _numbers("theta", theta), _numbers("omega", omega)
     for name, values in (("theta", angles), ("omega", rates)):
         if values.ndim == 0 or values.shape[-1] != system.n:
@@ -26,7 +33,6 @@ def checked_state(system: System, theta: Any, omega: Any) -> tuple[Array, Array]
             )
     if angles.shape != rates.shape:
         raise InvalidInput(f"omega: must have theta's shape {angles.shape}, got {rates.shape}")
-    refuse_outside(angles, rates)
     return angles, rates
 
 

@@ -145,15 +145,13 @@ def _integrate(
     out_theta, out_omega = np.empty((2, count, len(times), n))
     steps = np.zeros(count, np.int64)
 
-    def one(b: int) -> None:
-        steps[b] = _follow(system, starts[0][b], starts[1][b], times, order, local, out_theta[b], out_omega[b])
+    def one(b: int) -> int:
+        return _follow(system, starts[0][b], starts[1][b], times, order, local, out_theta[b], out_omega[b])
 
     workers = min(processors(threads), count)
-    if workers > 1:
-        list(thread_pool().map(lambda first: [one(b) for b in range(first, count, workers)], range(workers)))
-    else:
-        for b in range(count):
-            one(b)
+    spread = thread_pool().map if workers > 1 else map
+    for first, taken in enumerate(spread(lambda first: [*map(one, range(first, count, workers))], range(workers))):
+        steps[first::workers] = taken
     shape = (*theta.shape[:-1], len(times), n)
     return out_theta.reshape(shape), out_omega.reshape(shape), steps.reshape(theta.shape[:-1])
 

@@ -198,7 +198,7 @@ def step_size(omega: Any, top: int, local: float) -> float:
 @called
 def moved_on(omega: Any, state: Any, j: int, top: int, h: float) -> tuple[float, float, float, float]:
     """Angle and rate of one link after h, each as a sum of two numbers: only the small terms are rounded."""
-    rate = omega[top, j]
+    rate: float = omega[top, j]
     angle = rate / (top + 1.0)
     for k in range(top - 1, 0, -1):
         rate = omega[k, j] + h * rate
@@ -218,7 +218,8 @@ def unwrapped(high: float, low: float, turns: float) -> float:
     """The angle with its whole turns."""
     whole = turns * TWO_PI
     total, rest = two_sum(whole, high)
-    return total + (rest + (low + (fma(turns, TWO_PI, -whole) + turns * TWO_PI_LOW)))
+    angle: float = total + (rest + (low + (fma(turns, TWO_PI, -whole) + turns * TWO_PI_LOW)))
+    return angle
 
 
 @inlined

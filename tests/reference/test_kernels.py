@@ -280,8 +280,8 @@ def test_any_small_system(lists, gravity):
     for system in (RodChain(lengths, gravity=gravity), NLegPendulum(lengths, lengths[::-1], gravity)):
         found = all_forms(system, np.array(theta), np.array(omega))
         # Searched states find accelerations that nearly vanish as sums of terms that do not, where one unit in the
-        # last place of an angle already changes them by more: the scale is then that of the terms.
-        terms = gravity / max(lengths) + max(w * w for w in omega)
+        # last place of an angle already changes them by more. The scale is then that of the terms of l θ''.
+        terms = (gravity + max(l * w * w for l in lengths for w in omega)) / min(lengths)
         errors = {form: error(system, theta, omega, a, terms) for form, a in found.items()}
         assert max(errors.values()) <= ALLOWED, errors
 
@@ -308,3 +308,23 @@ def test_compiles_where_no_cache_can_be_written(tmp_path):
     done = subprocess.run([sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert float(done.stdout) == pytest.approx(-1.5 * 9.81 * math.sin(0.5), rel=1e-14)
+
+
+def test_writes_into_an_array_that_is_given():
+    system = SYSTEMS[0]
+    theta, omega = np.ones((5, 3)), np.zeros((5, 3))
+    out = np.empty((5, 3))
+    assert kernels.accelerations(system, theta, omega, out=out) is out
+    np.testing.assert_array_equal(out, kernels.accelerations(system, theta, omega))
+    for wrong in (np.empty((5, 2)), np.empty((5, 3), np.float32), np.empty((10, 3))[::2]):
+        with pytest.raises(InvalidInput, match="out"):
+            kernels.accelerations(system, theta, omega, out=wrong)
+
+
+@pytest.mark.parametrize("system", SYSTEMS, ids=lambda s: s.kind)
+def test_a_single_state_may_have_any_stride(system):
+    states = np.random.default_rng(0).uniform(-3, 3, (3, 10))
+    kernels.kernel_of(system)
+    theta, omega = states[:, 4], states[::-1, 7]
+    expected = kernels.accelerations(system, theta.copy(), omega.copy())
+    np.testing.assert_array_equal(kernels.accelerations(system, theta, omega), expected)
