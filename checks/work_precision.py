@@ -20,6 +20,8 @@ from .timing import FEWEST, Subject, Times, interleaved, once
 ERRORS = (1e-6, 1e-9, 1e-12)  # that ratios are given at
 EXPLORING = 0.35  # of the scene's time goes into finding the errors, the rest into timing
 NO_BETTER = 0.7  # two finer runs in a row whose error is not below this part of the best: rounding has been reached
+PROBE = 0.04  # of the motion is run to see what a whole run takes
+PATIENCE = 2.0  # times a method's share: what its first run may take
 HOPELESS = 1e-3  # above it an error that does not fall is not yet rounding: steps may be too coarse to tell
 Curve = Sequence[tuple[float, float]]  # (seconds, error) of a method's runs
 
@@ -64,18 +66,21 @@ def work_precision(
 
 
 def refine(method: Method, error: Callable[[End], float], share: float) -> tuple[list[Run], str]:
-    """Runs from coarse to fine within ``share`` [s], at least one; and why there are no finer ones."""
+    """Runs from coarse to fine within ``share`` [s]; and why there are no finer ones, or none at all."""
     runs: list[Run] = []
+    # Part of a run tells what a whole one would take; what is loaded or compiled at the first call does not count.
+    probe = Subject(partial(method.run, method.settings[0], PROBE))
+    once(probe)
+    whole = once(probe) / PROBE
+    if whole > PATIENCE * share:
+        return runs, f"its coarsest run would take {whole:.2g} s, more than the time given"
     spent, stuck, best = 0.0, 0, math.inf
     for setting in method.settings:
         growth = runs[-1].seconds / runs[-2].seconds if len(runs) > 1 else 2.0
         if runs and spent + min(max(growth, 1.0), 2.0) * runs[-1].seconds > share:
             return runs, "finer runs were not within the time given"
         ends: list[End] = []
-        subject = Subject(partial(_keep, method, setting, ends))
-        seconds = once(subject)
-        if not runs and seconds < share:  # what is loaded or compiled at the first call is no part of the method
-            seconds = once(subject)
+        seconds = once(Subject(partial(_keep, method, setting, ends)))
         runs.append(Run(method, setting, error(ends[-1]), seconds))
         spent += seconds
         stuck = stuck + 1 if runs[-1].error > NO_BETTER * best and best < HOPELESS else 0
@@ -179,7 +184,11 @@ def reaches(points: Sequence[Point], stopped: dict[tuple[str, str], str]) -> lis
                     seconds=got and got[0],
                     at_most=bool(got and got[1]),
                     ratio=got[0] / own[0] if got and own and engine != FURIKO else None,
-                    reason="" if got else f"nearest {nearest:.1e}; {stopped[engine, scheme]}",
+                    reason="" if got else _why(nearest, stopped[engine, scheme]),
                 )
             )
     return found
+
+
+def _why(nearest: float, stopped: str) -> str:
+    return f"nearest {nearest:.1e}; {stopped}" if nearest < math.inf else f"no run came to its end; {stopped}"

@@ -67,9 +67,9 @@ def bench(
 
         reached = list(measure(watch))
     if not (skips or targets):
-        both = scenes is None
-        motions = list(_motions(chosen, moving, 0.6 * budget if both else budget, watch))
-        speeds = list(_speeds(names, 0.4 * budget, watch)) if both else []
+        both = scenes is None  # what making models and proving truths takes is no part of these shares
+        motions = list(_motions(chosen, moving, 0.55 * budget if both else budget, watch))
+        speeds = list(_speeds(names, 0.3 * budget, watch)) if both else []
     return Bench(
         furiko=__version__,
         started=started,
@@ -90,8 +90,9 @@ def bench(
 def _motions(scenes: Sequence[Scene], engines: Sequence[str], budget: float, watch: Watch) -> Iterator[Motion]:
     from .checks.work_precision import work_precision
 
-    for scene in scenes:
-        yield work_precision(scene, engines, budget / len(scenes), watch)
+    weights = [scene.system.n**0.5 for scene in scenes]  # more links, longer runs
+    for scene, weight in zip(scenes, weights, strict=True):
+        yield work_precision(scene, engines, budget * weight / sum(weights), watch)
 
 
 def _speeds(engines: Sequence[str], budget: float, watch: Watch) -> Iterator[Speed]:

@@ -58,8 +58,20 @@ def _motion(motion: Motion, page: Page) -> None:
     ]
     _table(("  engine", "scheme", *(f"{error:g}" for error in errors), "its nearest"), rows, page)
     page.line("* on the Pareto front; in brackets: how many times furiko's own time", "dim")
+    for reason, found in _reasons(motion).items():
+        page.line(f"not reached by {', '.join(found)}: {reason}", "dim")
     for sentence in motion.left_out:
         page.line(f"left out: {sentence}", "dim")
+
+
+def _reasons(motion: Motion) -> dict[str, list[str]]:
+    """Why methods stopped where they did, each reason with the methods that it stopped."""
+    found: dict[str, list[str]] = {}
+    for reach in motion.reaches:
+        if reach.seconds is None:
+            why = found.setdefault(reach.reason.rpartition("; ")[2], [])
+            why += [method for method in [f"{reach.engine} {reach.scheme}"] if method not in why]
+    return found
 
 
 def nearest(motion: Motion, method: tuple[str, str]) -> str:
@@ -70,7 +82,7 @@ def nearest(motion: Motion, method: tuple[str, str]) -> str:
         if (point.engine, point.scheme) == method and point.error is not None
     ]
     if not found:
-        return "none came to its end"
+        return "–"
     error, seconds = min(found)
     return f"{figure(error)} in {duration(seconds)}"
 

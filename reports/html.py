@@ -95,7 +95,7 @@ def to_html(report: Report) -> str:
     """The whole page as text; everything from the stream is escaped, markup comes from the templates alone."""
     from markupsafe import Markup
 
-    page = _environment().get_template("report.html.j2")
+    page = environment().get_template("report.html.j2")
     return page.render(
         report=report,
         scenes=[SceneView(report, name, f"s{i}") for i, name in enumerate(report.scenes, start=1)],
@@ -107,10 +107,11 @@ def to_html(report: Report) -> str:
 
 
 @cache
-def _environment() -> Environment:
+def environment() -> Environment:
+    """Where the pages' templates are; what they are given is escaped."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-    environment = Environment(
+    made = Environment(
         loader=FileSystemLoader(TEMPLATES),
         autoescape=True,
         trim_blocks=True,
@@ -120,7 +121,7 @@ def _environment() -> Environment:
         auto_reload=False,
         optimized=False,  # the templates have nothing to fold, and looking for it takes a fifth of their compilation
     )
-    environment.filters |= {
+    made.filters |= {
         "figure": figure,
         "count": count,
         "few": few,
@@ -129,7 +130,7 @@ def _environment() -> Environment:
         "tally": tally,
         "value": _value,
     }
-    return environment
+    return made
 
 
 def _inert(value: Any) -> Any:
