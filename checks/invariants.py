@@ -179,6 +179,8 @@ def momentum_noise(start: Start, integrator: Integrator) -> float:
 def way_back_left(start: Start, integrator: Integrator, steps: int) -> Array:
     """Where the way there and back ends, less where it began: angles and rates, (2n,)."""
     theta, omega = start.run(integrator, steps, start.theta, start.omega)
+    if not (np.isfinite(theta).all() and np.isfinite(omega).all()):
+        return np.full(2 * len(theta), np.nan)
     theta, omega = start.run(integrator, steps, theta, -omega)
     return np.concatenate([theta - start.theta, -omega - start.omega])
 

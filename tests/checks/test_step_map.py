@@ -1,0 +1,66 @@
+"""The step map names the scheme of every engine's integrators, and no scheme for one that has none."""
+
+import pytest
+from motion_zoo import Damped, Fake, LongStep, OtherRungeKutta
+
+from furiko.checks import step_map
+from furiko.engines import ENGINES, Integrator
+
+SCHEMES = {
+    "Euler": "semi-implicit Euler",
+    "implicitfast": "semi-implicit Euler",
+    "RK4": "classical Runge-Kutta",
+    "RK44": "classical Runge-Kutta",
+    "RK67": "Butcher's sixth order in seven stages",
+    "GeneralizedAlpha": "generalized-α, ρ∞ = 0.9",
+    "TrapezoidalIndex2": "trapezoidal rule, velocities held together",
+}
+
+
+@pytest.mark.parametrize("engine", [name for name, info in ENGINES.items() if info.integrators])
+@pytest.mark.parametrize("scene", ["double-pendulum", "n-leg-3", "rods-5"])
+def test_every_integrator_is_a_textbook_scheme_to_rounding(make_cell, engine, scene):
+    results = list(step_map.compare(make_cell(engine, scene)))
+    assert len(results) == len(ENGINES[engine].integrators)
+    for result in results:
+        assert result.outcome == "agrees", result
+        assert result.details["scheme"].startswith(SCHEMES[result.details["integrator"]])
+        assert (result.details["coordinates"] == "maximal coordinates") == (engine == "exudyn-redundant")
+        # The nearest other scheme of the same order misses by far more than rounding, so that the name means something.
+        rest = result.details["next best"]
+        assert rest is None or rest["error"] > 100 * result.measured
+
+
+def only(results):
+    (result,) = results
+    return result
+
+
+def test_another_scheme_of_the_same_order_is_told_by_its_name(make_cell):
+    result = only(step_map.compare(make_cell(OtherRungeKutta, "double-pendulum")))
+    assert result.outcome == "agrees"
+    assert result.details["scheme"] == "Runge-Kutta 3/8 rule"
+
+
+def test_a_scheme_of_another_order_than_said_differs(make_cell):
+    class Exaggerating(Fake):
+        integrators = (Integrator("RK5", 5),)
+
+    result = only(step_map.compare(make_cell(Exaggerating, "double-pendulum")))
+    assert result.outcome == "differs"
+    assert "said to be of order 5; one step is that of classical Runge-Kutta" in result.reason
+
+
+@pytest.mark.parametrize("fake", [LongStep, Damped])
+def test_a_step_that_is_no_schemes_differs_and_the_nearest_is_named(make_cell, fake):
+    result = only(step_map.compare(make_cell(fake, "double-pendulum")))
+    assert result.outcome == "differs"
+    assert "no textbook scheme" in result.reason
+    if fake is LongStep:
+        assert result.details["scheme"] == "classical Runge-Kutta"
+
+
+def test_long_chains_are_skipped_with_a_reason(make_cell):
+    result = only(step_map.compare(make_cell(Fake, "rods-50")))
+    assert result.outcome == "skipped"
+    assert "50" in result.reason
