@@ -3,8 +3,8 @@
 What has been found is in the results alone, each under a name of its own. A search is a function of them: it says which
 case it needs next, or that it knows. So a run that was cut off goes on where it stood, nothing is lost and nothing is
 done twice, and the order in which cases come in changes nothing. Families of searches (frontiers of accelerations,
-frontiers of the step, …) share the time by weight; within a family a frontier that is caught between two rungs comes
-first, then whoever has asked least: the time goes where the frontiers are.
+frontiers of the step, …) share the time by weight; within a family cheap cases come first, then
+a frontier that is caught between two rungs, then whoever has asked least: the time goes where the frontiers are.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import contextlib
 import subprocess
 import tempfile
 import time
-from collections import Counter
+from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
@@ -37,6 +37,7 @@ from .stress_condition import condition_cases
 TIMEOUT = 30.0  # [s] for one case; the chain's own take longer and say so
 GRACE = 5.0  # [s] that cases under way are given when the time is up
 
+Watch = Callable[["Case", int], None]
 Key = tuple[str, str, str]  # scene, engine, check: what a result goes by
 Results = Mapping[Key, Result]
 
@@ -223,11 +224,12 @@ def run(
     budget: float,
     jobs: int,
     timeout: float = TIMEOUT,
-    watch: Callable[[Case], None] = lambda case: None,
+    watch: Watch = lambda case, left: None,
 ) -> Iterator[Result]:
     """Every new result, put into ``results`` as well; ends when all is known or after ``budget`` seconds.
 
-    ``jobs``: worker processes; ``timeout`` [s] for one case; ``watch`` is called with each case that begins.
+    ``jobs``: worker processes; ``timeout`` [s] for one case; ``watch`` is called with each case that begins,
+    and how many questions are open.
     """
     with tempfile.TemporaryDirectory(prefix="furiko-stress-") as folder:
         pool = _Pool(searches, results, time.monotonic() + budget, timeout, folder, watch)
@@ -241,7 +243,7 @@ class _Worker:
     process: subprocess.Popen[bytes]
     connection: Connection
     case: Case | None = None
-    family: str = ""
+    search: Search | None = None
     begun: float = 0.0
     result: Result | None = None
 
@@ -256,11 +258,11 @@ class _Pool:
         end: float,
         timeout: float,
         folder: str,
-        watch: Callable[[Case], None],
+        watch: Watch,
     ) -> None:
-        self.waiting = list(searches)
+        self.asking = {search: search.next(results) for search in searches}
         self.results, self.end, self.timeout, self.folder, self.watch = results, end, timeout, folder, watch
-        self.spent: Counter[str] = Counter()
+        self.spent: defaultdict[str, float] = defaultdict(float)
         self.workers: list[_Worker] = []
 
     def run(self, jobs: int) -> Iterator[Result]:
@@ -291,27 +293,26 @@ class _Pool:
             if worker.case is None and time.monotonic() < self.end:
                 chosen = self._choose()
                 if chosen is not None:
-                    worker.family, worker.case = chosen
+                    worker.search, worker.case = chosen
                     worker.begun, worker.result = time.monotonic(), None
-                    self.watch(worker.case)
+                    self.watch(worker.case, sum(case is not None for case, _ in self.asking.values()))
                     with contextlib.suppress(BrokenPipeError):  # it has died: its silence will tell
                         worker.connection.send(CaseJob(worker.case))
         return any(worker.case is not None for worker in self.workers)
 
-    def _choose(self) -> tuple[str, Case] | None:
+    def _choose(self) -> tuple[Search, Case] | None:
         """The next case of the family that has had least of its share; it may have none while others run its last."""
-        running = {key(worker.case) for worker in self.workers if worker.case is not None}
-        asked: dict[str, list[tuple[bool, int, int, Case]]] = {}
-        for place, search in enumerate(list(self.waiting)):
-            case, known = search.next(self.results)
-            if case is None:
-                self.waiting.remove(search)
-            elif key(case) not in running:
-                asked.setdefault(search.family, []).append((not search.caught(self.results), known, place, case))
+        running = {worker.search for worker in self.workers if worker.case is not None}
+        asked: dict[str, list[tuple[tuple[bool, bool, int], Search, Case]]] = {}
+        for search, (case, known) in self.asking.items():
+            if case is not None and search not in running:
+                urgency = (getattr(case, "heavy", False), not search.caught(self.results), known)
+                asked.setdefault(search.family, []).append((urgency, search, case))
         if not asked:
             return None
         family = min(asked, key=lambda name: (self.spent[name] / WEIGHTS[name], FAMILIES.index(name)))
-        return family, min(asked[family], key=lambda one: one[:3])[3]
+        _, search, case = min(asked[family], key=lambda one: one[0])
+        return search, case
 
     def _heard(self) -> list[_Worker]:
         """Workers that have something to say; a moment later, those there are."""
@@ -359,10 +360,12 @@ class _Pool:
 
     def _over(self, worker: _Worker, result: Result) -> Result:
         seconds = time.monotonic() - worker.begun
-        self.spent[worker.family] += seconds  # type: ignore[assignment]  # of seconds
-        worker.case = None
         found = msgspec.structs.replace(result, seconds=round(seconds, 3))
         self.results[key(found)] = found
+        if worker.search is not None:
+            self.spent[worker.search.family] += seconds
+            self.asking[worker.search] = worker.search.next(self.results)
+        worker.case = worker.search = None
         return found
 
 

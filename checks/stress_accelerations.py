@@ -35,6 +35,7 @@ OWN = (DOCUMENT, KERNELS)
 PROMISED = 1e-13  # of the kernels, norm-wise, where the problem's own conditioning allows it
 TIMES_ULP = 10.0  # and where it does not
 NEIGHBOURS = 2  # states with one ulp more or less in each number, with which a state is compared
+HEAVY = 200  # links
 MOST_FOR_CONDITION = 300  # links: the matrices are dense
 
 
@@ -56,6 +57,12 @@ class AccelerationCase:
     def check(self) -> str:
         """The rung."""
         return f"accelerations, rung {self.rung}"
+
+    @property
+    def heavy(self) -> bool:
+        """Whether it takes seconds rather than milliseconds."""
+        (ladder,) = find_axes((self.ladder,))
+        return ladder.recipe(self.rung).n > HEAVY
 
     def run(self) -> Result:
         """Measure. An engine's exceptions are the caller's to catch."""

@@ -11,7 +11,7 @@ import hashlib
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import combinations
 from typing import Literal
 
@@ -267,11 +267,16 @@ def _fits(first: Axis, second: Axis) -> bool:
     return not any("gravity" in a.fields and b.base.gravity == 0 for a, b in ((first, second), (second, first)))
 
 
+@cache
+def _known() -> dict[str, Ladder]:
+    return {axis.name: axis for axis in AXES} | {pair.name: pair for pair in pairs()}
+
+
 def find_axes(names: tuple[str, ...] | None) -> tuple[Ladder, ...]:
     """The ladders with these names; ``all`` for every axis and every pair; the single axes for None."""
     if names is None:
         return AXES
-    known: dict[str, Ladder] = {axis.name: axis for axis in AXES} | {pair.name: pair for pair in pairs()}
+    known = _known()
     found: list[Ladder] = []
     for name in names:
         if name in ("all", "pairs"):

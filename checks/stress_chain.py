@@ -19,7 +19,8 @@ EQUATIONS = "document"
 SWINGS = (10, 20, 50, 100, 200, 500, 1000, 2000)
 SHORT = ((10, 4.0), (20, 4.0), (40, 4.0), (80, 4.0), (160, 4.0), (320, 2.0), (640, 2.0))  # rods and seconds
 LONG = (1000, 10.0)
-FRAMES = 640  # a second, at which the tip is looked at
+FRAMES = 320  # a second that are kept of the tip
+LOOKS = 16  # at the tip between two of them: a crack of the whip lasts a millisecond
 PIECE = 0.25  # [s] that are lost at most when a run is cut off
 FINE, COARSE = 1e-13, 1e-8  # tolerances; what differs between them is numerics
 AMPLITUDES = (1.0, 0.1)  # of the bow
@@ -146,17 +147,18 @@ class ChainCase:
         """Move on."""
         theta, omega = (bow(self.n, self.amplitude), np.zeros(self.n)) if self.start is None else self.start
         frames = round(PIECE * FRAMES)
-        times = self.piece * PIECE + np.arange(frames + 1) / FRAMES
+        times = self.piece * PIECE + np.arange(frames * LOOKS + 1) / (FRAMES * LOOKS)
         found = move(chain(self.n), theta, omega, times, self.tolerance)
-        shown = [frames // 2, frames]
+        shown = [frames // 2 * LOOKS, frames * LOOKS]
+        peak = int(found.speed.argmax())
         details: dict[str, Any] = {
             "n": self.n,
             "amplitude": self.amplitude,
             "tolerance": self.tolerance,
             "piece": self.piece,
-            "times": found.times.tolist(),
-            "tip": found.tip.tolist(),
-            "speed": found.speed.tolist(),
+            "tip": found.tip[::LOOKS].tolist(),
+            "speed": found.speed[::LOOKS].round(6).tolist(),
+            "peak": [float(found.speed[peak]), float(found.times[peak])],
             "fastest": float(found.fastest.max()),
             "energy": [float(found.energy[0]), float(found.energy.min()), float(found.energy.max())],
             "curves": {f"{found.times[k]:g}": found.curves[k].round(5).tolist() for k in shown},

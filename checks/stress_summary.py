@@ -199,6 +199,7 @@ def chain(searches: Sequence[Search], results: Results) -> Data:
         "motions": moved,
         "convergence": convergence(moved),
         "in step": in_step(moved),
+        "verdict": verdict(moved),
     }
 
 
@@ -233,7 +234,8 @@ def _motion(run: ChainRun, results: Results) -> Data | None:
     speed = np.concatenate([np.array(piece.details["speed"])[bool(i) :] for i, piece in enumerate(pieces)])
     first = pieces[0].details["energy"][0]
     drift = max(max(abs(e - first) for e in piece.details["energy"][1:]) for piece in pieces) / first
-    time = len(tip) / FRAMES
+    time = (len(tip) - 1) / FRAMES
+    peak, peak_at = max(tuple(piece.details["peak"]) for piece in pieces)
     steps = sum(piece.details["steps"] for piece in pieces)
     curves = {t: c for piece in pieces for t, c in piece.details["curves"].items()}
     return {
@@ -241,11 +243,11 @@ def _motion(run: ChainRun, results: Results) -> Data | None:
         "amplitude": run.amplitude,
         "tolerance": run.tolerance,
         "closed": run.next(results)[0] is None,
-        "time": (len(tip) - 1) / FRAMES,
+        "time": time,
         "tip": tip.tolist(),
         "speed": speed.tolist(),
-        "fastest tip": float(speed.max()),
-        "fastest tip at": float(speed.argmax() / FRAMES),
+        "fastest tip": peak,
+        "fastest tip at": peak_at,
         "fastest turning": max(piece.details["fastest"] for piece in pieces),
         "energy drift": float(drift),
         "steps": steps,
@@ -253,6 +255,58 @@ def _motion(run: ChainRun, results: Results) -> Data | None:
         "seconds": sum(piece.details["computing"] for piece in pieces),
         "curves": curves,
     }
+
+
+CRACK = 0.4  # [s] until when the motion is smooth; the whip cracks a little later
+
+
+def verdict(moved: Sequence[Data]) -> list[str]:
+    """Whether the far end's violence is physics or numerics: a sentence for each piece of evidence there is."""
+    fine = [m for m in moved if m["tolerance"] == FINE and m["amplitude"] == 1.0 and m["time"] >= 1.0]
+    said = []
+    before = [(r["n"], r["apart"][1], r["order"][1]) for r in convergence(moved) if _tells(r, 1) and r["n"] >= 20]
+    if before:
+        n, apart, power = before[-1]
+        said.append(
+            f"Until {CRACK:g} s the tip converges: {n} and {2 * n} rods are {apart:.1e} m apart, falling as "
+            f"n^-{power:.2f}, as for a smooth solution of the chain's partial differential equation."
+        )
+    steps = [(r["n"], r["apart"][r["times"].index(1.0)]) for r in in_step(moved) if 1.0 in r["times"]]
+    if steps:
+        n, apart = max(steps, key=lambda one: one[1])
+        said.append(
+            f"It is not the integrator's doing: with tolerance {COARSE:g} and series of another order in place of "
+            f"{FINE:g}, no tip is elsewhere by more than {apart:.1e} m until 1 s ({n} rods)."
+        )
+    if len(fine) >= 3:
+        numbers = [m["n"] for m in fine]
+        turning = -order(numbers, [m["fastest turning"] for m in fine])
+        last = fine[-1]
+        said.append(
+            f"At {last['fastest tip at']:.3f} s the whip cracks: the last rod's rate grows as n^{turning:.2f} "
+            f"({fine[0]['fastest turning']:.0f} rad/s with {numbers[0]} rods, {last['fastest turning']:.0f} rad/s with "
+            f"{numbers[-1]}), while the tip's speed is {fine[0]['fastest tip']:.1f} and {last['fastest tip']:.1f} m/s and "
+            f"energy is kept to {max(m['energy drift'] for m in fine):.0e}. The curve has a kink there: what is finite in "
+            "the limit is the speed, not the rate."
+        )
+    after = [(r["n"], r["apart"][r["times"].index(1.0)], r["order"][r["times"].index(1.0)])
+             for r in convergence(moved) if 1.0 in r["times"] and _tells(r, r["times"].index(1.0)) and r["n"] >= 20]
+    if after:
+        n, apart, power = after[-1]
+        said.append(
+            f"Past the kink convergence in n goes on, but slowly: until 1 s {n} and {2 * n} rods differ by "
+            f"{apart:.1e} m, falling as n^-{power:.2f}."
+        )
+    if len(said) >= 3:
+        said.append(
+            "So the violent tip is physics: the chain's own solution loses its smoothness at the free end, where the "
+            "tension vanishes. What asks for ever smaller steps is that every finer chain resolves more of the kink."
+        )
+    return said
+
+
+def _tells(row: Data, index: int) -> bool:
+    return row["amplitude"] == 1.0 and len(row["order"]) > index and row["order"][index] is not None
 
 
 TIMES = (0.25, 0.4, 0.45, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0)

@@ -178,23 +178,17 @@ def _work(
     watch: Watch | None,
     journal: Journal | None,
 ) -> None:
-    begun, new, now = time.monotonic(), 0, ""
+    begun, before = time.monotonic(), len(results)
 
-    def tell() -> None:
+    def begins(case: Any, waiting: int) -> None:
         if watch is not None:
-            waiting = sum(search.next(results)[0] is not None for search in searches)
-            watch(Progress(len(results), new, waiting, now, time.monotonic() - begun))
-
-    def begins(case: Any) -> None:
-        nonlocal now
-        now = f"{case.engine}: {case.scene}"
+            done, now = len(results), f"{case.engine}: {case.scene}, {case.check}"
+            watch(Progress(done, done - before, waiting, now, time.monotonic() - begun))
 
     number = jobs or min(os.cpu_count() or 1, 8)
     for result in run_cases(searches, results, budget=budget, jobs=number, timeout=timeout, watch=begins):
         if journal is not None:
             journal.write(result)
-        new += 1
-        tell()
 
 
 def _folder(out: str | Path, fresh: bool) -> Path:

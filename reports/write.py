@@ -40,12 +40,12 @@ def write_reports(directory: str | Path, report: Report) -> tuple[Path, ...]:
 
     folder = Path(directory)
     return tuple(
-        _write_whole(folder / name, render(report))
+        write_whole(folder / name, render(report))
         for name, render in ((PAGE, to_html), (SUMMARY, to_markdown), (JUNIT, to_junit))
     )
 
 
-def _write_whole(path: Path, text: str) -> Path:
+def write_whole(path: Path, text: str) -> Path:
     """Write under another name, then rename: whoever looks sees the old file or the new one, never half of one."""
     draft = path.with_name(f".{path.name}.{os.getpid()}")
     try:
