@@ -274,7 +274,7 @@ def suspects(file: ModelFile, own: bool = False) -> Suspects:
     com = _links_of(file, lambda body: _com_turned(file, body.name, body.inertial))
     unfused = _links_of(file, lambda body: body.inertial, turn_fixed=False)
     geoms = _links_of(file, lambda body: file.geoms.get(body.name, NOTHING))
-    unit = dict.fromkeys(right, (1.0, (0.0, 0.0), 1.0))
+    unit = _links_of(file, lambda body: Inertial(1.0, np.zeros(3), np.eye(3)))
     for i, value in right.items():
         for found, place in ((lost, rotation_lost), (com, turned), (unfused, fused), (geoms, drawn), (unit, ignored)):
             if not _near(found[i], value):

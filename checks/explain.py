@@ -8,6 +8,7 @@ does not explain; where several do, all are named; where none does, the finding 
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -254,11 +255,13 @@ def _depth_first(m: Mechanism) -> list[int]:
 
 
 def _counted_from_elsewhere(engine: Any, m: Mechanism, p: Parameters, forward: Measurement, who: str) -> list[Finding]:
-    """Angles counted from up, or from level; or, one at a time, from any other angle."""
-    for offset, words in ((math.pi, "upwards"), (math.pi / 2, "level, to +x"), (-math.pi / 2, "level, to −x")):
-        if replace(forward, theta=forward.theta + offset).worst(p) <= 1:
-            says = f"{who}: its angles are counted from {words}"
-            return [Finding("angle-convention", who, offset, 0.0, says)]
+    """Angles counted from up, or from level, in either sense."""
+    turned = replace(forward, theta=-forward.theta, omega=-forward.omega, alpha=-forward.alpha)
+    for view, sense in ((forward, ""), (turned, " and clockwise")):
+        for offset, words in ((math.pi, "upwards"), (math.pi / 2, "level, to +x"), (-math.pi / 2, "level, to −x")):
+            if replace(view, theta=view.theta + offset).worst(p) <= 1:
+                says = f"{who}: its angles are counted from {words}{sense}"
+                return [Finding("angle-convention", who, offset, 0.0, says)]
     return []
 
 
@@ -312,10 +315,10 @@ def _stops_or_contacts(engine: Any, m: Mechanism, measured: Measurement, bad: An
         rows = bad[:, i]
         if not rows.any():
             continue
-        quiet = phi[~rows, i]
-        low, high = float(quiet.min(initial=0.0)), float(quiet.max(initial=0.0))
+        low, high = _free_range(phi[:, i], rows)
         outside = (phi[:, i] < low) | (phi[:, i] > high)
-        if not (rows <= outside).all() or not (outside <= rows).all():
+        # Moving back fast, a hinge may be let go beyond its stop: most states there are held, none inside.
+        if (~outside).sum() < 3 or rows[outside].mean() < 0.6:
             continue
         told |= rows
         stops = _stop_angles(engine, m, i, low, high, phi[rows, i])
@@ -330,15 +333,26 @@ def _stops_or_contacts(engine: Any, m: Mechanism, measured: Measurement, bad: An
     return [*findings, Finding("colliding-geoms", who, states, 0, says)]
 
 
+def _free_range(phi: Array, held: Any) -> tuple[float, float]:
+    """Between which two held angles (or the ends of the circle) most free ones lie, as the free ones' own range."""
+    ends = np.concatenate([[-np.inf], np.sort(phi[held]), [np.inf]])
+    free = phi[~held]
+    counts = [int(((free > a) & (free < b)).sum()) for a, b in itertools.pairwise(ends)]
+    k = int(np.argmax(counts))
+    inside = free[(free > ends[k]) & (free < ends[k + 1])]
+    return (float(inside.min()), float(inside.max())) if inside.size else (np.inf, -np.inf)
+
+
 def _stop_angles(engine: Any, m: Mechanism, i: int, low: float, high: float, beyond: Array) -> list[float | None]:
     """Where the stop begins, by halving between the last free angle and the first held one."""
     p = planar.parameters(m)
     found: list[float | None] = []
+    middle_of_free = (low + high) / 2
     for inside, outside in ((low, beyond[beyond < low]), (high, beyond[beyond > high])):
         if not outside.size:
             found.append(None)
             continue
-        a, b = inside, float(outside[np.argmin(np.abs(outside - inside))])
+        a, b = middle_of_free, float(outside[np.argmin(np.abs(outside - inside))])
         for _ in range(40):
             middle = (a + b) / 2
             relative = np.zeros((1, m.n))
@@ -391,6 +405,8 @@ def _told(
 ) -> list[Finding]:
     """Findings of fits that explain equally well, in the order of the families; one for each cause and place."""
     place = {id(family): i for i, family in enumerate(order)}
+    possible = [f for f in fits if not _impossible(f, p)]
+    fits = possible or fits
     findings: list[Finding] = []
     for found in sorted(fits, key=lambda f: place.get(id(f.family), 0)):
         for finding in named(found, m, p, who):
@@ -404,6 +420,18 @@ def _told(
             for f in findings
         ]
     return findings
+
+
+def _impossible(found: Fit, p: Parameters) -> bool:
+    """A hinge that drives itself, or a mass below zero."""
+    for name, i, value, spread in zip(
+        found.family.names, found.family.links, found.values, found.uncertainty, strict=True
+    ):
+        if found.family.relative or name not in ("armature", "damping", "friction", "stiffness", "mass", "inertia"):
+            continue
+        if float(p.items()[name][i]) + value < -30 * spread:
+            return True
+    return False
 
 
 def _several(
@@ -429,6 +457,10 @@ def _several(
             findings: list[Finding] = []
             start = 0
             for family in chosen:
+                moved = np.abs(best.values[start : start + family.d]) > 30 * best.uncertainty[start : start + family.d]
+                if not moved.any():
+                    start += family.d
+                    continue
                 part = Fit(
                     family,
                     best.values[start : start + family.d],

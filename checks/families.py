@@ -197,6 +197,7 @@ def fit(family: Family, p: Parameters, measured: Measurement) -> Fit:
 
 
 def _improved(family: Family, p: Parameters, measured: Measurement, x: Array, best: Fit | None, sizes: Array) -> Fit:
+    in_vain = 0
     for _ in range(STEPS):
         at = family.apply(p, x)
         scale = measured.scale(at)
@@ -206,13 +207,14 @@ def _improved(family: Family, p: Parameters, measured: Measurement, x: Array, be
         if not (np.isfinite(worst) and np.isfinite(columns).all()):
             break
         step, spread = _solve(columns, left.ravel())
-        found = Fit(family, x.copy(), spread * sizes, worst)
-        if best is not None and (not np.isfinite(worst) or worst > 0.5 * best.left):
-            return best if best.left <= worst or not np.isfinite(worst) else found
-        best = found
+        in_vain = in_vain + 1 if best is not None and worst > 0.5 * best.left else 0
+        if best is None or worst < best.left:
+            best = Fit(family, x.copy(), spread * sizes, worst)
+        if in_vain > (0 if best.explains else 2):
+            break
         x = x + step * sizes
         if not np.isfinite(x).all():
-            return best
+            break
     return best if best is not None else Fit(family, x, x, np.inf)
 
 

@@ -294,7 +294,10 @@ class Writer:
         if hinge.stops:
             base = self.zero[link.parent] if link.parent >= 0 else 0.0
             low, high = sorted(self.sense[i] * (stop - (self.zero[i] - base)) for stop in hinge.stops)
-            limit, kind = f"<limit lower='{float(low)!r}' upper='{float(high)!r}' effort='100' velocity='100'/>", "revolute"
+            limit, kind = (
+                f"<limit lower='{float(low)!r}' upper='{float(high)!r}' effort='100' velocity='100'/>",
+                "revolute",
+            )
         dynamics = f"<dynamics damping='{hinge.damping!r}' friction='{hinge.friction!r}'/>"
         return (
             f"<joint name='{hinge.name}' type='{kind}'><parent link='{parent}'/><child link='{self.m.link_names[i]}'/>"
@@ -500,7 +503,9 @@ def plant_from_geoms(rng, style):
     wanted = free(random_tree(rng, bobs=False))
     for i, link in enumerate(wanted.links):
         half = link.length / 2
-        style.geoms[i] = f"<geom type='capsule' size='{link.length / 30!r} {half!r}' pos='0 0 {-half!r}' contype='0' conaffinity='0'/>"
+        style.geoms[i] = (
+            f"<geom type='capsule' size='{link.length / 30!r} {half!r}' pos='0 0 {-half!r}' contype='0' conaffinity='0'/>"
+        )
     return wanted, wanted
 
 
@@ -509,7 +514,9 @@ def plant_degrees(rng, style):
     wanted = free(random_tree(rng))
     i = int(rng.integers(wanted.n))
     if rng.random() < 0.5:
-        wanted = with_hinge(wanted, i, stiffness=float(rng.uniform(0.5, 3)), rest=float(rng.choice([-1, 1]) * rng.uniform(0.3, 2)))
+        wanted = with_hinge(
+            wanted, i, stiffness=float(rng.uniform(0.5, 3)), rest=float(rng.choice([-1, 1]) * rng.uniform(0.3, 2))
+        )
     else:
         wanted = with_hinge(wanted, i, stops=(-float(rng.uniform(0.5, 3)), float(rng.uniform(0.5, 3))))
     style.compiler = "angle='degree'"
