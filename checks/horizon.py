@@ -169,7 +169,7 @@ def _divides(small: float, large: float) -> bool:
 def _integrated(
     system: Mechanism, theta: tuple[float, ...], omega: tuple[float, ...], spacing: float, points: int
 ) -> tuple[Array, Array]:
-    found = true_trajectory(system, theta, omega, spacing * np.arange(points + 1))
+    found = true_trajectory(system, theta, omega, spacing * np.arange(points + 1, dtype=np.float64))
     return np.hstack([found.theta, found.omega]), np.hstack([found.theta_low, found.omega_low])
 
 

@@ -149,7 +149,8 @@ def _newton(
     residual: Callable[[Array], Array], derivative: Callable[[Array], NDArray[np.float64]], guess: Array
 ) -> Array:
     """Where the residual vanishes: simplified Newton iterations until they gain nothing. Raises ArithmeticError."""
-    x, before = guess, np.inf
+    x: Array = guess
+    before = np.inf
     for _ in range(ITERATIONS):
         change = np.linalg.solve(derivative(x), residual(x).astype(np.float64))
         x = x - change

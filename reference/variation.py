@@ -132,7 +132,7 @@ def growth(flow: Floats, step: float, rate: float) -> Growth:
         product /= size
         taken_out += np.log(size)
         logarithm[k + 1] = taken_out + np.log(np.linalg.norm(product, 2))
-    return Growth(step * np.arange(len(flow) + 1), logarithm)
+    return Growth(step * np.arange(len(flow) + 1, dtype=np.float64), logarithm)
 
 
 def growth_along(system: Mechanism, theta: Floats, omega: Floats, duration: float) -> Growth:
@@ -166,8 +166,11 @@ def _growth_in(system: Mechanism, theta: Floats, omega: Floats, duration: float,
     step = duration / steps
     states = np.empty((2 * steps + 1, 2, system.n))
     states[0] = theta, omega
+
+    def accelerations(angles: Floats, rates: Floats) -> Floats:
+        return motion.literal_accelerations(system, angles, rates)
+
     for k in range(2 * steps):  # half steps, which the tangent flow needs
-        states[k + 1] = schemes.BUTCHER_6.step(
-            lambda t, w: motion.literal_accelerations(system, t, w), *states[k], step / 2
-        )
+        angles, rates = states[k]
+        states[k + 1] = schemes.BUTCHER_6.step(accelerations, angles, rates, step / 2)
     return growth(tangent_flow(system, states[:, 0], states[:, 1], step), step, rate)
