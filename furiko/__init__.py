@@ -9,11 +9,15 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .checks.diagnose import diagnose
+    from .derivations.audit import audit
     from .derivations.diagnosis import Diagnosis
     from .derivations.grade import grade
     from .engines import engine_names, load_engine
     from .models import EngineMissing, InvalidInput, NLegPendulum, RodChain, to_mjcf, to_urdf
+    from .reference.energy import energy
     from .reference.kernels import accelerations
+    from .reference.taylor import simulate
     from .reports import Report, read_stream
     from .run import check
 
@@ -27,11 +31,15 @@ _HOMES = {
     "Report": "reports",
     "RodChain": "models",
     "accelerations": "reference.kernels",
+    "audit": "derivations.audit",
     "check": "run",
+    "diagnose": "checks.diagnose",
+    "energy": "reference.energy",
     "engine_names": "engines",
     "grade": "derivations.grade",
     "load_engine": "engines",
     "read_stream": "reports",
+    "simulate": "reference.taylor",
     "to_mjcf": "models",
     "to_urdf": "models",
 }
@@ -44,11 +52,15 @@ __all__ = [
     "Report",
     "RodChain",
     "accelerations",
+    "audit",
     "check",
+    "diagnose",
+    "energy",
     "engine_names",
     "grade",
     "load_engine",
     "read_stream",
+    "simulate",
     "to_mjcf",
     "to_urdf",
 ]

@@ -23,9 +23,11 @@ if TYPE_CHECKING:
 
     from .checks.plan import Plan
     from .models.result import Result
+    from .stress import Progress
 
 AGREES, DIFFERS, BAD_INPUT, ENGINE_FAILED, INTERRUPTED = 0, 1, 2, 3, 130
 REPORT_FOLDER = Path("furiko-report")
+STRESS_FOLDER = Path("furiko-stress")
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -224,6 +226,59 @@ def bench(
 
 
 @cli.command()
+@click.option("--axis", "-a", "axes", multiple=True, metavar="NAME", help="Only this; 'A x B' for two at once.")
+@click.option("--engine", "-e", "engines", multiple=True, metavar="NAME", help="Only this, or 'document' or 'kernels'.")
+@click.option("--budget", type=click.FloatRange(1.0), default=60.0, show_default=True, help="Seconds for the whole.")
+@click.option("--out", type=click.Path(path_type=Path), default=STRESS_FOLDER, show_default=True, help="Report folder.")
+@click.option("--seed", type=click.IntRange(0), default=2018, show_default=True, help="Of the random states.")
+@click.option("--fresh", is_flag=True, help="Start anew; otherwise what the folder holds is gone on with.")
+@click.option("--jobs", "-j", type=click.IntRange(1, 256), help="Worker processes; as many as cores if not given.")
+@click.option("--timeout", type=click.FloatRange(0.1), default=30.0, show_default=True, help="Seconds for one case.")
+@json_option
+def stress(
+    axes: tuple[str, ...],
+    engines: tuple[str, ...],
+    budget: float,
+    out: Path,
+    seed: int,
+    fresh: bool,
+    jobs: int | None,
+    timeout: float,
+    as_json: bool,
+) -> int:
+    """Find where engines, integrators and formulas break, and what becomes of a chain of ever more rods.
+
+    Axes: links, long-rods, short-rods, fast-rods, far-rods, straight-rods, folded-rods, strong-gravity, weak-gravity,
+    no-gravity, legs, heavy-first, light-first, heavy-leg, light-leg, long-legs, short-legs, fast-legs, far-legs,
+    aligned-legs; two of them as "long-rods x fast-rods"; and the parts accelerations, pairs, steps, "long runs",
+    condition, chain. All but pairs if none is given.
+
+    Writes stress.jsonl, stress.html and chain.html. Run again with the same folder it goes on where it stood.
+    """
+    from .stress import stress as run_stress
+
+    with stress_progress() as watch:
+        found = run_stress(
+            axes or None,
+            engines or None,
+            budget=budget,
+            seed=seed,
+            out=out,
+            fresh=fresh,
+            jobs=jobs,
+            timeout=timeout,
+            watch=watch,
+        )
+    if as_json:
+        print_json(found)
+    else:
+        from .reports.stress_terminal import print_stress
+
+        print_stress(found, out / "stress.html")
+    return DIFFERS if found["kernels"]["broken"] else AGREES
+
+
+@cli.command()
 @click.argument("before", type=click.Path(path_type=Path))
 @click.argument("after", type=click.Path(path_type=Path))
 def diff(before: Path, after: Path) -> int:
@@ -236,19 +291,79 @@ def diff(before: Path, after: Path) -> int:
 
 
 @cli.command()
-@click.argument("file", type=click.Path(path_type=Path))
+@click.argument("model", type=click.Path(path_type=Path))
+@click.option("--against", metavar="SCENE|FILE", help="What it is meant to be: a scene, its TOML file, another model.")
+@json_option
+def diagnose(model: Path, against: str | None, as_json: bool) -> int:
+    """Say what each engine makes of an MJCF or URDF file, whether they agree, and why not."""
+    from .checks.diagnose import diagnose as diagnose_file
+
+    found = diagnose_file(model, against)
+    if as_json:
+        print_json(found.to_json())
+    else:
+        click.echo(found.text())
+    return found.exit_status
+
+
+@cli.command()
+@json_option
+def audit(as_json: bool) -> int:
+    """Hold each of the documents' 57 equations, as printed, against first principles."""
+    from .derivations.audit import audit as audit_documents
+
+    found = audit_documents()
+    if as_json:
+        print_json(found.to_dict())
+    else:
+        click.echo(found.text())
+    return AGREES
+
+
+@cli.command()
+@click.argument("file", type=click.Path(path_type=Path), required=False)
+@click.option("--callable", "function", metavar="MODULE:FUNCTION", help="Grade a function that you trust.")
+@click.option("--system", type=click.Choice(["n-leg", "rod-chain"]), help="With --callable: the mechanism.")
+@click.option("--links", type=click.IntRange(1, 8), help="With --callable: how many angles.")
 @click.option("--japanese", is_flag=True, help="Say it in Japanese.")
 @json_option
-def grade(file: Path, japanese: bool, as_json: bool) -> int:
-    """Grade a derivation: right, or which term is wrong and the mistake that makes it so."""
-    from .derivations.grade import grade as grade_file
+def grade(
+    file: Path | None, function: str | None, system: str | None, links: int | None, japanese: bool, as_json: bool
+) -> int:
+    """Grade a derivation: right, or which term is wrong and the mistake that makes it so.
 
-    diagnosis = grade_file(file)
+    With --callable the function is called as f(theta, omega, parameters), where parameters has lengths, masses,
+    gravity and, of rods, density; it returns the accelerations. It runs in a process of its own, within limits of time
+    and memory. That is no sandbox: grade only what you would run yourself.
+    """
+    if (file is None) == (function is None):
+        raise click.UsageError("give a FILE or --callable MODULE:FUNCTION")
+    if function is None:
+        from .derivations.grade import grade as grade_file
+
+        assert file is not None
+        diagnosis = grade_file(file)
+    else:
+        from .derivations.grade_callable import grade_callable
+
+        if system is None or links is None:
+            raise click.UsageError("--callable needs --system and --links")
+        diagnosis = grade_callable(function, system, links)
     if as_json:
         print_json(diagnosis.to_dict())
     else:
         click.echo(diagnosis.text("ja" if japanese else "en"))
     return diagnosis.exit_status
+
+
+@cli.command()
+@click.option("--out", type=click.Path(path_type=Path), default=Path("furiko-lesson.html"), show_default=True)
+def lesson(out: Path) -> int:
+    """Write a page for a class: thirty mistakes, a question first, where each bites. English and Japanese."""
+    from .derivations.lesson import write_lesson
+
+    click.echo(f"Lesson: {write_lesson(out)}")
+    return AGREES
 
 
 @cli.command()
@@ -332,6 +447,32 @@ def saying() -> Iterator[Callable[[str], None]]:
 
     with Console(stderr=True).status("") as status:
         yield lambda words: status.update(escape(words))
+
+
+@contextmanager
+def stress_progress() -> Iterator[Callable[[Progress], None] | None]:
+    """How many questions are answered, and what runs, on a terminal's standard error; None, and silence, in a pipe."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import Progress as Bar
+
+    columns = (
+        TextColumn("{task.fields[done]} cases, {task.fields[open]} questions open"),
+        BarColumn(),
+        TimeElapsedColumn(),
+        TextColumn("{task.description}"),
+    )
+    with Bar(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("starting", total=None, done=0, open="?")
+
+        def watch(now: Progress) -> None:
+            total = now.done + now.open  # every open question takes at least one case more
+            bar.update(task, completed=now.done, total=total, description=now.now, done=now.done, open=now.open)
+
+        yield watch
 
 
 def main() -> None:

@@ -1,0 +1,83 @@
+"""``furiko audit``, ``lesson``, ``diagnose`` and ``grade --callable`` on the command line."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+import furiko
+
+
+def run(folder, *arguments):
+    command = [sys.executable, "-m", "furiko", *arguments]
+    return subprocess.run(command, capture_output=True, text=True, cwd=folder, check=False)
+
+
+@pytest.mark.slow
+def test_audit_judges_all_57_equations(tmp_path):
+    found = json.loads(run(tmp_path, "audit", "--json").stdout)
+    judged = {(entry["document"], entry["number"]): entry["judgement"] for entry in found["equations"]}
+    assert len(found["equations"]) == len(judged) == 57
+    # Read in the documents themselves: l₂ for l₃, a missing l₁², an index that nothing binds.
+    misprints = {key for key, judgement in judged.items() if judgement == "misprint"}
+    assert misprints == {("shiki", "2.1"), ("shiki", "3.4"), ("takeno", "12")}
+    assert {judged["shiki", "3.12"], judged["takeno", "22"], judged["takeno", "19"]} == {"holds"}
+    assert found["slips"]
+
+
+@pytest.mark.slow
+def test_lesson_is_one_page_that_fetches_nothing(tmp_path):
+    done = run(tmp_path, "lesson")
+    assert done.returncode == 0, done
+    page = (tmp_path / "furiko-lesson.html").read_text()
+    for attribute in ('src="http', 'href="http', "@import", "url(http"):
+        assert attribute not in page
+    assert "間違" in page or "誤り" in page
+
+
+def test_diagnose_agrees_with_a_model_that_furiko_wrote(tmp_path):
+    (tmp_path / "model.xml").write_text(furiko.to_mjcf(furiko.RodChain([1.0, 0.5])))
+    done = run(tmp_path, "diagnose", "model.xml", "--json")
+    found = json.loads(done.stdout)
+    assert (done.returncode, found["verdict"], found["findings"]) == (0, "agrees", [])
+    assert len(found["engines"]) >= 3
+
+
+def test_diagnose_names_an_armature(tmp_path):
+    model = furiko.to_mjcf(furiko.RodChain([1.0, 0.5])).replace('name="hinge2"', 'name="hinge2" armature="0.01"')
+    (tmp_path / "model.xml").write_text(model)
+    done = run(tmp_path, "diagnose", "model.xml", "--json")
+    found = json.loads(done.stdout)
+    assert done.returncode == 1
+    assert found["findings"][0]["cause"] == "armature"
+    assert "0.01" in found["findings"][0]["says"]
+
+
+ENTITY = '<!DOCTYPE x [<!ENTITY a "b">]><mujoco>&a;</mujoco>'
+
+
+@pytest.mark.parametrize("text", ["", "<mujoco>", "<robot/>", "hello", ENTITY])
+def test_a_bad_model_file_is_one_clear_line(tmp_path, text):
+    (tmp_path / "model.xml").write_text(text)
+    done = run(tmp_path, "diagnose", "model.xml")
+    assert (done.returncode, done.stdout) == (2, "")
+    (line,) = done.stderr.splitlines()
+    assert "model.xml" in line
+
+
+def test_a_trusted_function_is_graded_from_what_it_gives(tmp_path):
+    (tmp_path / "mine.py").write_text(
+        "from math import sin\n"
+        "def right(theta, omega, parameters):\n"
+        "    return [-1.5 * parameters.gravity / parameters.lengths[0] * sin(theta[0])]\n"
+        "def wrong(theta, omega, parameters):\n"
+        "    return [-parameters.gravity / parameters.lengths[0] * sin(theta[0])]\n"
+    )
+    options = ("--system", "rod-chain", "--links", "1", "--json")
+    right = json.loads(run(tmp_path, "grade", "--callable", "mine:right", *options).stdout)
+    wrong = json.loads(run(tmp_path, "grade", "--callable", "mine:wrong", *options).stdout)
+    assert (right["verdict"], wrong["verdict"]) == ("correct", "wrong")
+    missing = run(tmp_path, "grade", "--callable", "mine:other", *options)
+    assert missing.returncode == 2
+    assert len(missing.stderr.splitlines()) == 1
