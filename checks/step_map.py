@@ -114,9 +114,13 @@ class Textbook:
 def _compare(cell: Cell, integrator: Integrator, steps: Steps, textbook: Textbook) -> Result:
     pairs = zip(steps.theta, steps.omega, strict=True)
     got = np.array([cell.trajectory(t, w, integrator, steps.h, 1) for t, w in pairs])
+    off = acceleration_error(cell, integrator, steps.theta, steps.omega, steps.alpha)
+
+    def bounds(candidate: Candidate) -> Array:
+        return rounding_bounds(cell, integrator, steps, candidate, off)
 
     def all_fits(order: int | None) -> list[Fit]:
-        found = [fit(cell, integrator, steps, got, textbook, candidate) for candidate in textbook.of_order(order)]
+        found = [fit(got, textbook, one, bounds(one)) for one in textbook.of_order(order)]
         return sorted(found, key=lambda one: one.excess)
 
     fits = all_fits(integrator.order)
@@ -162,11 +166,10 @@ class Fit:
         return self.excess * self.bound
 
 
-def fit(cell: Cell, integrator: Integrator, steps: Steps, got: Array, textbook: Textbook, candidate: Candidate) -> Fit:
-    """Hold the engine's step against a candidate's."""
+def fit(got: Array, textbook: Textbook, candidate: Candidate, bounds: Array) -> Fit:
+    """Hold the engine's step, (B, 2, n), against a candidate's; ``bounds`` of angles and rates, (2, B, 1)."""
     angles, rates = textbook.end(candidate)
     off = np.abs(np.stack([got[:, 0] - angles, got[:, 1] - rates])).astype(np.float64)
-    bounds = rounding_bounds(cell, integrator, steps, candidate)
     excess = worst(quotient(off, np.broadcast_to(bounds, off.shape)))
     bound = float(bounds[1, excess.index[1]].max())
     return Fit(candidate, excess.value, bound, float(off[0].max()))
@@ -213,11 +216,12 @@ def _one_by_one(bodies: MaximalCoordinates, step: _Step) -> Callable[[Wide, Wide
     return each
 
 
-def rounding_bounds(cell: Cell, integrator: Integrator, steps: Steps, candidate: Candidate) -> Array:
-    """How far rounding may take angles and rates apart, shape (2, B, 1)."""
+def rounding_bounds(
+    cell: Cell, integrator: Integrator, steps: Steps, candidate: Candidate, acceleration: Array
+) -> Array:
+    """How far rounding may take angles and rates apart, (2, B, 1), with accelerations off by so much, (B,)."""
     scheme, h = candidate.scheme, steps.h
     amplified = scheme.reach * math.exp(scheme.stages * SHORT)
-    acceleration = acceleration_error(cell, integrator, steps.theta, steps.omega, steps.alpha)
     size = np.abs(steps.omega) + h * np.abs(steps.alpha)
     turns = np.abs(steps.theta) + h * size
     sums = EPSILON * (scheme.stages + 2)  # additions of a term for each stage, and the changes of coordinates
