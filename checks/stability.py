@@ -1,4 +1,4 @@
-"""Trajectories under stress: the largest step that an engine's integrator survives, and what energy does in the long run.
+"""Trajectories under stress: the largest step that an integrator survives, and what energy does in the long run.
 
 A chain of equal rods, 1 m in all unless that is what is put under stress, swings from a bow for the time in which a
 pendulum of its length would swing to and fro once. A run has failed when a state is not finite or silently the first
@@ -79,7 +79,7 @@ def step(rung: int, duration: float) -> float:
 
 def steps(rung: int) -> int:
     """How many steps the rung's are."""
-    return round(2.0 ** ((TOP - rung) / PER_OCTAVE))
+    return round(math.exp2((TOP - rung) / PER_OCTAVE))
 
 
 @dataclass(frozen=True)

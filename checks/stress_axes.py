@@ -37,8 +37,8 @@ class Recipe:
 
     ``kind``; ``n`` angles; ``first_mass``, ``leg_mass`` and ``light_leg_mass`` [kg]: of links 1, 2 and 3 of an N-leg
     pendulum, all others being 1; ``other_length`` [m]: of every second link, all others being 1; ``gravity`` [m/s²];
-    ``rate`` [rad/s]: the largest; ``turns``: angles have up to so many radians added; ``spread`` [rad]: angles are within it of
-    one direction; ``folded``: every second link points back.
+    ``rate`` [rad/s]: the largest; ``turns``: angles have up to so many radians added; ``spread`` [rad]: angles are
+    within it of one direction; ``folded``: every second link points back.
     """
 
     kind: Literal["rod-chain", "n-leg"]
@@ -200,7 +200,7 @@ def _axis(
     unit: str = "",
 ) -> Axis:
     def change(recipe: Recipe, value: float) -> Recipe:
-        return replace(recipe, **{field: value})
+        return replace(recipe, **{field: value})  # type: ignore[arg-type]  # its fields of type float alone
 
     ratio = HALF_DECADE if end > start else 1 / HALF_DECADE
     return Axis(name, says, unit, base, start, end, ratio, change, frozenset({field}))

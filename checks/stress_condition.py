@@ -67,7 +67,7 @@ class ConditionCase:
         )
 
 
-def _condition(matrix: np.ndarray) -> float:  # type: ignore[type-arg]
+def _condition(matrix: np.ndarray) -> float:
     values = np.linalg.eigvalsh(matrix)
     return float(values[-1] / values[0])
 

@@ -284,13 +284,16 @@ def verdict(moved: Sequence[Data]) -> list[str]:
         last = fine[-1]
         said.append(
             f"At {last['fastest tip at']:.3f} s the whip cracks: the last rod's rate grows as n^{turning:.2f} "
-            f"({fine[0]['fastest turning']:.0f} rad/s with {numbers[0]} rods, {last['fastest turning']:.0f} rad/s with "
-            f"{numbers[-1]}), while the tip's speed is {fine[0]['fastest tip']:.1f} and {last['fastest tip']:.1f} m/s and "
-            f"energy is kept to {max(m['energy drift'] for m in fine):.0e}. The curve has a kink there: what is finite in "
-            "the limit is the speed, not the rate."
+            f"({fine[0]['fastest turning']:.0f} rad/s with {numbers[0]} rods, {last['fastest turning']:.0f} rad/s "
+            f"with {numbers[-1]}), while the tip's speed is {fine[0]['fastest tip']:.1f} and "
+            f"{last['fastest tip']:.1f} m/s and energy is kept to {max(m['energy drift'] for m in fine):.0e}. There "
+            "the curve has a kink."
         )
-    after = [(r["n"], r["apart"][r["times"].index(1.0)], r["order"][r["times"].index(1.0)])
-             for r in convergence(moved) if 1.0 in r["times"] and _tells(r, r["times"].index(1.0)) and r["n"] >= 20]
+    after = [
+        (r["n"], r["apart"][r["times"].index(1.0)], r["order"][r["times"].index(1.0)])
+        for r in convergence(moved)
+        if 1.0 in r["times"] and _tells(r, r["times"].index(1.0)) and r["n"] >= 20
+    ]
     if after:
         n, apart, power = after[-1]
         said.append(

@@ -1,10 +1,11 @@
 """The chain that Takeno was after: n rods of total length L, n → ∞ (his section 6).
 
 **Small swings.** Takeno (18) linearised about the hanging chain reads Σ_k α_jk l_k θ''_k + g L_j θ_j = 0, a full
-matrix. In the joints' displacements y_j, θ_j = (y_j - y_{j-1})/l_j with y_0 = 0, kinetic and potential energy are sums over
-single rods, so that both matrices are tridiagonal: a rod of mass m and ends moving by u, v has m (u² + uv + v²)/6, and
-under the tension g Σ_{i>j} m_i + g m_j/2 of (12) it has tension · (v - u)²/(2 l). Point masses at the joints in place
-of rods have m v²/2 and the tension g Σ_{i≥j} m_i. The limit of both is Bernoulli's ω_k = (j₀,k/2) √(g/L).
+matrix. In the joints' displacements y_j, θ_j = (y_j - y_{j-1})/l_j with y_0 = 0, kinetic and potential energy are
+sums over single rods, so that both matrices are tridiagonal: a rod of mass m whose ends move by u and v has the kinetic
+energy m (u² + uv + v²)/6 and, under the tension g (m_j/2 + Σ_{i>j} m_i) of (12), the potential one tension ·
+(v - u)²/(2 l). Point masses at the joints in place of rods have m v²/2 and the tension g Σ_{i≥j} m_i. The limit of
+both is Bernoulli's ω_k = (j₀,k/2) √(g/L).
 
 **Large motions.** All n start from rest in one curve, given by its slope φ(s): rod j at φ((j - ½) L/n). The motion is
 that of :mod:`.taylor`; where the chain goes on to its tip and how fast is what may or may not converge with n.

@@ -51,8 +51,9 @@ def proven_accelerations(system: Mechanism, theta: Floats, omega: Floats) -> Tru
 def close_accelerations(system: Mechanism, theta: Floats, omega: Floats, bits: int = FEWEST_BITS) -> list[Any]:
     """θ̈ of one state (n,) as balls' midpoints at this precision, without a proof; for differences of neighbours."""
     with precision(bits):
-        form = _rods if isinstance(system, RodChain) else _legs
-        return [ball.mid() for ball in form(system, theta.tolist(), omega.tolist())]
+        state = theta.tolist(), omega.tolist()
+        found = _rods(system, *state) if isinstance(system, RodChain) else _legs(system, *state)
+        return [ball.mid() for ball in found]
 
 
 def _proven(system: Mechanism, theta: Floats, omega: Floats) -> tuple[list[float], list[float], list[float]]:
@@ -119,7 +120,11 @@ def _rods(system: RodChain, theta: list[float], omega: list[float]) -> list[Any]
             above, (ia, ib, id_) = own[j - 1], inverses[-1]
             ea, eb, ed = off[j - 1]
             u, v, w, z = ia * ea + ib * eb, ia * eb + ib * ed, ib * ea + id_ * eb, ib * eb + id_ * ed  # D⁻¹ E
-            a, b, d = a + above[0] - (ea * u + eb * w), b + above[1] - (ea * v + eb * z), d + above[2] - (eb * v + ed * z)
+            a, b, d = (
+                a + above[0] - (ea * u + eb * w),
+                b + above[1] - (ea * v + eb * z),
+                d + above[2] - (eb * v + ed * z),
+            )
             rx, ry = rights[-1]
             x = x + half[j - 1] * s[j - 1] - (u * rx + w * ry)
             y = y - half[j - 1] * c[j - 1] - (v * rx + z * ry)

@@ -69,7 +69,11 @@ def draw(
     for number, (name, points) in enumerate(kept.items()):
         placed = [place(x, y) for x, y in points]
         thinned = placed[:: max(1, len(placed) // MOST_POINTS)]
-        marks = tuple((*at, f"{name}: {x:.4g}, {y:.3g}") for at, (x, y) in zip(placed, points, strict=True)) if marked else ()
+        marks = (
+            tuple((*at, f"{name}: {x:.4g}, {y:.3g}") for at, (x, y) in zip(placed, points, strict=True))
+            if marked
+            else ()
+        )
         colour = (colours or {}).get(name, number) % 8
         drawn.append(Line(" ".join(f"{x},{y}" for x, y in thinned), marks, colour, name))
     return Plot(
@@ -152,7 +156,9 @@ class Picture:
     support: tuple[float, float]
 
 
-def draw_curves(title: str, curves: Mapping[str, Sequence[Sequence[float]]], reach: float, size: float = 150.0) -> Picture:
+def draw_curves(
+    title: str, curves: Mapping[str, Sequence[Sequence[float]]], reach: float, size: float = 150.0
+) -> Picture:
     """Chains hanging from one support, each with joints (x, z) [m]."""
     scale = size / (2 * reach)
 
@@ -181,7 +187,7 @@ def _unscaled(value: float, log: bool) -> float:
 def _range(values: Sequence[float], log: bool) -> tuple[float, float]:
     low, high = min(values), max(values)
     if log:
-        low, high = math.floor(low + 1e-9), math.ceil(high - 1e-9)
+        low, high = float(math.floor(low + 1e-9)), float(math.ceil(high - 1e-9))
     elif low > 0 and low < 0.5 * high:
         low = 0.0
     if high <= low:

@@ -133,7 +133,10 @@ def _by_axis(frontiers: Sequence[Data], engines: Sequence[str]) -> list[tuple[Da
 
 def _curve(axis: str, frontiers: Sequence[Data], colours: dict[str, int]) -> Plot | None:
     of_axis = [f for f in frontiers if f["axis"] == axis]
-    lines = {f["engine"]: [(p["value"], max(p["error"], 1e-17)) for p in f["curve"] if p["error"] is not None] for f in of_axis}
+    lines = {
+        f["engine"]: [(p["value"], max(p["error"], 1e-17)) for p in f["curve"] if p["error"] is not None]
+        for f in of_axis
+    }
     return draw(
         f"{axis}: {of_axis[0]['says']}",
         {name: points for name, points in lines.items() if len(points) > 1},
@@ -149,10 +152,7 @@ def _curve(axis: str, frontiers: Sequence[Data], colours: dict[str, int]) -> Plo
 def _condition(rows: Sequence[Data]) -> Plot | None:
     return draw(
         "Condition of the mass matrix",
-        {
-            f"{row['posture']}, {row['coordinates']}": list(zip(row["n"], row["condition"], strict=True))
-            for row in rows
-        },
+        {f"{row['posture']}, {row['coordinates']}": list(zip(row["n"], row["condition"], strict=True)) for row in rows},
         "links",
         "λ max / λ min",
         log_x=True,
