@@ -23,6 +23,7 @@ from .cache import Cache
 from .messages import CellJob, Facts, FactsJob
 from .plan import Plan, Task, make_plan
 from .runner import run
+from .spawn import workshop
 from .worker import do
 
 Verdicts = dict[tuple[str, str, str], str]
@@ -52,11 +53,17 @@ def _cache(plan: Plan) -> Skip:
     """A run without a cache, one that fills it, one that finds everything."""
     with tempfile.TemporaryDirectory() as folder:
         cache = Cache(Path(folder))
-        without, seconds_without = _timed(lambda: _verdicts(run(plan, cache=Cache(None))))
-        filled = _verdicts(run(plan, cache=cache))
-        found, seconds_with = _timed(lambda: _verdicts(run(plan, cache=cache)))
+        without, seconds_without = _timed(lambda: _run(plan, Cache(None)))
+        filled = _run(plan, cache)
+        found, seconds_with = _timed(lambda: _run(plan, cache))
     says = "a result whose scene, engine, version, check and source are those of an earlier run comes from the cache"
     return _skip("cache", says, found, without, seconds_with, seconds_without, also=filled == without)
+
+
+def _run(plan: Plan, cache: Cache) -> Verdicts:
+    """The verdicts of a whole run, on worker processes of its own."""
+    with workshop() as place:
+        return _verdicts(run(plan, cache=cache, place=place))
 
 
 def _truth(plan: Plan) -> Skip:

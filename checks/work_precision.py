@@ -22,6 +22,7 @@ EXPLORING = 0.35  # of the scene's time goes into finding the errors, the rest i
 NO_BETTER = 0.7  # two finer runs in a row whose error is not below this part of the best: rounding has been reached
 PROBE = 0.04  # of the motion is run to see what a whole run takes
 PATIENCE = 2.0  # times a method's share: what its first run may take
+LOST = 1.0  # an end that is off by this has nothing to do with the motion any more
 HOPELESS = 1e-3  # above it an error that does not fall is not yet rounding: steps may be too coarse to tell
 Curve = Sequence[tuple[float, float]]  # (seconds, error) of a method's runs
 
@@ -73,12 +74,12 @@ def refine(method: Method, error: Callable[[End], float], share: float) -> tuple
     once(probe)
     whole = once(probe) / PROBE
     if whole > PATIENCE * share:
-        return runs, f"its coarsest run would take {whole:.2g} s, more than the time given"
+        return runs, f"its coarsest run would take {whole:.2g} s, more than the time given (--budget)"
     spent, stuck, best = 0.0, 0, math.inf
     for setting in method.settings:
         growth = runs[-1].seconds / runs[-2].seconds if len(runs) > 1 else 2.0
         if runs and spent + min(max(growth, 1.0), 2.0) * runs[-1].seconds > share:
-            return runs, "finer runs were not within the time given"
+            return runs, "finer runs were not within the time given (--budget)"
         ends: list[End] = []
         seconds = once(Subject(partial(_keep, method, setting, ends)))
         runs.append(Run(method, setting, error(ends[-1]), seconds))
@@ -87,7 +88,7 @@ def refine(method: Method, error: Callable[[End], float], share: float) -> tuple
         best = min(best, runs[-1].error)
         if stuck == 2:
             return runs, "rounding: finer runs end no nearer"
-    return runs, "finer settings were not tried"
+    return runs, "there is no finer setting"
 
 
 def _keep(method: Method, setting: float, ends: list[End]) -> None:
@@ -95,16 +96,19 @@ def _keep(method: Method, setting: float, ends: list[End]) -> None:
 
 
 def _timed(runs: Sequence[Run], budget: float) -> list[Point]:
-    """All runs as points. Those that a coarser run of the same method beats keep the one time that was taken."""
+    """All runs as points. Those that show nothing keep the one time that was taken.
+
+    That is, where a coarser run of the same method was nearer, or the end has nothing to do with the motion any more.
+    """
     worth: dict[str, tuple[Run, str]] = {}
     once_taken: list[Run] = []
-    for method in dict.fromkeys(run.method for run in runs):
-        own = [run for run in runs if run.method is method]
-        for run, on in zip(own, front([(run.seconds, run.error) for run in own]), strict=True):
-            if on:
-                worth |= {f"{len(worth)} {context}": (run, context) for context in method.contexts}
-            else:
-                once_taken.append(run)
+    nearest: dict[Method, float] = {}
+    for run in runs:
+        if run.error < nearest.get(run.method, LOST):
+            nearest[run.method] = run.error
+            worth |= {f"{len(worth)} {context}": (run, context) for context in run.method.contexts}
+        else:
+            once_taken.append(run)
     round_seconds = sum(run.seconds for run, _ in worth.values()) + 1e-9
     times = interleaved(
         {
@@ -119,7 +123,7 @@ def _timed(runs: Sequence[Run], budget: float) -> list[Point]:
         *((run, context, times[key]) for key, (run, context) in worth.items()),
         *((run, "", Times(np.array([run.seconds]))) for run in once_taken),
     ]
-    fronts = front([(took.median, run.error) for run, _, took in found])
+    fronts = front([(took.median, run.error if run.error < LOST else math.inf) for run, _, took in found])
     return [
         Point(
             engine=run.method.engine,

@@ -90,7 +90,7 @@ def bench(
 def _motions(scenes: Sequence[Scene], engines: Sequence[str], budget: float, watch: Watch) -> Iterator[Motion]:
     from .checks.work_precision import work_precision
 
-    weights = [scene.system.n**0.5 for scene in scenes]  # more links, longer runs
+    weights = [scene.system.n**0.3 for scene in scenes]  # more links, longer runs
     for scene, weight in zip(scenes, weights, strict=True):
         yield work_precision(scene, engines, budget * weight / sum(weights), watch)
 

@@ -13,7 +13,7 @@ from .loglog import KINDS, LogLog, Series, draw
 from .words import figure
 
 FURIKO = "furiko"
-WORST = 100.0  # rad or rad/s: what is further off is not drawn
+WORST = 1.0  # rad or rad/s: what is further off has nothing to do with the motion, and is not drawn
 FINEST = 1e-18  # errors of zero stand here
 
 
