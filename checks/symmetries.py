@@ -194,7 +194,10 @@ def gravity_scaled(system: Mechanism, theta: Array, omega: Array) -> Image | Non
 
 
 def support_turned(system: Mechanism, theta: Array, omega: Array) -> Image:
-    """Without gravity there is no down: every angle turned by the same."""
+    """Without gravity there is no down: every angle turned by the same.
+
+    With gravity turned along the same would hold, but its direction is no part of a system: every adapter's is down.
+    """
     weightless = replace(system, gravity=0.0)
     return Image(weightless, weightless, theta + TURN, omega, _same)
 
