@@ -157,7 +157,7 @@ def _lagrangian(evaluation: Evaluation, line: object) -> Formula:
 def _line(line: object) -> str:
     if not isinstance(line, str):
         raise InvalidInput(f"column 1: a text in quotes is needed, got {line!r:.40}")
-    return re.sub(r"[.,;、。，．]\s*$", "", line)
+    return re.sub(r"[.,;、。，．]$", "", line.rstrip())
 
 
 def _located(where: str, read: Callable[..., T], *arguments: Any) -> T:
