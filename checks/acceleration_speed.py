@@ -14,11 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..engines import AnyShape, BareCall, cannot, engine_info, engine_version, load_engine
-from ..models import NLegPendulum, RodChain, System
+from ..models import NLegPendulum, RodChain
 from ..models.bench import Speed
 from ..models.states import random_states
 from ..reference import literal_accelerations
 from ..reference.kernels import accelerations, kernel_of, plain_accelerations
+from ..reference.motion import Mechanism
 from ..reference.newton_euler import proven_accelerations
 from .methods import FURIKO
 from .timing import Subject, Times, interleaved, once
@@ -47,7 +48,7 @@ class Entrant:
     threads: int = 1
 
 
-def mechanism(kind: str, n: int) -> System:
+def mechanism(kind: str, n: int) -> Mechanism:
     """Equal rods of 2 m in all, or legs and masses of unequal size; n links."""
     if kind == "rod-chain":
         return RodChain((2.0 / n,) * n)
@@ -86,7 +87,7 @@ def speeds(
     return found
 
 
-def own(system: System, batches: Sequence[int] = BATCHES, threads: int = 1) -> Iterator[Entrant]:
+def own(system: Mechanism, batches: Sequence[int] = BATCHES, threads: int = 1) -> Iterator[Entrant]:
     """furiko's kernels in every batch, plain numpy, and the documents' formula as it stands."""
     kernel = kernel_of(system)
     theta, omega = random_states("speed", system, 1)
@@ -109,7 +110,7 @@ def own(system: System, batches: Sequence[int] = BATCHES, threads: int = 1) -> I
         yield Entrant("numpy", "literal", 1, Subject(partial(literal, theta[:1], omega[:1])), literal)
 
 
-def of_engines(system: System, engines: Sequence[str], batch: int) -> Iterator[Entrant]:
+def of_engines(system: Mechanism, engines: Sequence[str], batch: int) -> Iterator[Entrant]:
     """The barest calls of every engine that is installed and takes the system, each in all its lighter contexts."""
     for name in engines:
         info = engine_info(name)
@@ -127,7 +128,7 @@ def of_engines(system: System, engines: Sequence[str], batch: int) -> Iterator[E
                 yield Entrant(name, f"{says}, {suffix}", bare.states, lighter, engine.accelerations)
 
 
-def _barest(engine: AnyShape, system: System, batch: int) -> Iterator[tuple[str, BareCall]]:
+def _barest(engine: AnyShape, system: Mechanism, batch: int) -> Iterator[tuple[str, BareCall]]:
     """Names and calls; a batch so large that a call takes no longer than :data:`LONGEST_CALL`."""
     theta, omega = random_states("speed", system, 2)
     calls, native = engine.bare_calls(theta, omega), engine.native()
@@ -150,7 +151,7 @@ def _each(kernel: Callable[[Array, Array], Array], theta: Array, omega: Array) -
     return np.array([kernel(t, w) for t, w in zip(theta.copy(), omega.copy(), strict=True)])
 
 
-def _errors(system: System, entrants: Sequence[Entrant]) -> dict[tuple[str, str], float]:
+def _errors(system: Mechanism, entrants: Sequence[Entrant]) -> dict[tuple[str, str], float]:
     """Norm-wise: the largest error of a state over its largest acceleration, the worst of a few states."""
     theta, omega = random_states("speed", system, CHECKED_STATES)
     truth = proven_accelerations(system, theta, omega)

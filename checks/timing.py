@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 SHORTEST = 1e-3  # [s] of one sample: ten thousand times what reading the clock takes
+LONG = 1.0  # [s]: a first call that takes so much is warm enough; whatever it loaded is little of that
 ROUNDS = 9
 FEWEST = 3  # rounds, however long they take: a median of fewer says nothing
 
@@ -81,7 +82,8 @@ def once(subject: Subject) -> float:
 
 def _repeats(subject: Subject, shortest: float) -> int:
     """Calls in a sample, found by doubling; the first call of all, which loads and compiles, is not counted."""
-    once(subject)
+    if once(subject) > LONG:
+        return 1
     count, taken = 1, once(subject)
     while taken < shortest:
         count = max(2 * count, min(16 * count, math.ceil(count * shortest / max(taken, 1e-9))))
