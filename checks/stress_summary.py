@@ -264,11 +264,11 @@ def verdict(moved: Sequence[Data]) -> list[str]:
     """Whether the far end's violence is physics or numerics: a sentence for each piece of evidence there is."""
     fine = [m for m in moved if m["tolerance"] == FINE and m["amplitude"] == 1.0 and m["time"] >= 1.0]
     said = []
-    before = [(r["n"], r["apart"][1], r["order"][1]) for r in convergence(moved) if _tells(r, 1) and r["n"] >= 20]
+    before = _falling(moved, CRACK)
     if before:
-        n, apart, power = before[-1]
+        n, apart, power = before
         said.append(
-            f"Until {CRACK:g} s the tip converges: {n} and {2 * n} rods are {apart:.1e} m apart, falling as "
+            f"Until {CRACK:g} s the tip converges: {n} and {2 * n} rods are {apart:.1e} m apart, and that falls as "
             f"n^-{power:.2f}, as for a smooth solution of the chain's partial differential equation."
         )
     steps = [(r["n"], r["apart"][r["times"].index(1.0)]) for r in in_step(moved) if 1.0 in r["times"]]
@@ -289,16 +289,12 @@ def verdict(moved: Sequence[Data]) -> list[str]:
             f"{last['fastest tip']:.1f} m/s and energy is kept to {max(m['energy drift'] for m in fine):.0e}. There "
             "the curve has a kink."
         )
-    after = [
-        (r["n"], r["apart"][r["times"].index(1.0)], r["order"][r["times"].index(1.0)])
-        for r in convergence(moved)
-        if 1.0 in r["times"] and _tells(r, r["times"].index(1.0)) and r["n"] >= 20
-    ]
+    after = _falling(moved, 1.0)
     if after:
-        n, apart, power = after[-1]
+        n, apart, power = after
         said.append(
-            f"Past the kink convergence in n goes on, but slowly: until 1 s {n} and {2 * n} rods differ by "
-            f"{apart:.1e} m, falling as n^-{power:.2f}."
+            f"Past the kink the tip still converges, if not as that of a smooth solution: until 1 s {n} and {2 * n} rods "
+            f"differ by {apart:.1e} m, and that falls as n^-{power:.2f}."
         )
     if len(said) >= 3:
         said.append(
@@ -308,8 +304,13 @@ def verdict(moved: Sequence[Data]) -> list[str]:
     return said
 
 
-def _tells(row: Data, index: int) -> bool:
-    return row["amplitude"] == 1.0 and len(row["order"]) > index and row["order"][index] is not None
+def _falling(moved: Sequence[Data], until: float) -> tuple[int, float, float] | None:
+    """The largest n whose tip was compared with that of 2n, how far they are apart, and the power of 1/n over all n."""
+    rows = [r for r in convergence(moved) if r["amplitude"] == 1.0 and r["n"] >= 20 and until in r["times"]]
+    found = [(r["n"], r["apart"][r["times"].index(until)]) for r in rows]
+    if len(found) < 3:
+        return None
+    return *found[-1], order(*zip(*found, strict=True))
 
 
 TIMES = (0.25, 0.4, 0.45, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0)

@@ -8,7 +8,7 @@ import shlex
 import sys
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -108,7 +108,8 @@ def make_plan(
     ladders, families = chosen_axes(axes)
     names = list(dict.fromkeys((*OWN, *engine_names()) if engines is None else engines))
     own = [name for name in names if name in OWN]
-    infos = [engine_info(name) for name in names if name not in OWN]
+    # One from elsewhere goes by the path that finds it again.
+    infos = [replace(engine_info(name), name=name) for name in names if name not in OWN]
     missing = [info for info in infos if info.package and not engine_version(info.name)]
     if missing and engines is not None:
         raise EngineMissing(f"{missing[0].name}: not installed: pip install {missing[0].package}")
