@@ -22,12 +22,12 @@ from .trig import constant
 
 Judgement = Literal["holds", "holds-if", "misprint"]
 BITS = 256
-EXACT_SIZES, BALL_SIZES, POINTS = (2, 3, 4), (7, 12), 3
+EXACT_SIZES, BALL_SIZES, POINTS = (2, 3, 4), (6, 10), 2
 
 
 @dataclass(frozen=True)
 class Judged:
-    """One equation. ``evidence`` says how it was judged; the rest is there where it is a misprint, or has a condition."""
+    """One equation. ``evidence`` says how it was judged; the rest is for misprints and conditions."""
 
     document: str
     number: str
@@ -126,8 +126,8 @@ def _evidence(equation: Equation, as_printed: bool) -> dict[str, Any]:
         evidence["proof that it fails"] = refuted[0]["proof"]
     else:
         evidence["probability of error"] = (
-            "none for the sizes in symbols; for the others a false equation would have to agree with first principles to "
-            f"more than 200 bits at {len(points)} random points of 40 bits a symbol: below 1e-30"
+            "none for the sizes in symbols; for the others a false equation would have to agree with first "
+            f"principles to more than 200 bits at {len(points)} random points of 40 bits a symbol: below 1e-30"
         )
     return evidence
 
@@ -233,8 +233,8 @@ def _lines(result: Audit) -> Iterator[str]:
         for cost in judged.costs:
             yield (
                 f"         as printed ({cost['reading']}): accelerations off by {cost['median_error']:.1%} (median), "
-                f"{cost['largest_error']:.1%} (most); 0.1 rad off after {_time(cost['divergence_small'])} from a small swing, "
-                f"{_time(cost['divergence_large'])} from a large one"
+                f"{cost['largest_error']:.1%} (most); 0.1 rad off after {_time(cost['divergence_small'])} from a small "
+                f"swing, {_time(cost['divergence_large'])} from a large one"
             )
     yield f"Slips outside the numbered formulas ({len(result.slips)}, found by reading):"
     for slip in result.slips:

@@ -1,8 +1,8 @@
 """First principles in the exact algebra: every symbol of the documents as a formula, to hold their equations against.
 
 Positions are differentiated into velocities; a rod's kinetic energy is the integral over its mass (Simpson's rule is
-exact for it, the speed squared being quadratic along a rod), so that no moment of inertia is put in; Lagrange's equations
-are those of the energies that come out. Of the documents nothing is used but what their letters mean.
+exact for it, the speed squared being quadratic along a rod), so that no moment of inertia is put in; Lagrange's
+equations are those of the energies that come out. Of the documents nothing is used but what their letters mean.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Says by what one coefficient differs from the right one, where no mistake of the catalogue is known to have made it."""
+"""Says by what one coefficient differs from the right one, where no mistake of the catalogue explains it."""
 
 from __future__ import annotations
 

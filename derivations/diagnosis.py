@@ -95,11 +95,13 @@ def _japanese(d: Diagnosis) -> str:
 
 STAGES_EN = {
     "position": "positions", "velocity": "velocities", "speed": "squared speeds", "energy": "energies",
-    "lagrangian": "Lagrangian", "momentum": "derivatives of the Lagrangian", "derivative": "derivatives of the Lagrangian",
+    "lagrangian": "Lagrangian", "momentum": "derivatives of the Lagrangian",
+    "derivative": "derivatives of the Lagrangian",
     "force": "forces", "moment": "moments", "equation": "equations of motion", "matrix": "matrix form",
 }  # fmt: skip
 STAGES_JA = {
-    "position": "位置", "velocity": "速度", "speed": "速度の2乗", "energy": "エネルギー", "lagrangian": "ラグランジアン",
+    "position": "位置", "velocity": "速度", "speed": "速度の2乗", "energy": "エネルギー",
+    "lagrangian": "ラグランジアン",
     "momentum": "ラグランジアンの微分", "derivative": "ラグランジアンの微分", "force": "力", "moment": "モーメント",
     "equation": "運動方程式", "matrix": "行列形",
 }  # fmt: skip

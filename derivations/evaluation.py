@@ -30,7 +30,7 @@ class Evaluation:
         self._angles: dict[str, _Angle] = {}
         self.equal_lengths = self.equal_masses = False
 
-    def value(self, node: Node) -> Quotient:
+    def value(self, node: Node) -> Quotient:  # noqa: PLR0911 -- one for each kind of node
         """The formula that a tree stands for. Raises InvalidInput with the column of what makes no sense."""
         match node:
             case Number(value=value):
@@ -148,7 +148,7 @@ class Evaluation:
             fail(node.at, "only multiples of π/2 can be added to an angle")
         return _Angle(halves, int(quarters.p) % 4)
 
-    def _linear(self, node: Node) -> dict[int, fmpq]:
+    def _linear(self, node: Node) -> dict[int, fmpq]:  # noqa: PLR0911 -- one for each kind of node
         """A linear form in the angles, and in π."""
         match node:
             case Symbol(letter="p"):

@@ -202,7 +202,7 @@ def _may_meet(first: Image, second: Image, wrong_rows: set[int]) -> bool:
 def _differing(
     images: Images, aligned: list[tuple[Vector, int]], image: Image
 ) -> list[list[frozenset[tuple[int, int]]]]:
-    """For each row, the terms that differ from a catalogue derivation: at its best factor, and at the next best ones."""
+    """For each row, the terms that differ from a catalogue derivation: at its best factor, and the next best."""
     differing = []
     for row, i in aligned:
         base = image.rows.get(i, images.right[i])

@@ -38,7 +38,10 @@ NO_SANDBOX = (
     "The function ran in a process of its own with limits on time and memory. That is no sandbox: "
     "it could read and write files. Grade only functions that you trust."
 )
-NO_SANDBOX_JA = "関数は時間とメモリを制限した別プロセスで実行しましたが、サンドボックスではありません。信頼できる関数だけを採点してください。"
+NO_SANDBOX_JA = (
+    "関数は時間とメモリを制限した別プロセスで実行しましたが、サンドボックスではありません。"
+    "信頼できる関数だけを採点してください。"
+)
 
 
 @dataclass(frozen=True)
@@ -63,7 +66,8 @@ class Samples:
                 masses = self.values[3 * n : 4 * n, k]
             parameters["masses"] = masses.tolist()
             out.append({
-                "theta": self.theta[:, k].tolist(), "omega": self.values[n : 2 * n, k].tolist(), "parameters": parameters,
+                "theta": self.theta[:, k].tolist(), "omega": self.values[n : 2 * n, k].tolist(),
+                "parameters": parameters,
             })  # fmt: skip
         return out
 
@@ -133,7 +137,8 @@ def diagnose(drawn: Samples, accelerations: Array) -> Diagnosis:
     found = _explanations(m, seen, values, residual, scale)
     if not found:
         wrong = [i + 1 for i in range(m.n) if np.any(np.abs(residual[i]) > ALLOWED * scale[i])]
-        note = f"The accelerations do not satisfy row {', '.join(map(str, wrong))}; no mistake of the catalogue explains it."
+        rows = ", ".join(map(str, wrong))
+        note = f"The accelerations do not satisfy row {rows}; no mistake of the catalogue explains it."
         return answer(seen, "wrong", notes=(note, NO_SANDBOX), notes_ja=(NO_SANDBOX_JA,))
     told = same_equations(seen, found)
     mistakes = told[0][0]

@@ -11,10 +11,12 @@ from .rewriting import rewritten
 
 FRAGMENTS = [
     "(", ")", "{", "}", "[", "]", "^", "**", "=", "==", "+", "-", "/", "*", "\\frac", "\\frac{", "\\ddot", "\\dot{",
-    "\\left", "\\sum_{i=1}^{3}", "cos", "sin(", "tan", "t1", "w9", "a0", "l_", "m_{", "theta", "θ̈₁", "²", "⁻", "½", "1e9",
-    "1e999", "0.0000000000001", "9" * 60, "__import__('os').system('true')", "eval(", "lambda:0", "#", ";", "\\\\",
-    "\\input{/etc/passwd}", "\u0000", "\u202e", "𝜃", "٣", "＝", "'", '"', "'''", "\n", "\t", "%s", "{{7*7}}", "nan", "inf",
-    "^9^9^9", "^(-12)", "^12)^12)^12", "1/0", "/(l1-l1)", "cos(cos(t1))", "cos(w1)", "sin(t1*t2)", "t1", "²²", "''''",
+    "\\left", "\\sum_{i=1}^{3}", "cos", "sin(", "tan", "t1", "w9", "a0", "l_", "m_{", "theta", "θ̈₁", "²", "⁻", "½",
+    "1e9", "1e999", "0.0000000000001", "9" * 60, "__import__('os').system('true')", "eval(", "lambda:0", "#", ";",
+    "\\\\",
+    "\\input{/etc/passwd}", "\u0000", "\u202e", "𝜃", "٣", "＝", "'", '"', "'''", "\n", "\t", "%s", "{{7*7}}", "nan",
+    "inf", "^9^9^9", "^(-12)", "^12)^12)^12", "1/0", "/(l1-l1)", "cos(cos(t1))", "cos(w1)", "sin(t1*t2)", "t1",
+    "²²", "''''",
 ]  # fmt: skip
 
 
@@ -88,10 +90,13 @@ def _file(draw: random.Random) -> str:
     links = draw.choice(("2", "3", "0", "-1", "1e9", "'2'", "true", "10000000000", "2.0", "[2]", "20"))
     body = draw.choice((
         "[equations]", "[equations]\n1 = 3", "[equations]\n1 = ['a1=0']", "equations = []", "equations = 'a1=0'",
-        "equations = ['a1=0', 'a2=0']", "lagrangian = 1", "lagrangian = ''", "lagrangian = 'a1'", "lagrangian = '1/(m1+m2)'",
+        "equations = ['a1=0', 'a2=0']", "lagrangian = 1", "lagrangian = ''", "lagrangian = 'a1'",
+        "lagrangian = '1/(m1+m2)'",
         "[equations]\n1 = 'a1=0'\n[define]\ncos = '1'", "[equations]\n1 = 'a1=0'\n[define]\nM = 'M'",
-        "angles = 'sideways'\n[equations]\n1 = 'a1=0'", "surprise = 1", "a.a.a.a.a.a = 1", "[[equations]]\n1 = 'a1 = 0'",
-        "[equations]\n1 = 'a1^2 = 0'\n2 = 'a1*a2 = 0'", "[equations]\n1 = '0 = 0'\n2 = '0 = 0'", "[equations]\n1='1/a1=0'",
+        "angles = 'sideways'\n[equations]\n1 = 'a1=0'", "surprise = 1", "a.a.a.a.a.a = 1",
+        "[[equations]]\n1 = 'a1 = 0'",
+        "[equations]\n1 = 'a1^2 = 0'\n2 = 'a1*a2 = 0'", "[equations]\n1 = '0 = 0'\n2 = '0 = 0'",
+        "[equations]\n1='1/a1=0'",
         "[equations]\n1='1/w1=a1'", "[equations]\n1='a1=cos(t1)^12*sin(t1)^12'",
     ))  # fmt: skip
     return f"system = {system}\nlinks = {links}\n{body}\n"

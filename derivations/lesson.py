@@ -1,4 +1,4 @@
-"""A page for a class: thirty mistakes, each with a question first, the wrong and the right line, where it bites, how it moves."""
+"""A page for a class: thirty mistakes, a question before each, the wrong and the right line, where it bites, a film."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def _entry(number: int, choice: Choice) -> dict[str, Any]:
     wrong = derive(m, [mistake])
     pairs = list(changed_lines(m, mistake, wrong))
     rows = [
-        (Line(f"row {i + 1}", _shown(m, _sum_of_row(m, wrong, i))), Line(f"row {i + 1}", _shown(m, _sum_of_row(m, right(m), i))))
+        tuple(Line(f"row {i + 1}", _shown(m, _sum_of_row(m, d, i))) for d in (wrong, right(m)))
         for i in range(m.n)
         if not is_multiple(wrong.rows[i], right(m).rows[i])
     ]  # fmt: skip
@@ -84,7 +84,7 @@ def _entry(number: int, choice: Choice) -> dict[str, Any]:
     }  # fmt: skip
 
 
-# The wrong line and the right one ---------------------------------------------------------------------------------------
+# The wrong line and the right one -------------------------------------------------------------------------------------
 
 
 def changed_lines(m: Mechanism, mistake: Mistake, wrong: Derivation) -> Iterator[tuple[Line, Line]]:
@@ -98,7 +98,9 @@ def changed_lines(m: Mechanism, mistake: Mistake, wrong: Derivation) -> Iterator
             yield Line(name, _shown(m, formula)), Line(name, _shown(m, other))
 
 
-def _lines(m: Mechanism, d: Derivation, stage: Stage) -> list[tuple[str, Formula]]:
+def _lines(  # noqa: PLR0911 -- one for each stage
+    m: Mechanism, d: Derivation, stage: Stage
+) -> list[tuple[str, Formula]]:
     """What stands on the page at a stage, line by line."""
     every = range(m.n)
     match stage:
@@ -138,11 +140,11 @@ def _shown(m: Mechanism, f: Formula) -> str:
     return pretty(text(m.space, f))
 
 
-# Where it bites -----------------------------------------------------------------------------------------------------------
+# Where it bites -------------------------------------------------------------------------------------------------------
 
 
 def _map(true: RowMotion, false: RowMotion) -> str:
-    """Relative error of the accelerations over θ₁ (right) and θ₂ (up), as a PNG in a data URI: white none, dark 100 %."""
+    """Relative error of the accelerations over θ₁ (right) and θ₂ (up): a PNG in a data URI, white none, dark 100 %."""
     axis = np.linspace(-np.pi, np.pi, GRID)
     first, second = np.meshgrid(axis, axis[::-1])
     theta = np.zeros((GRID * GRID, true.n))
@@ -171,7 +173,7 @@ def _chunk(kind: bytes, data: bytes) -> bytes:
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
 
-# How it moves -------------------------------------------------------------------------------------------------------------
+# How it moves ---------------------------------------------------------------------------------------------------------
 
 
 def _parameters(m: Mechanism) -> Parameters:

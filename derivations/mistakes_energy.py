@@ -1,4 +1,4 @@
-"""Mistakes on the way to the Lagrangian: in positions, velocities, squared speeds, energies, and in L = T - U itself."""
+"""Mistakes on the way to the Lagrangian: in positions, velocities, squared speeds, energies, and in L = T - U."""
 
 from __future__ import annotations
 
@@ -77,13 +77,15 @@ def _position(m: Mechanism, b: int) -> Iterator[Mistake]:
         if len(fractions) > 1:
             yield Mistake(
                 "segment-missing", "position", (b, k),
-                f"The position of {en} leaves out link {k + 1}: l{sub(k)} sin θ{sub(k)}, -l{sub(k)} cos θ{sub(k)} belong to it.",
+                f"The position of {en} leaves out link {k + 1}: "
+                f"l{sub(k)} sin θ{sub(k)}, -l{sub(k)} cos θ{sub(k)} belong to it.",
                 f"{ja}の位置にリンク{k + 1}の分 l{sub(k)} sin θ{sub(k)}, -l{sub(k)} cos θ{sub(k)} が抜けています。",
                 at(lambda d, link: drop(d.position, b, link), k),
             )  # fmt: skip
         yield moved(
             "sine-cosine-swapped",
-            f"In the position of {en}, sin θ{sub(k)} and cos θ{sub(k)} are swapped: from the downward vertical, x goes with sin.",
+            f"In the position of {en}, sin θ{sub(k)} and cos θ{sub(k)} are swapped: "
+            "from the downward vertical, x goes with sin.",
             f"{ja}の位置で sin θ{sub(k)} と cos θ{sub(k)} が逆です。鉛直下向きから測るので x が sin です。",
             -y, -x,
         )  # fmt: skip
@@ -120,7 +122,8 @@ def _position(m: Mechanism, b: int) -> Iterator[Mistake]:
     if m.parent(b) >= 0:
         yield Mistake(
             "relative-angle", "position", (b,),
-            f"In the position of {en}, θ{sub(b)} is taken as measured from the link above it; it is measured from the vertical.",
+            f"In the position of {en}, θ{sub(b)} is taken as measured from the link above it; "
+            "it is measured from the vertical.",
             f"{ja}の位置で θ{sub(b)} を上のリンクからの角としています。鉛直線からの角です。",
             lambda d: put(d.position, b, b, _relative(m, b, b, fractions[b])),
         )  # fmt: skip
@@ -171,13 +174,15 @@ def _velocity(m: Mechanism, b: int) -> Iterator[Mistake]:
 
         yield changed(
             "inner-derivative-missing",
-            f"In the velocity of {en}, sin {th} and cos {th} are differentiated without the inner derivative θ̇{sub(k)}.",
+            f"In the velocity of {en}, sin {th} and cos {th} are differentiated "
+            f"without the inner derivative θ̇{sub(k)}.",
             f"{ja}の速度で sin {th}, cos {th} を時間で微分したときの θ̇{sub(k)} が抜けています。",
             scaled(inverse),
         )  # fmt: skip
         yield changed(
             "cosine-derivative-sign",
-            f"In the velocity of {en}, the derivative of -{l} cos {th} has the wrong sign: it is +{l} θ̇{sub(k)} sin {th}.",
+            f"In the velocity of {en}, the derivative of -{l} cos {th} has the wrong sign: "
+            f"it is +{l} θ̇{sub(k)} sin {th}.",
             f"{ja}の速度で -{l} cos {th} の微分の符号が逆です。+{l} θ̇{sub(k)} sin {th} になります。",
             lambda v: (v[0], -v[1]),
         )  # fmt: skip
@@ -378,7 +383,8 @@ def _height(m: Mechanism, b: int, k: int, fraction: fmpq) -> Iterator[Mistake]:
     x, _ = segment_position(m, k, fraction)
     if len(m.path(b)) > 1:
         yield height(
-            "height-incomplete", f"The potential energy of {en} leaves out the height of link {k + 1}, -l{sub(k)} cos {th}.",
+            "height-incomplete",
+            f"The potential energy of {en} leaves out the height of link {k + 1}, -l{sub(k)} cos {th}.",
             f"{ja}の位置エネルギーにリンク{k + 1}の高さ -l{sub(k)} cos {th} が抜けています。", instead(NOTHING),
         )  # fmt: skip
     yield height(

@@ -111,9 +111,10 @@ def _waves(s: Space, f: Formula, change: Callable[[dict[int, int], int], Formula
     result = NOTHING
     for (e, h, phase), c in f.terms.items():
         angle = {k: a for k, a in enumerate(digits(h, s.n)) if a}
-        if angle and next(iter(angle.values())) < 0:
-            angle, c = {k: -a for k, a in angle.items()}, (c if phase == COS else -c)
-        result = result + Formula({(e, 0, COS): c}) * (change(angle, phase) if angle else s.wave({}, phase))
+        flipped = bool(angle) and next(iter(angle.values())) < 0
+        shown = {k: -a if flipped else a for k, a in angle.items()}
+        factor = Formula({(e, 0, COS): -c if flipped and phase != COS else c})
+        result = result + factor * (change(shown, phase) if angle else s.wave({}, phase))
     return result
 
 
@@ -317,7 +318,8 @@ def _matrix(m: Mechanism) -> Iterator[Mistake]:
         "加速度の行列が対角成分だけになっています。", diagonal,
     )  # fmt: skip
     yield Mistake(
-        "matrix-transposed", "matrix", (0,), "The matrix of the accelerations is transposed: l_i and l_j change places.",
+        "matrix-transposed", "matrix", (0,),
+        "The matrix of the accelerations is transposed: l_i and l_j change places.",
         "加速度の行列が転置されています（l_i と l_j が入れ替わっています）。", transposed(0),
     )  # fmt: skip
     yield Mistake(
@@ -338,7 +340,8 @@ def _star_matrix(m: Mechanism) -> Iterator[Mistake]:
                 replace(d, i, unit(j), d.rows[i].get(unit(j), NOTHING) + s.m(j) * s.l(j) * s.cos({i: 1, j: -1}))
 
             yield Mistake(
-                "legs-coupled", "matrix", (i, j), f"A[{i + 1},{j + 1}] is not 0: legs act on link 1, not on each other.",
+                "legs-coupled", "matrix", (i, j),
+                f"A[{i + 1},{j + 1}] is not 0: legs act on link 1, not on each other.",
                 f"A[{i + 1},{j + 1}] が 0 ではありません。足どうしは直接には影響しません。", coupled,
             )  # fmt: skip
 

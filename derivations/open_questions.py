@@ -48,7 +48,7 @@ def determinant(states: int = 200) -> Question:
     table = []
     for n in (1, 2, 3, 10, 80, 200):
         system = _chain(n)
-        theta = np.random.default_rng(1).uniform(-np.pi, np.pi, (states if n < 80 else max(states // 10, 4), n))
+        theta = np.random.default_rng(1).uniform(-np.pi, np.pi, (states if n < 80 else max(states // 20, 4), n))
         scale = system.density * np.array(system.lengths)
         sign, logarithm = np.linalg.slogdet(mass_matrix(system, theta) / scale[:, None])
         rest = np.linalg.slogdet(mass_matrix(system, np.zeros(n)) / scale[:, None])[1]
@@ -61,10 +61,11 @@ def determinant(states: int = 200) -> Question:
         "Takeno, section 6: is |A(θ)| ≠ 0 for every n?",
         "Yes, for every n, all lengths and all angles: det A(θ) > 0, and it is smallest where the chain is straight.",
         "With D = diag(ρ l_j), M(θ) = D A(θ) is the matrix of the kinetic energy, ½ θ̇ᵀ M θ̇ = Σ ½ ∫ |v|² dm. It is zero "
-        "only if every point of every rod rests, that is if θ̇ = 0: M is positive definite and det A = det M / Π ρ l_j > 0. "
+        "only if every point of every rod rests, that is if θ̇ = 0: M is positive definite and "
+        "det A = det M / Π ρ l_j > 0. "
         "Entry by entry, M_jk(θ) = M_jk(0) · cos(θ_j - θ_k), and the matrix of cosines is c cᵀ + s sᵀ with "
-        "c = (cos θ_j), s = (sin θ_j): positive semidefinite with ones on its diagonal. Oppenheim's inequality then gives "
-        "det M(θ) ≥ det M(0) > 0.",
+        "c = (cos θ_j), s = (sin θ_j): positive semidefinite with ones on its diagonal. Oppenheim's inequality then "
+        "gives det M(θ) ≥ det M(0) > 0.",
         {"random states": table},
     )
 
@@ -87,11 +88,11 @@ def existence(states: int = 200) -> Question:
     return Question(
         "Takeno, section 6: do the solutions of (22) exist for all times?",
         "Yes: every solution exists for all times, past and future; so do those of Shiki's (3.10).",
-        "A(θ) is invertible and smooth, so that θ̈ = f(θ, θ̇) with smooth f, and a solution can only end by leaving every "
-        "bounded set of rates. It cannot: the energy E = ½ θ̇ᵀ M(θ) θ̇ + U(θ) is constant and U is bounded below, while the "
-        "smallest eigenvalue of M(θ) is never below that of M(0) (M(θ) is the entrywise product of M(0) with a positive "
-        "semidefinite matrix with ones on its diagonal). Hence |θ̇|² ≤ 2 (E - min U) / λ_min(M(0)) at all times; the "
-        "squares of the rates in (22) do no harm.",
+        "A(θ) is invertible and smooth, so that θ̈ = f(θ, θ̇) with smooth f, and a solution can only end by leaving "
+        "every bounded set of rates. It cannot: the energy E = ½ θ̇ᵀ M(θ) θ̇ + U(θ) is constant and U is bounded below, "
+        "while the smallest eigenvalue of M(θ) is never below that of M(0) (M(θ) is the entrywise product of M(0) with "
+        "a positive semidefinite matrix with ones on its diagonal). Hence |θ̇|² ≤ 2 (E - min U) / λ_min(M(0)) at all "
+        "times; the squares of the rates in (22) do no harm.",
         {"random states": table},
     )
 
@@ -101,12 +102,14 @@ def _reach(system: RodChain | NLegPendulum, j: int) -> float:
     return sum(l[: j + 1]) if isinstance(system, RodChain) else l[0] + (l[j] if j else 0.0)
 
 
-WIKIPEDIA = r"""
+COUPLING_1 = r"\frac{1}{2}\{\ddot{\theta}_2\cos(\theta_1-\theta_2) + (\dot{\theta}_2)^2\sin(\theta_1-\theta_2)\}"
+COUPLING_2 = r"\frac{1}{2}\{\ddot{\theta}_1\cos(\theta_1-\theta_2) - (\dot{\theta}_1)^2\sin(\theta_1-\theta_2)\}"
+WIKIPEDIA = rf"""
 system = "rod-chain"
 links = 2
 [equations]
-1 = '\frac{5}{4}\ddot{\theta}_1 + \frac{1}{2}\{\ddot{\theta}_2\cos(\theta_1-\theta_2) + (\dot{\theta}_2)^2\sin(\theta_1-\theta_2)\} + \frac{3g}{2l}\sin\theta_1 = 0'
-2 = '\frac{1}{2}\{\ddot{\theta}_1\cos(\theta_1-\theta_2) - (\dot{\theta}_1)^2\sin(\theta_1-\theta_2)\} + \frac{1}{4}\ddot{\theta}_2 + \frac{g}{2l}\sin\theta_2 = 0'
+1 = '\frac{{5}}{{4}}\ddot{{\theta}}_1 + {COUPLING_1} + \frac{{3g}}{{2l}}\sin\theta_1 = 0'
+2 = '{COUPLING_2} + \frac{{1}}{{4}}\ddot{{\theta}}_2 + \frac{{g}}{{2l}}\sin\theta_2 = 0'
 """
 
 
@@ -118,9 +121,9 @@ def wikipedia() -> Question:
     spoilt = cost("rods' own inertia forgotten", m, derive(m, [mistake]).rows)
     return Question(
         "Takeno, section 6: which equations did Wikipedia give in November 2018?",
-        "With the diagonal coefficients 5/4 and 1/4 in place of 4/3 and 1/3: each rod turned into a point mass at its middle "
-        "(reconstructed from the remark; the other difference, the factor of g, is told there as a slip of writing and "
-        "not what it was).",
+        "With the diagonal coefficients 5/4 and 1/4 in place of 4/3 and 1/3: each rod turned into a point mass at its "
+        "middle (reconstructed from the remark; the other difference, the factor of g, is told there as a slip of writing "
+        "and not what it was).",
         "Without ½ I θ̇², I = m l²/12, Lagrange's equations of two equal rods are (19) with 4/3 - 1/12 = 5/4 and "
         "1/3 - 1/12 = 1/4. Graded as somebody's derivation, they are found wrong, with just that mistake named.",
         {

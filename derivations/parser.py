@@ -215,7 +215,7 @@ class _Parser:
         self.close(opened)
         return node
 
-    def primary(self, depth: int) -> Node:
+    def primary(self, depth: int) -> Node:  # noqa: PLR0911 -- one for each kind of token
         token = self.next
         match token.kind:
             case "number":
@@ -234,9 +234,9 @@ class _Parser:
             case "fraction":
                 return self.fraction(depth)
             case "close":
-                fail(token.at, "this closing bracket was never opened, or something is missing before it")
+                return fail(token.at, "this closing bracket was never opened, or something is missing before it")
             case "end":
-                fail(token.at, "the line ends where a term is expected")
+                return fail(token.at, "the line ends where a term is expected")
             case _:
                 return fail(token.at, f"a term is expected before {token.text!r}")
 

@@ -102,7 +102,7 @@ def tokenize(line: str, names: frozenset[str] = frozenset()) -> list[Token]:
     return tokens
 
 
-def _next(line: str, at: int, names: frozenset[str]) -> tuple[Token, int]:
+def _next(line: str, at: int, names: frozenset[str]) -> tuple[Token, int]:  # noqa: PLR0911 -- one for each kind
     c = line[at]
     if c in "0123456789" or (c == "." and NUMBER.match(line, at)):
         return _number(line, at)
@@ -140,7 +140,7 @@ def _number(line: str, at: int) -> tuple[Token, int]:
     return Token("number", text, at, value=value), match.end()
 
 
-def _command(line: str, at: int) -> tuple[Token, int]:
+def _command(line: str, at: int) -> tuple[Token, int]:  # noqa: PLR0911 -- one for each kind
     dotted = DOTTED.match(line, at)
     if dotted:
         return _dotted(line, at, dotted)

@@ -76,7 +76,8 @@ def test_it_is_plain_data(result):
 
 
 FAULTS = ["1.1", "1.3", "1.4", "1.6", "1.7", "1.8", "1.10", "1.11", "2.8", "3.3", "3.6", "3.9", "3.10", "3.12"]
-FAULTS_TAKENO = ["1", "2", "3", "4", "5", "6", "8", "9", "11", "13", "14", "15", "16", "17", "18", "19", "20", "21", "22"]
+FAULTS_TAKENO = ["1", "2", "3", "4", "5", "6", "8", "9", "11", "13", "14", "15", "16", "17", "18", "19"]
+FAULTS_TAKENO += ["20", "21", "22"]
 
 
 @pytest.mark.parametrize(
@@ -89,7 +90,7 @@ def test_a_fault_put_in_is_found(document, number, monkeypatch):
     def spoilt(self, values):
         members = equation.members(values)
         last = members[0] if len(members) == 2 and number in ("17", "18", "19", "22") else members[-1]
-        changed = np.asarray(last * values["l"][0] ** 0 * (1 + 2.0**-20) if False else last + last * 2**-20)
+        changed = np.asarray(last + last * 2**-20)
         return (changed, *members[1:]) if last is members[0] and len(members) == 2 else (*members[:-1], changed)
 
     monkeypatch.setattr(type(equation), "printed_members", spoilt)

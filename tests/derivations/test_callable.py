@@ -2,16 +2,17 @@
 
 import sys
 
+import numpy as np
 import pytest
 
+from furiko.derivations.derivation import derive
 from furiko.derivations.grade_callable import diagnose, grade_callable, samples
 from furiko.derivations.mechanism import mechanism
-from furiko.derivations.motion import Parameters, RowMotion
-from furiko.derivations.derivation import derive, right
 from furiko.derivations.mistakes import catalogue
+from furiko.derivations.motion import Parameters, RowMotion
 from furiko.models.errors import InvalidInput
 
-MODULE = '''
+MODULE = """
 import numpy as np
 
 def double(theta, omega, p, slip=""):
@@ -52,7 +53,7 @@ class Rods:
                 A[j, k] = alpha * l[k] * np.cos(theta[j] - theta[k])
                 b[j] -= alpha * l[k] * omega[k] ** 2 * np.sin(theta[j] - theta[k])
         return np.linalg.solve(A, b)
-'''
+"""
 
 
 @pytest.fixture
@@ -90,7 +91,8 @@ def test_what_the_catalogue_does_not_have_is_still_wrong():
 @pytest.mark.parametrize(
     ("function", "why"),
     [
-        ("greedy", "more than|ended"), ("ends", "SystemExit"), ("raises", "ZeroDivisionError"), ("short", "2 accelerations"),
+        ("greedy", "more than|ended"), ("ends", "SystemExit"), ("raises", "ZeroDivisionError"),
+        ("short", "2 accelerations"),
         ("nan", "finite"), ("nothing", "no attribute"), ("value", "not a function"),
     ],
 )  # fmt: skip
@@ -115,6 +117,7 @@ def test_specifications_are_checked(spec):
         grade_callable("mine:f", "n-leg", 1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["n-leg", "rod-chain"])
 def test_every_mistake_that_determines_the_motion_is_recognised(kind):
     """Accelerations of each wrong derivation of two links, solved in floats, given back as somebody's function."""
@@ -127,8 +130,8 @@ def test_every_mistake_that_determines_the_motion_is_recognised(kind):
             RowMotion(m, rows, _parameters(m, state)).accelerations(drawn.theta[:, [k]].T, drawn.values[2:4, [k]].T)[0]
             for k, state in enumerate(drawn.states())
         ]
-        values = __import__("numpy").array(columns).T
-        if not __import__("numpy").isfinite(values).all():
+        values = np.array(columns).T
+        if not np.isfinite(values).all():
             continue  # a row has vanished
         diagnosis = diagnose(drawn, values)
         names = {named.name for named in diagnosis.mistakes} | {x for named in diagnosis.mistakes for x in named.also}
@@ -141,8 +144,3 @@ def _parameters(m, state):
     given = state["parameters"]
     masses = tuple(given["masses"]) if m.kind == "n-leg" else ()
     return Parameters(tuple(given["lengths"]), masses, given.get("density", 1.0), given["gravity"])
-
-
-def test_right_is_right():
-    m = mechanism("n-leg", 3)
-    assert right(m) is right(m)

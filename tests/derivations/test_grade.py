@@ -75,7 +75,8 @@ def test_wrong_derivations_are_named(what, system, rows, names, terms):
 
 
 def test_found_and_expected_are_in_the_rows_own_scaling():
-    (finding,) = grade_text(toml("n-leg", [ROW_1, "7*l2*(" + ROW_2.replace("a1*cos", "a1*sin").replace("= 0", ") = 0")])).findings
+    scaled = "7*l2*(" + ROW_2.replace("a1*cos", "a1*sin").replace("= 0", ") = 0")
+    (finding,) = grade_text(toml("n-leg", [ROW_1, scaled])).findings
     assert (finding.equation, finding.term, finding.row) == ("1.10", "A[2,1]", "2")
     assert (finding.found, finding.expected) == ("7*m2*l1*l2*sin(t1-t2)", "7*m2*l1*l2*cos(t1-t2)")
 
@@ -165,7 +166,8 @@ WRONG_LAGRANGIANS = [
      "length-missing-in-speed"),
     ("2 of the cross term", SHIKI_1_4.replace("2l_1l_2", "l_1l_2"), "cross-term-halved"),
     ("T + U", SHIKI_1_4.replace("+ m_1gl_1", "- m_1gl_1").replace("+ m_2g(", "- m_2g("), "sum-for-difference"),
-    ("U of mass 2", SHIKI_1_4.replace(r"+ m_2g(l_1 \cos \theta_1 + l_2 \cos \theta_2)", ""), "potential-energy-missing"),
+    ("U of mass 2", SHIKI_1_4.replace(r"+ m_2g(l_1 \cos \theta_1 + l_2 \cos \theta_2)", ""),
+     "potential-energy-missing"),
 ]  # fmt: skip
 
 
