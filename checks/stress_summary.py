@@ -293,8 +293,8 @@ def verdict(moved: Sequence[Data]) -> list[str]:
     if after:
         n, apart, power = after
         said.append(
-            f"Past the kink the tip still converges, if not as that of a smooth solution: until 1 s {n} and {2 * n} rods "
-            f"differ by {apart:.1e} m, and that falls as n^-{power:.2f}."
+            f"Past the kink the tip still converges, if not as that of a smooth solution: until 1 s {n} and {2 * n} "
+            f"rods differ by {apart:.1e} m, and that falls as n^-{power:.2f}."
         )
     if len(said) >= 3:
         said.append(

@@ -214,4 +214,4 @@ def test_quiet_in_a_pipe_and_one_document_of_json(tmp_path):
     assert done.returncode == 0
     assert done.stderr == b""
     assert json.loads(done.stdout)["frontiers"][0]["axis"] == "long-legs"
-    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["chain.html", STREAM, "stress.html"]
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["chain.html", "stress.html", STREAM]

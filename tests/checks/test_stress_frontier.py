@@ -1,4 +1,4 @@
-"""Frontiers by bisection: whatever the ladder, the frontier is found, in logarithmic time, and from any order of answers."""
+"""Frontiers by bisection: whatever the ladder, found in logarithmic time, and from answers in any order."""
 
 import math
 

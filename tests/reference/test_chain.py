@@ -1,4 +1,4 @@
-"""The chain: small swings against the document's own matrices and Bernoulli's limit, motions against first principles."""
+"""The chain: small swings against the document's matrices and Bernoulli's limit, motions from first principles."""
 
 import numpy as np
 import pytest

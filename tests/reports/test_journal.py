@@ -1,0 +1,95 @@
+"""A stream that is gone on with: nothing that was whole is lost, nothing that was torn is kept, and no other run's."""
+
+import msgspec
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as some
+
+from furiko.models import InvalidInput
+from furiko.models.result import Header, Result
+from furiko.reports import read_stream
+from furiko.reports.journal import Journal
+
+HEADER = Header(
+    furiko="1", started="2026-01-01T00:00:00+00:00", command="furiko stress", profile="stress", seed="1",
+    machine={}, versions={"numpy": "2"}, scenes=[], engines=[],
+)  # fmt: skip
+
+
+def result(number):
+    details = {"theta": [0.1 * number], "says": 'θ\n"kind":"footer"'}
+    return Result(scene="s", engine="e", check=f"c {number}", outcome="agrees", details=details)
+
+
+def write(path, numbers, header=HEADER, finish=True):
+    with Journal(path, header) as journal:
+        before = [r.check for r in journal.results]
+        for number in numbers:
+            journal.write(result(number))
+        if finish:
+            journal.finish(1.0)
+    return before
+
+
+def test_what_was_written_is_there_when_it_goes_on(tmp_path):
+    path = tmp_path / "stress.jsonl"
+    assert write(path, [1, 2]) == []
+    assert write(path, [3]) == ["c 1", "c 2"]
+    report = read_stream(path)
+    assert [r.check for r in report.results] == ["c 1", "c 2", "c 3"]
+    assert report.results[2].details == result(3).details
+    assert report.complete  # its one footer counts all three
+    assert report.counts["agrees"] == 3
+
+
+@given(cut=some.integers(1, 4000), finish=some.booleans())
+@settings(deadline=None, max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_cut_off_anywhere_it_goes_on_from_the_last_whole_line(tmp_path, cut, finish):
+    path = tmp_path / "stress.jsonl"
+    path.unlink(missing_ok=True)
+    write(path, range(9), finish=finish)
+    content = path.read_bytes()[:cut]
+    path.write_bytes(content)
+    whole = max(0, sum(b'"kind":"result"' in line for line in content.split(b"\n")[:-1]))
+    assert write(path, [9]) == [f"c {i}" for i in range(whole)]
+    found = read_stream(path)
+    assert found.complete
+    assert [r.check for r in found.results] == [*(f"c {i}" for i in range(whole)), "c 9"]
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"seed": "2"}, "begun with seed 1, this is 2"),
+        ({"furiko": "2"}, "begun with furiko 1, this is 2"),
+        ({"versions": {"numpy": "3"}}, "begun with numpy 2, this is 3"),
+    ],
+)
+def test_another_run_is_not_gone_on_with(tmp_path, change, told):
+    path = tmp_path / "stress.jsonl"
+    write(path, [1])
+    before = path.read_bytes()
+    with pytest.raises(InvalidInput, match=told):
+        write(path, [2], msgspec.structs.replace(HEADER, **change))
+    # Its results are all there still.
+    assert [r.check for r in read_stream(path).results] == ["c 1"]
+    assert before.startswith(path.read_bytes())
+
+
+def test_one_run_at_a_time(tmp_path):
+    path = tmp_path / "stress.jsonl"
+    with (
+        Journal(path, HEADER) as journal,
+        pytest.raises(InvalidInput, match="another run is writing it"),
+        Journal(path, HEADER),
+    ):
+        pass
+    assert journal.results == []
+
+
+def test_a_file_that_is_no_stream_is_not_overwritten(tmp_path):
+    path = tmp_path / "stress.jsonl"
+    path.write_text("my diary\n")
+    with pytest.raises(InvalidInput, match="line 1"):
+        write(path, [1])
+    assert path.read_text() == "my diary\n"
