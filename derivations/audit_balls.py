@@ -1,8 +1,8 @@
 """First principles in ball arithmetic, at random points, for mechanisms too long to be written out in symbols.
 
-Derivatives come from numbers with three nilpotent units (u² = v² = w² = 0: for time, for a displacement, for a rate), so
-that nothing is approximated: every result is a ball that contains the true value. Where two expressions differ, their
-balls do not meet, and that is a proof; where they are the same, the balls contain zero.
+Derivatives come from numbers with three nilpotent units (u² = v² = w² = 0: for time, for a displacement, for a rate),
+so that nothing is approximated: every result is a ball that contains the true value. Where two expressions differ,
+their balls do not meet, and that is a proof; where they are the same, the balls contain zero.
 """
 
 from __future__ import annotations

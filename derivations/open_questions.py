@@ -122,8 +122,8 @@ def wikipedia() -> Question:
     return Question(
         "Takeno, section 6: which equations did Wikipedia give in November 2018?",
         "With the diagonal coefficients 5/4 and 1/4 in place of 4/3 and 1/3: each rod turned into a point mass at its "
-        "middle (reconstructed from the remark; the other difference, the factor of g, is told there as a slip of writing "
-        "and not what it was).",
+        "middle (reconstructed from the remark; the other difference, the factor of g, is told there as a slip of "
+        "writing and not what it was).",
         "Without ½ I θ̇², I = m l²/12, Lagrange's equations of two equal rods are (19) with 4/3 - 1/12 = 5/4 and "
         "1/3 - 1/12 = 1/4. Graded as somebody's derivation, they are found wrong, with just that mistake named.",
         {
