@@ -4,7 +4,7 @@ What has been found is in the results alone, each under a name of its own. A sea
 case it needs next, or that it knows. So a run that was cut off goes on where it stood, nothing is lost and nothing is
 done twice, and the order in which cases come in changes nothing. Families of searches (frontiers of accelerations,
 frontiers of the step, …) share the time by weight; within a family cheap cases come first, then
-a frontier that is caught between two rungs, then whoever has asked least: the time goes where the frontiers are.
+a frontier that is caught between two rungs, then one search after the other: the time goes where the frontiers are.
 """
 
 from __future__ import annotations
@@ -185,7 +185,7 @@ class Listed:
 
 
 # What share of the time each family gets while others have something left to ask.
-WEIGHTS = {"accelerations": 4.0, "steps": 2.0, "condition": 1.0, "chain": 2.0, "pairs": 2.0, "long runs": 1.0}
+WEIGHTS = {"accelerations": 6.0, "steps": 2.0, "condition": 1.0, "chain": 2.0, "pairs": 2.0, "long runs": 1.0}
 FAMILIES = tuple(WEIGHTS)
 LONG_STEPS = 10_000_000
 
@@ -304,9 +304,9 @@ class _Pool:
         """The next case of the family that has had least of its share; it may have none while others run its last."""
         running = {worker.search for worker in self.workers if worker.case is not None}
         asked: dict[str, list[tuple[tuple[bool, bool, int], Search, Case]]] = {}
-        for search, (case, known) in self.asking.items():
+        for place, (search, (case, _)) in enumerate(self.asking.items()):
             if case is not None and search not in running:
-                urgency = (getattr(case, "heavy", False), not search.caught(self.results), known)
+                urgency = (getattr(case, "heavy", False), not search.caught(self.results), place)
                 asked.setdefault(search.family, []).append((urgency, search, case))
         if not asked:
             return None

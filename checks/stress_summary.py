@@ -289,6 +289,7 @@ def verdict(moved: Sequence[Data]) -> list[str]:
             f"{last['fastest tip']:.1f} m/s and energy is kept to {max(m['energy drift'] for m in fine):.0e}. There "
             "the curve has a kink."
         )
+    said += _doublings(moved)
     after = _falling(moved, 1.0)
     if after:
         n, apart, power = after
@@ -302,6 +303,17 @@ def verdict(moved: Sequence[Data]) -> list[str]:
             "tension vanishes. What asks for ever smaller steps is that every finer chain resolves more of the kink."
         )
     return said
+
+
+def _doublings(moved: Sequence[Data]) -> list[str]:
+    """What each doubling of n adds to the speed of the tip, in either amplitude."""
+    told = []
+    for amplitude in sorted({m["amplitude"] for m in moved}, reverse=True):
+        fine = {m["n"]: m["fastest tip"] for m in moved if m["amplitude"] == amplitude and m["tolerance"] == FINE}
+        added = [fine[2 * n] - fine[n] for n in sorted(fine) if 2 * n in fine]
+        if len(added) >= 3:
+            told.append(f"{', '.join(f'{value:.2g}' for value in added)} m/s (amplitude {amplitude:g})")
+    return [f"What each doubling of n adds to the tip's greatest speed: {'; '.join(told)}."] if told else []
 
 
 def _falling(moved: Sequence[Data], until: float) -> tuple[int, float, float] | None:

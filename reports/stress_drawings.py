@@ -157,19 +157,19 @@ class Picture:
 
 
 def draw_curves(
-    title: str, curves: Mapping[str, Sequence[Sequence[float]]], reach: float, size: float = 150.0
+    title: str, curves: Mapping[str, Sequence[Sequence[float]]], reach: float, size: float = 240.0
 ) -> Picture:
     """Chains hanging from one support, each with joints (x, z) [m]."""
     scale = size / (2 * reach)
 
     def place(point: Sequence[float]) -> str:
-        return f"{size / 2 + scale * point[0]:.1f},{size / 2 - scale * point[1]:.1f}"
+        return f"{size / 2 + scale * point[0]:.1f},{size / 5 - scale * point[1]:.1f}"
 
     drawn = tuple(
         (" ".join(map(place, [(0.0, 0.0), *points])), number % 8, name)
         for number, (name, points) in enumerate(curves.items())
     )
-    return Picture(title, size, drawn, (size / 2, size / 2))
+    return Picture(title, size, drawn, (size / 2, size / 5))
 
 
 def _fits(value: float | None, log: bool) -> bool:
