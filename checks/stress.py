@@ -34,7 +34,7 @@ from .stress_axes import Ladder, Pair
 from .stress_chain import chain_runs, listed_cases
 from .stress_condition import condition_cases
 
-TIMEOUT = 30.0  # [s] for one case; the chain's own take longer and say so
+TIMEOUT = 30.0  # [s] for one case; those that may take longer say so
 GRACE = 5.0  # [s] that cases under way are given when the time is up
 
 Watch = Callable[["Case", int], None]
@@ -83,7 +83,7 @@ class AccelerationSearch:
     @property
     def top(self) -> int:
         """The last rung for this subject."""
-        most = {KERNELS: 10_000, DOCUMENT: DENSE_LIMIT}.get(self.subject)
+        most = {KERNELS: 10_001, DOCUMENT: DENSE_LIMIT}.get(self.subject)
         return self.ladder.top_for(most or engine_info(self.subject).largest_n, kernels=self.subject == KERNELS)
 
     def case(self, rung: int) -> AccelerationCase:
@@ -322,7 +322,11 @@ class _Pool:
         return [worker for worker in busy if worker.connection in ready]
 
     def _deadline(self, worker: _Worker) -> float:
-        return min(worker.begun + getattr(worker.case, "timeout", self.timeout), max(self.end, worker.begun) + GRACE)
+        return min(worker.begun + self._allowed(worker.case), max(self.end, worker.begun) + GRACE)
+
+    def _allowed(self, case: Case | None) -> float:
+        """Seconds for a case: some are known to take long."""
+        return max(self.timeout, getattr(case, "takes", 0.0))
 
     def _listen(self, worker: _Worker) -> Iterator[Result]:
         case = worker.case
@@ -351,7 +355,7 @@ class _Pool:
             case = worker.case
             if case is None or now < self._deadline(worker):
                 continue
-            allowed = getattr(case, "timeout", self.timeout)
+            allowed = self._allowed(case)
             if now >= worker.begun + allowed:
                 yield self._over(worker, failed(case, "hang", f"no answer within {allowed:g} s"))
             worker.case = None

@@ -64,6 +64,11 @@ class AccelerationCase:
         (ladder,) = find_axes((self.ladder,))
         return ladder.recipe(self.rung).n > HEAVY
 
+    @property
+    def takes(self) -> float:
+        """Seconds that it may well take: proofs for ten thousand rods, or compiling the kernels."""
+        return 120.0 if self.engine == KERNELS or self.heavy else 0.0
+
     def run(self) -> Result:
         """Measure. An engine's exceptions are the caller's to catch."""
         (ladder,) = find_axes((self.ladder,))

@@ -115,7 +115,8 @@ class Axis:
         """The last rung for an engine that takes so many links."""
         if not self.links:
             return self.top
-        return self._rung(min(self.further if kernels and self.further else self.end, float(most_links)))
+        others = self.recipe(0).n - 1  # that the axis does not count
+        return self._rung(min(self.further if kernels and self.further else self.end, float(most_links - others)))
 
     def value(self, rung: int) -> float:
         """The number on this rung."""

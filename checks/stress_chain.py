@@ -68,6 +68,7 @@ class StepCase:
     n: int
     engine: str = KERNEL
     scene = "chain, usable step"
+    takes = 120.0  # seconds that it may well take: compiling comes first
 
     @property
     def check(self) -> str:
@@ -95,6 +96,7 @@ class MemoryCase:
     n: int
     engine: str = ENGINE
     scene = "chain, memory"
+    takes = 120.0  # seconds that it may well take: compiling comes first
 
     @property
     def check(self) -> str:
@@ -132,6 +134,7 @@ class ChainCase:
     piece: int
     start: tuple[Sequence[float], Sequence[float]] | None = None
     engine: str = ENGINE
+    takes = 300.0  # seconds that it may well take: a thousand rods, on a processor that is shared
 
     @property
     def scene(self) -> str:
