@@ -20,6 +20,7 @@ from .timing import FEWEST, Subject, Times, interleaved, once
 ERRORS = (1e-6, 1e-9, 1e-12)  # that ratios are given at
 EXPLORING = 0.35  # of the scene's time goes into finding the errors, the rest into timing
 NO_BETTER = 0.7  # two finer runs in a row whose error is not below this part of the best: rounding has been reached
+LEAST = 0.1  # [s] that every method is given, however little the whole
 PROBE = 0.04  # of the motion is run to see what a whole run takes
 PATIENCE = 2.0  # times a method's share: what its first run may take
 LOST = 1.0  # an end that is off by this has nothing to do with the motion any more
@@ -48,7 +49,7 @@ def work_precision(
     for i, method in enumerate(chosen):
         watch(f"{scene.name} {method.engine} {method.scheme}")
         # What a method does not use of its share is shared by those that follow.
-        found, why = refine(method, partial(end_error, scene), left / (len(chosen) - i))
+        found, why = refine(method, partial(end_error, scene), max(left / (len(chosen) - i), LEAST))
         left = max(0.0, left - sum(run.seconds for run in found))
         runs += found
         stopped |= dict.fromkeys(((method.engine, method.named(context)) for context in method.contexts), why)
