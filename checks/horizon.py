@@ -40,7 +40,7 @@ from ..reference import literal_accelerations
 from ..reference.motion import Mechanism
 from ..reference.schemes import BUTCHER_6
 from ..reference.truth import true_trajectory
-from ..reference.variation import Growth, growth, tangent_flow
+from ..reference.variation import Growth, growth, lyapunov_time, tangent_flow
 from .cell import Cell, EngineFault
 from .facts import scene_facts
 from .rounding import EPSILON
@@ -52,6 +52,7 @@ NEEDS = "trajectory"
 
 STEPS = (1e-2, 5e-3, 1e-3)  # [s]; every one a multiple of the last
 LONGEST = 10.0  # [s]
+FOLDS = 20.0  # Lyapunov times; a local error of a few roundings has grown past every threshold here by then
 APART = 1e-3  # [rad]; two trajectories that differ by more have parted
 NEAR = 1e-2  # [rad]; up to here an error is small: what it neglects of itself is a hundredth part
 GONE = 1.0  # [rad]; beyond, a carried error means nothing
@@ -115,10 +116,19 @@ class Horizon:
 def compare(cell: Cell) -> Iterator[Result]:
     """One result for each of the engine's integrators and each step."""
     for integrator in cell.info.integrators:
-        found = [horizon(cell, integrator, step, LONGEST) for step in STEPS]
+        found = [horizon(cell, integrator, step, followed(cell.scene)) for step in STEPS]
         orders = [None, *(local_order(a, b) for a, b in pairwise(found))]
         for one, order in zip(found, orders, strict=True):
             yield _result(cell, one, order)
+
+
+@lru_cache(maxsize=1)  # a worker looks at one scene with several integrators and engines
+def followed(scene: Scene) -> float:
+    """How long a scene's motion is followed [s]: a whole number of the longest steps."""
+    assert scene.theta is not None
+    assert scene.omega is not None
+    folding = lyapunov_time(scene.system, np.array(scene.theta), np.array(scene.omega), scene.duration)
+    return STEPS[0] * round(min(LONGEST, FOLDS * folding) / STEPS[0])
 
 
 def horizon(cell: Cell, integrator: Integrator, step: float, duration: float) -> Horizon:
@@ -297,7 +307,7 @@ def _result(cell: Cell, found: Horizon, order: float | None) -> Result:
             "Lyapunov time": found.lyapunov_time,
             "order of local errors": order,
             "predicted from": found.from_time,
-            "errors": history(found),
+            "errors over time": history(found),
         },
     )
 

@@ -16,15 +16,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..engines import AnyShape, Integrator
+from ..models import Scene
 from ..models.result import Result
 from ..reference import energy, literal_accelerations, mass_matrix
 from ..reference.motion import Mechanism
-from ..reference.variation import fastest_rate
+from ..reference.variation import fastest_rate, lyapunov_time
 from .cell import Cell
 from .energy import energy_amplitudes
 from .rounding import EPSILON, allowed, amplitudes
@@ -121,11 +123,21 @@ def _compare(cell: Cell, integrator: Integrator, start: Start, invariant: Invari
         unit=unit,
         reason=invariant.says if agrees else f"at step zero {limit:.3g} {unit} are left, and {invariant.says}",
         details={
+            "Lyapunov time": _lyapunov_time(cell.scene),
             "integrator": integrator.name,
             "steps": [start.step / 2**k for k in range(3)],
             "left": [float(np.abs(run).max()) for run in runs],
         },
     )
+
+
+@lru_cache(maxsize=1)  # a worker looks at one scene with several integrators and engines
+def _lyapunov_time(scene: Scene) -> float | None:
+    """Of the scene's own motion [s]; None where nothing moves in it, or nothing grows."""
+    if scene.theta is None or scene.omega is None or not scene.duration:
+        return None
+    found = lyapunov_time(scene.system, np.array(scene.theta), np.array(scene.omega), scene.duration)
+    return found if math.isfinite(found) else None
 
 
 def extrapolated(runs: list[Array], order: int) -> tuple[float, float]:

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 from ..models.result import Result, SceneEntry
 from .report import against, share
-from .words import figure
+from .words import figure, printable
 
 MOST_LINKS = 200  # drawn of a longer mechanism; more cannot be told apart in a picture of this size
 
 # Error plot, in the units of its own viewBox.
-WIDTH, LEFT, RIGHT = 760, 130, 96  # the template draws to the same measures
+WIDTH, LEFT, RIGHT = 900, 250, 110  # the template draws to the same measures
 LANE, ROW_PADDING = 9, 10  # every engine has a lane of its own in a check's row, so that no mark covers another
 TOP, BOTTOM = 22, 40
 ZERO_ROOM = 44  # for errors that are exactly zero, left of the logarithmic axis
@@ -156,3 +156,70 @@ def _allowed(results: Sequence[Result]) -> str:
     if len(bounds) > 1:
         return f"{figure(bounds[0])} … {figure(bounds[-1])} {unit}"
     return f"{figure(bounds[0])} {unit}"
+
+
+# Small drawing of one horizon, in the units of its own viewBox; the template draws to the same measures.
+HORIZON_WIDTH, HORIZON_HEIGHT, HORIZON_LEFT, HORIZON_BOTTOM = 230, 130, 34, 18
+HORIZON_DECADES = (-16, 1)  # rad
+
+
+@dataclass(frozen=True)
+class HorizonPlot:
+    """Predicted and measured error over time, as points of two lines, for one engine, integrator and step."""
+
+    title: str
+    predicted: str
+    measured: str
+    end: float  # s
+    ticks: tuple[tuple[float, int], ...]  # y, exponent of ten
+    words: str
+
+
+def draw_horizons(results: Sequence[Result]) -> tuple[HorizonPlot, ...]:
+    """One for each result that carries its errors over time."""
+    return tuple(_horizon(result) for result in results if _history(result))
+
+
+def _history(result: Result) -> list[tuple[float, float | None, float | None]]:
+    found = result.details.get("errors over time")
+    rows = found if isinstance(found, list) else []
+    return [(row[0], row[1], row[2]) for row in rows if isinstance(row, list) and len(row) == 3 and _number(row[0])]
+
+
+def _number(value: object) -> bool:
+    return isinstance(value, float | int) and not isinstance(value, bool)
+
+
+def _horizon(result: Result) -> HorizonPlot:
+    rows = _history(result)
+    end = max(float(time) for time, _, _ in rows) or 1.0
+    return HorizonPlot(
+        title=printable(f"{result.engine} {result.check.removeprefix('horizon ')}, {figure(_step(result))} s"),
+        predicted=_line(rows, 1, end),
+        measured=_line(rows, 2, end),
+        end=end,
+        ticks=tuple((_height(10.0**exponent), exponent) for exponent in (-15, -10, -5, 0)),
+        words=result.reason,
+    )
+
+
+def _step(result: Result) -> float | None:
+    step = result.details.get("step")
+    return step if isinstance(step, float) else None
+
+
+def _line(rows: Sequence[tuple[float, float | None, float | None]], column: int, end: float) -> str:
+    """Points of an SVG polyline; times without a figure are left out."""
+    width = HORIZON_WIDTH - HORIZON_LEFT - 6
+    points = []
+    for row in rows:
+        value = row[column]
+        if value is not None and _number(value) and value > 0:
+            points.append(f"{HORIZON_LEFT + width * row[0] / end:.1f},{_height(float(value)):.1f}")
+    return " ".join(points)
+
+
+def _height(error: float) -> float:
+    low, high = HORIZON_DECADES
+    share_up = (min(max(math.log10(error), low), high) - low) / (high - low)
+    return round((HORIZON_HEIGHT - HORIZON_BOTTOM) * (1 - share_up) + 4 * share_up, 1)

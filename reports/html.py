@@ -9,12 +9,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..models.result import Outcome, Result, SceneEntry
-from .drawings import ErrorPlot, Mechanism, draw_errors, draw_mechanism
+from .drawings import ErrorPlot, HorizonPlot, Mechanism, draw_errors, draw_horizons, draw_mechanism
 from .report import Cell, Report, against
 from .words import GLYPHS, LEGEND, count, few, figure, last_line, printable, tally
 
 if TYPE_CHECKING:
     from jinja2 import Environment
+
+DRAWN = ("traceback", "errors over time")  # further figures that stand elsewhere on the page
 
 TEMPLATES = Path(__file__).parent / "templates"
 
@@ -46,6 +48,17 @@ class SceneView:
     def outcomes(self) -> list[Outcome]:
         """Which of the four there are."""
         return [outcome for outcome in GLYPHS if any(result.outcome == outcome for result in self.results)]
+
+    @cached_property
+    def horizons(self) -> tuple[HorizonPlot, ...]:
+        """Errors over time, predicted and measured, where a run followed them."""
+        return draw_horizons(self.results)
+
+    @property
+    def lyapunov_time(self) -> float | None:
+        """Seconds in which a small difference grows e-fold, where some check found it."""
+        times = [result.details.get("Lyapunov time") for result in self.results]
+        return next((time for time in times if isinstance(time, float)), None)
 
     @cached_property
     def checks(self) -> list[str]:
@@ -152,7 +165,7 @@ def _in_words(cell: Cell) -> str:
 
 
 def _keys(results: Sequence[Result]) -> list[str]:
-    return [key for key in dict.fromkeys(key for result in results for key in result.details) if key != "traceback"]
+    return [key for key in dict.fromkeys(key for result in results for key in result.details) if key not in DRAWN]
 
 
 def _value(value: object) -> object:

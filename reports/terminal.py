@@ -47,7 +47,7 @@ def print_report(
     style = {AGREES: STYLES["agrees"], DIFFERS: STYLES["differs"]}.get(report.exit_status, STYLES["error"])
     page.line(report.verdict, f"bold {style}")
     if report.kept:
-        page.line(f"{count(report.kept, 'result')} kept from an earlier run with the same inputs (--no-cache runs them).")
+        page.line(f"{count(report.kept, 'result')} kept from an earlier run of the same inputs; --no-cache runs all.")
     if path is not None:
         page.line(f"Report: {path}")
 

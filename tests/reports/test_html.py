@@ -229,3 +229,14 @@ def test_contrast_in_both_themes(make, theme):
         assert contrast(palette[outcome], palette[f"{outcome}-paper"]) >= 4.5
     for i in range(8):
         assert contrast(palette[f"e{i}"], palette["paper"]) >= 3
+
+
+def test_errors_over_time_are_drawn_once_and_not_listed(make):
+    history = [[1.0, 1e-6, 2e-6], [2.0, 1e-3, None], [3.0, None, "x"], ["no", 1, 1], 7]
+    details = {"errors over time": history, "step": 0.01, "Lyapunov time": 0.5}
+    page = to_html(make.report(make.result(check="horizon RK4", details=details)))
+    line = '<polyline class="{}" points="([^"]*)"'
+    plot = [re.findall(line.format(word), page)[0] for word in ("measured", "predicted")]
+    assert [len(points.split()) for points in plot] == [1, 2]
+    assert "Lyapunov time</dt><dd>0.5 s" in page
+    assert "errors over time</th>" not in page
