@@ -198,8 +198,8 @@ def _range(values: Sequence[float], log: bool) -> tuple[float, float]:
 def _ticks(span: tuple[float, float], log: bool) -> list[tuple[float, str]]:
     low, high = span
     if log:
-        step = max(1, math.ceil((high - low) / 8))
-        return [(float(e), f"1e{e}".replace("-", "−")) for e in range(round(low), round(high) + 1, step)]
+        decades = max(1, math.ceil((high - low) / 8))
+        return [(float(e), f"1e{e}".replace("-", "−")) for e in range(round(low), round(high) + 1, decades)]
     step = 10.0 ** math.floor(math.log10((high - low) / 4))
     step *= next(m for m in (1, 2, 5, 10) if (high - low) / (step * m) <= 6)
     first = math.ceil(low / step - 1e-9)

@@ -215,3 +215,42 @@ def test_quiet_in_a_pipe_and_one_document_of_json(tmp_path):
     assert done.stderr == b""
     assert json.loads(done.stdout)["frontiers"][0]["axis"] == "long-legs"
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["chain.html", "stress.html", STREAM]
+
+
+def test_a_person_is_told_the_frontiers(tmp_path):
+    arguments = ["--axis", "long-rods", "--axis", "condition", "-e", "document", "-e", "mujoco", "--out", "out"]
+    done = subprocess.run(
+        [sys.executable, "-m", "furiko", "stress", *arguments],
+        capture_output=True,
+        cwd=tmp_path,
+        timeout=60,
+        check=False,
+        text=True,
+    )
+    assert done.returncode == 0
+    assert done.stderr == ""
+    (row,) = (line for line in done.stdout.splitlines() if line.startswith("long-rods"))
+    assert row.split() == ["long-rods", "holds", "to", "1e+06", "m", "1e+04", "m"]
+    # Featherstone's law: a chain stretched out in relative coordinates.
+    (law,) = (line for line in done.stdout.splitlines() if line.startswith("straight chain") and "relative" in line)
+    assert float(law.split("n^")[1]) == pytest.approx(4, abs=0.1)
+    assert "page: out/stress.html" in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["--axis", "long-rod"], "did you mean 'long-rods'"),
+        (["-e", "mujocco"], "did you mean 'mujoco'"),
+        (["--budget", "0"], "--budget"),
+    ],
+)
+def test_bad_usage_is_one_clear_line(arguments, told, tmp_path):
+    done = subprocess.run(
+        [sys.executable, "-m", "furiko", "stress", *arguments],
+        capture_output=True, cwd=tmp_path, timeout=60, check=False, text=True,
+    )  # fmt: skip
+    assert done.returncode == 2
+    (line,) = done.stderr.splitlines()
+    assert told in line
+    assert list(tmp_path.iterdir()) == []
