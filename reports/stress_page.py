@@ -37,6 +37,7 @@ def stress_page(summary: Data, header: Header) -> str:
         summary=summary,
         header=header,
         engines=engines,
+        half=2.0**-26,
         rows=_by_axis(single, engines),
         pairs=[f for f in summary["frontiers"] if f["pair"] and f["status"] == "fails"],
         pairs_asked=sum(f["pair"] for f in summary["frontiers"]),

@@ -13,7 +13,10 @@ HEADER = Header(
     machine={}, versions={"numpy": "2"}, scenes=[], engines=[],
 )  # fmt: skip
 
-POINT = {"at": "1 m", "worst error": 1e-15, "digits": 15.0, "one ulp does": 1e-16, "condition": 10.0, "failure": None}
+POINT = {
+    "at": "1e+04 m", "worst error": 1e-3, "digits": 15.5, "one ulp does": 1e-16, "condition": 10.0,
+    "error over ε·cond": 0.25, "failure": None,
+}  # fmt: skip
 
 
 def frontier(**changes):
@@ -116,6 +119,8 @@ def test_the_stress_page_says_what_was_found():
         "✗ from 1e+04 m",
         "✓ to 3160 m",
         "2 questions",
+        "15.5 digits left, 0.25 ε·cond",
+        "worst state 1.0e-3",
         "energy runs away",
         "random walk",
         "n<sup>1.00</sup>",
