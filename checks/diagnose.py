@@ -20,11 +20,12 @@ from ..models import InvalidInput, PlanarTree
 from ..models.mechanism import Hinge, Mechanism, mechanism_of
 from ..models.model_file import ModelFile, read_model
 from ..reference import planar
-from .differences import degrees_in_file, differences, suspects
+from .differences import differences
 from .explain import explain, mechanism_from
 from .finding import CAUSES, Finding, joint
 from .matching import mirrored, natural_turns, orders, rearranged, same_motion, without_hinge
 from .measurement import Array, Measurement, measure, probe_states
+from .suspects import degrees_in_file, suspects
 
 PASSIVE = {"damping": "damping-ignored", "friction": "friction-ignored", "stiffness": "stiffness-ignored"}
 ALTOGETHER = 40  # findings shown for one engine, at most
@@ -131,10 +132,9 @@ def _with_gravity(file: ModelFile, wanted: Mechanism | None) -> ModelFile:
     ratio = strength / float(np.hypot(*file.mechanism.gravity)) if any(file.mechanism.gravity) else 0.0
     old = file.mechanism
     vector = tuple(ratio * x if ratio else 0.0 for x in old.gravity_vector)
-    if abs(old.gravity[0] * ratio - strength) <= 1e-12 * strength:
+    along = old.gravity[0] * ratio
+    if abs(along - strength) <= 1e-12 * strength:
         along = strength
-    else:
-        along = old.gravity[0] * ratio
     if vector[0] == 0 and vector[1] == 0:
         vector = (0.0, 0.0, -strength)
     changed = replace(old, gravity=(along, 0.0), gravity_vector=vector)
@@ -248,7 +248,7 @@ def _why(
         found = _compiled(held, file, theory, measured, reader.name)
         if found:
             return found
-    return explain(viewed, theory, who=reader.name)
+    return explain(viewed, theory, who=reader.name, slight=False)
 
 
 def _by_switching_off(reader: Reader, engine: FileEngine, viewed: _View, theory: Mechanism) -> Iterator[Finding]:
@@ -275,7 +275,8 @@ def _compiled(held: Mechanism, file: ModelFile, theory: Mechanism, measured: Mea
         acting = replace(held, hinges=tuple(replace(hinge, **nothing) for hinge in held.hinges))  # type: ignore[arg-type]
         if measured.worst(planar.parameters(acting)) <= 1:
             stops = tuple(replace(h, stops=w.stops) for h, w in zip(acting.hinges, theory.hinges, strict=True))
-            return differences(replace(acting, hinges=stops), theory, who, "the file says", suspects(file))
+            named = differences(replace(acting, hinges=stops), theory, who, "the file says", suspects(file))
+            return _weighed(file, named, who) + named
     return []
 
 
@@ -288,7 +289,7 @@ def _vote(file: ModelFile, asked: list[_Asked]) -> list[Finding]:
         assert first is not None
         size = np.abs(first).max(axis=1, keepdims=True)
         alike = all(
-            a.accelerations is not None and (np.abs(a.accelerations - first) <= 1e-9 * size).all() for a in differing
+            a.accelerations is not None and (np.abs(a.accelerations - first) <= 1e-7 * size).all() for a in differing
         )
         if alike:
             names = ", ".join(a.name for a in ran)
@@ -338,7 +339,7 @@ def _weight(findings: list[Finding]) -> tuple[int, int]:
     return len({finding.where for finding in named}), len(named)
 
 
-def _weighed(file: ModelFile, findings: list[Finding]) -> list[Finding]:
+def _weighed(file: ModelFile, findings: list[Finding], who: str = "the file") -> list[Finding]:
     """Where bodies get their inertials from their geoms and differ, that is what to look at first."""
     by_link = {"mass", "inertia", "com-displaced", "inertial-com-rotated", "length"}
     if not file.from_geoms:
@@ -346,9 +347,15 @@ def _weighed(file: ModelFile, findings: list[Finding]) -> list[Finding]:
     if not any(finding.cause in by_link for finding in findings):
         return []
     passed = [name for name in file.from_geoms if name in file.tensors]
-    why = "the compiler is told to (inertiafromgeom), and passes the inertials over" if passed else "they have no inertial"
+    why = (
+        "the compiler is told to (inertiafromgeom), and passes the inertials over"
+        if passed
+        else "they have no inertial"
+    )
     names = ", ".join(file.from_geoms[:3]) + (" …" if len(file.from_geoms) > 3 else "")
-    says = f"the file: {names}: mass and inertia are those of the geoms: {why}"
+    says = f"{who}: {names}: mass and inertia are those of the geoms: {why}"
+    if who != "the file":
+        says = f"{who}: {names}: the file gives no inertial, and this engine weighs their geoms otherwise"
     return [Finding("inertia-from-geoms", f"link {names}", None, None, says)]
 
 
@@ -375,7 +382,9 @@ def _gravity_turned(found: Mechanism, wanted: Mechanism, others: list[Finding]) 
     if any(abs(angle) < 1e-9 for angle in angles) or any("gravity" in f.cause for f in others):
         return []
     askew = min((float(np.degrees(a)) for a in angles), key=abs)
-    says = f"the file: gravity {tuple(found.gravity_vector)} lies askew to the axes along which the links hang, by {askew:.6g}°"
+    says = (
+        f"the file: gravity {found.gravity_vector} lies askew to the axes along which the links hang, by {askew:.6g}°"
+    )
     return [Finding("gravity-turned", "gravity", askew, 0.0, says)]
 
 

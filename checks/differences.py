@@ -3,26 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator
 
 import numpy as np
 
-from ..models.mechanism import Mechanism, Plane
-from ..models.model_file import ModelFile
-from ..models.spatial import NOTHING, Inertial, Pose
+from ..models import Link
+from ..models.mechanism import Mechanism
 from .finding import Finding, amount, degrees_for_radians, joint, link
+from .suspects import ALIKE, Suspects, suspect
+from .suspects import SAYS as SUSPECTED
 
 SAME = 1e-13  # relative: some hundred roundings
-ALIKE = 1e-9  # relative: a pattern is recognised within this
-
-
-@dataclass(frozen=True)
-class Suspects:
-    """What each link's inertial would be for each way in which readers of files go wrong: cause → links → (mass,
-    (along, across) of the centre, inertia)."""
-
-    wrong: Mapping[str, Mapping[int, tuple[float, tuple[float, float], float]]] = field(default_factory=dict)
 
 
 def differences(
@@ -86,7 +77,7 @@ def _gravity(found: Mechanism, expected: Mechanism, who: str, asked: str) -> Ite
             "gravity",
             size,
             right,
-            f"{who}: gravity leans out of the plane of motion, in which {amount(size)} of {amount(whole)} m/s² are left; "
+            f"{who}: gravity leans out of the plane of motion, in which {amount(size)} of {amount(whole)} m/s² remain; "
             f"{asked} {amount(right)}",
         )
     else:
@@ -114,9 +105,9 @@ def _links(found: Mechanism, expected: Mechanism, who: str, asked: str, suspects
         if not (moved or heavier or stiffer):
             continue
         name = link(expected, i)
-        cause = _suspect(i, got, suspects)
+        cause = suspect(i, got, suspects)
         if cause is not None:
-            yield Finding(cause, name, _inertial(got), _inertial(wanted), f"{who}: {name}: {_SUSPECTED[cause]}")
+            yield Finding(cause, name, _inertial(got), _inertial(wanted), f"{who}: {name}: {SUSPECTED[cause]}")
         ratio = got.mass / wanted.mass if wanted.mass else math.inf
         if heavier:
             extra = _ratio(got.mass, wanted.mass)
@@ -145,11 +136,12 @@ def _lengths(found: Mechanism, expected: Mechanism, who: str, asked: str) -> Ite
             size, right = math.hypot(*got), math.hypot(*wanted)
             if math.dist(got, wanted) > SAME * max(size, right, math.hypot(*expected.links[i].com)):
                 turned = abs(size - right) <= ALIKE * right
-                says = f"{who}: length of {link(expected, i)} to {joint(expected, c)} is {amount(size)}, {asked} {amount(right)} m"
+                name, other = link(expected, i), joint(expected, c)
+                says = f"{who}: length of {name} to {other} is {amount(size)}, {asked} {amount(right)} m"
                 if turned:
                     off = math.degrees(math.atan2(got[1], got[0]) - math.atan2(wanted[1], wanted[0]))
-                    says = f"{who}: {joint(expected, c)} is at the right distance on {link(expected, i)}, turned by {amount(off)}°"
-                yield i, Finding("length", link(expected, i), size, right, says + _ratio(size, right))
+                    says = f"{who}: {other} is at the right distance on {name}, turned by {amount(off)}°"
+                yield i, Finding("length", name, size, right, says + _ratio(size, right))
                 break
 
 
@@ -164,7 +156,8 @@ def _moved(
         says = f"{who}: centre of mass of {name} is turned by {amount(off)}° about the hinge"
         return Finding("inertial-com-rotated", name, str(got), str(wanted), says)
     if bob and in_line:  # the length of a point mass's rod is its distance
-        says = f"{who}: length of {name} (hinge to point mass) is {amount(size)}, {asked} {amount(right)} m{_ratio(size, right)}"
+        says = f"{who}: length of {name} (hinge to point mass) is {amount(size)}, {asked} {amount(right)} m"
+        says += _ratio(size, right)
         return Finding("length", name, size, right, says)
     says = f"{who}: centre of mass of {name} is at {_point(got)} m, {asked} {_point(wanted)} m (along, across)"
     return Finding("com-displaced", name, str(got), str(wanted), says)
@@ -176,7 +169,8 @@ def _stiffer(name: str, got: float, wanted: float, who: str, asked: str) -> Find
             f"{who}: {name} has an inertia of {amount(got)} kg m² about its centre of mass, a point mass was asked for"
         )
         return Finding("point-mass-patched", name, got, wanted, says)
-    says = f"{who}: inertia of {name} about the hinge axis is {amount(got)}, {asked} {amount(wanted)} kg m²{_ratio(got, wanted)}"
+    says = f"{who}: inertia of {name} about the hinge axis is {amount(got)}, {asked} {amount(wanted)} kg m²"
+    says += _ratio(got, wanted)
     return Finding("inertia", name, got, wanted, says)
 
 
@@ -238,115 +232,8 @@ def _degrees(name: str, word: str, got: float, wanted: float, who: str) -> Findi
     return Finding("degree-vs-radian", name, got, wanted, says)
 
 
-_SUSPECTED = {
-    "urdf-inertial-rpy-lost": "its inertia is that of the tensor without its rotation",
-    "inertial-com-rotated": "its centre of mass is turned by the rotation that is meant for the tensor alone",
-    "fused-static-frame": "what is fixed to it was added as if the fixed joint were not turned",
-    "inertia-from-geoms": "mass and inertia are those of its geoms, not those of its inertial",
-    "inertial-ignored": "mass and inertia are default values, not those of its inertial",
-}
-
-
-def _suspect(i: int, got: object, suspects: Suspects) -> str | None:
-    """The first way of going wrong that gives exactly what was found."""
-    mass, com, inertia = got.mass, got.com, got.inertia  # type: ignore[attr-defined]
-    for cause, links in suspects.wrong.items():
-        if i not in links:
-            continue
-        m, c, inert = links[i]
-        size = max(math.hypot(*c), 1e-12)
-        near = abs(mass - m) <= ALIKE * max(m, 1e-300) and abs(inertia - inert) <= ALIKE * max(
-            inert, m * size * size * 1e-3, 1e-300
-        )
-        if near and (math.dist(com, c) <= ALIKE * size or m == 0):
-            return cause
-    return None
-
-
-def suspects(file: ModelFile, own: bool = False) -> Suspects:
-    """Each way in which a reader of this file may go wrong, and what each link would be then.
-
-    ``own``: it is the file itself that is held against something: then what its geoms weigh may be what is wrong.
-    """
-    rotation_lost, turned, fused, drawn, ignored = {}, {}, {}, {}, {}
-    right = _links_of(file, lambda body: body.inertial)
-    lost = _links_of(file, lambda body: _lost(file, body.name, body.inertial))
-    com = _links_of(file, lambda body: _com_turned(file, body.name, body.inertial))
-    unfused = _links_of(file, lambda body: body.inertial, turn_fixed=False)
-    geoms = _links_of(file, lambda body: file.geoms.get(body.name, NOTHING))
-    unit = _links_of(file, lambda body: Inertial(1.0, np.zeros(3), np.eye(3)))
-    for i, value in right.items():
-        for found, place in ((lost, rotation_lost), (com, turned), (unfused, fused), (geoms, drawn), (unit, ignored)):
-            if not _near(found[i], value):
-                place[i] = found[i]
-    if file.from_geoms:
-        drawn = {i: geoms[i] for i in right} if own else {}
-    wrong = {
-        "urdf-inertial-rpy-lost": rotation_lost,
-        "inertial-com-rotated": turned,
-        "fused-static-frame": fused,
-        "inertia-from-geoms": drawn,
-        "inertial-ignored": ignored,
-    }
-    return Suspects({cause: links for cause, links in wrong.items() if links})
-
-
-def _near(a: tuple[float, tuple[float, float], float], b: tuple[float, tuple[float, float], float]) -> bool:
-    flat_a, flat_b = (a[0], *a[1], a[2]), (b[0], *b[1], b[2])
-    return all(abs(x - y) <= ALIKE * max(abs(x), abs(y)) + 1e-15 for x, y in zip(flat_a, flat_b, strict=True))
-
-
-def _lost(file: ModelFile, name: str, right: Inertial) -> Inertial:
-    if name not in file.tensors:
-        return right
-    unturned, _ = file.tensors[name]
-    return Inertial(right.mass, right.centre, unturned.tensor)
-
-
-def _com_turned(file: ModelFile, name: str, right: Inertial) -> Inertial:
-    if name not in file.tensors:
-        return right
-    _, turn = file.tensors[name]
-    return Inertial(right.mass, turn @ right.centre, right.tensor)
-
-
-def _links_of(
-    file: ModelFile, inertial: object, turn_fixed: bool = True
-) -> dict[int, tuple[float, tuple[float, float], float]]:
-    """Mass, centre and inertia of each link with other inertials for the bodies."""
-    plane: Plane = file.plane
-    poses: list[Pose] = []
-    link_of: list[int] = []
-    totals: list[Inertial] = []
-    anchors: list[np.ndarray] = []
-    here = Pose(np.eye(3), np.zeros(3))
-    seen: list[Pose] = []
-    for body in file.bodies:
-        carrier, carrying, at = (
-            (poses[body.parent], link_of[body.parent], seen[body.parent]) if body.parent >= 0 else (here, -1, here)
-        )
-        pose = carrier @ body.pose
-        fixed = not body.hinges and carrying >= 0
-        looks = Pose(at.turn, (at @ body.pose).shift) if fixed and not turn_fixed else at @ body.pose
-        for hinge in body.hinges:
-            totals.append(NOTHING)
-            anchors.append(pose.point(hinge.anchor))
-            carrying = len(totals) - 1
-            looks = pose
-        poses.append(pose)
-        seen.append(looks)
-        link_of.append(carrying)
-        if carrying >= 0:
-            totals[carrying] = totals[carrying] + inertial(body).seen_from(looks)  # type: ignore[operator]
-    found = {}
-    for i, (total, anchor) in enumerate(zip(totals, anchors, strict=True)):
-        com = plane.point(total.centre - anchor) if total.mass else (0.0, 0.0)
-        found[i] = (total.mass, com, float(plane.axis @ total.tensor @ plane.axis))
-    return found
-
-
-def _inertial(found: object) -> str:
-    return f"{found.mass:.9g} kg at {_point(found.com)} m, {found.inertia:.9g} kg m²"  # type: ignore[attr-defined]
+def _inertial(found: Link) -> str:
+    return f"{found.mass:.9g} kg at {_point(found.com)} m, {found.inertia:.9g} kg m²"
 
 
 def _point(p: tuple[float, float]) -> str:
@@ -363,29 +250,3 @@ def _ratio(got: float, wanted: float) -> str:
         if abs(ratio / factor - 1) < 1e-9:
             return f" (a factor of {factor:g}{', ' + words if words else ''})"
     return f" (a factor of {ratio:.12g})"
-
-
-def degrees_in_file(file: ModelFile) -> Iterator[Finding]:
-    """Angles of a file in degrees that were surely meant in radians: limits less than a few degrees about zero that are
-    round fractions of π when read the other way."""
-    if file.language != "mjcf":
-        return
-    for i, hinge in enumerate(file.mechanism.hinges):
-        if hinge.stops is None:
-            continue
-        ends = [end * 180 / math.pi for end in hinge.stops]
-        widest = max(map(abs, ends))
-        if widest <= 2 * math.pi + 1e-3 and any(_part_of_pi(end) for end in ends if end):
-            name = joint(file.mechanism, i)
-            says = (
-                f"the file: {name}: range {ends[0]:.6g} to {ends[1]:.6g} is read in degrees, MJCF's default; it looks like "
-                "radians: say <compiler angle='radian'/>"
-            )
-            yield Finding("degree-vs-radian", name, hinge.stops[1], ends[1], says)
-
-
-def _part_of_pi(angle: float) -> bool:
-    return any(
-        abs(abs(angle) * k / math.pi - round(abs(angle) * k / math.pi)) < 2e-3 and abs(angle) > 0.2
-        for k in (1, 2, 3, 4, 6)
-    )

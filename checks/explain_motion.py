@@ -21,7 +21,7 @@ from ..reference import planar
 from ..reference.planar import Parameters
 from ..reference.schemes import SCHEMES, Scheme
 from .explain import mechanism_from
-from .finding import Finding, amount
+from .finding import Finding
 from .measurement import Array, Measurement, probe_states
 from .rounding import EPSILON
 
@@ -64,7 +64,21 @@ def explain_motion(
 
     fitting = _fitting(runs, accelerations, integrator.order)
     if fitting is not None:
-        return _scheme(fitting, integrator, mechanism, p, who, parted)
+        return _scheme(fitting, integrator, who, parted)
+    return _not_a_scheme(engine, mechanism, p, runs, accelerations, integrator, who, parted)
+
+
+def _not_a_scheme(
+    engine: Any,
+    mechanism: Mechanism,
+    p: Parameters,
+    runs: _Runs,
+    accelerations: Any,
+    integrator: Integrator,
+    who: str,
+    parted: bool,
+) -> list[Finding]:
+    """Why a step is none of the textbook schemes'."""
     for hypothesis in (_late, _implicit_damping, _hidden_damping, _narrow):
         found = list(hypothesis(runs, accelerations, mechanism, p, integrator, who))
         if found:
@@ -75,7 +89,10 @@ def explain_motion(
     if found:
         return found
     miss, scheme = min(((_miss(runs, s, accelerations), s.name) for s in SCHEMES), key=lambda pair: pair[0])
-    says = f"{who}: {integrator.name}: a step is no textbook scheme's; nearest is {scheme}, {miss:.3g} times what rounding explains"
+    says = (
+        f"{who}: {integrator.name}: a step is no textbook scheme's; nearest is {scheme}, {miss:.3g} times what "
+        "rounding explains"
+    )
     return [Finding("unexplained", f"{who}, {integrator.name}", miss, 1.0, says)]
 
 
@@ -89,7 +106,8 @@ def _run(engine: Any, m: Mechanism, p: Parameters, integrator: Integrator) -> _R
         rows = [engine.trajectory(t, w, integrator.name, step, steps) for t, w in zip(theta, omega, strict=True)]
         ends.append(np.array(rows).swapaxes(0, 1))
     rounding = _acceleration_error(m, p, theta, omega, alpha)
-    rates = MARGIN * step * rounding + 1e-11 * step * np.abs(alpha).max(axis=1, keepdims=True) + 64 * EPSILON * np.abs(omega)
+    iterations = 1e-11 * step * np.abs(alpha).max(axis=1, keepdims=True)  # where an implicit scheme stops
+    rates = MARGIN * step * rounding + iterations + 64 * EPSILON * np.abs(omega)
     bound = np.stack([step * rates + 64 * EPSILON * np.abs(theta), rates])
     return _Runs(step, np.stack([theta, omega]), ends[0], ends[1], bound)
 
@@ -108,7 +126,7 @@ def _acceleration_error(m: Mechanism, p: Parameters, theta: Array, omega: Array,
 
 
 def _fitting(runs: _Runs, accelerations: Any, order: int) -> Scheme | None:
-    """The scheme whose step it is; of several that this step cannot tell apart one of the expected order, if there is."""
+    """The scheme whose step it is; of several alike in this step one of the expected order."""
     found = [(s.order < order, miss, s) for s in SCHEMES if (miss := _miss(runs, s, accelerations)) <= 1]
     return min(found, key=lambda found: found[:2])[2] if found else None
 
@@ -125,12 +143,10 @@ def _miss(runs: _Runs, scheme: Scheme, accelerations: Any, end: Array | None = N
     return worst if math.isfinite(worst) else math.inf
 
 
-def _scheme(
-    scheme: Scheme, integrator: Integrator, m: Mechanism, p: Parameters, who: str, parted: bool
-) -> list[Finding]:
+def _scheme(scheme: Scheme, integrator: Integrator, who: str, parted: bool) -> list[Finding]:
     where = f"{who}, {integrator.name}"
     if scheme.order < integrator.order:
-        says = f"{who}: {integrator.name}: its step is {scheme.name}, of order {scheme.order}; order {integrator.order} was expected"
+        says = f"{who}: {integrator.name}: its step is {scheme.name}, of order {scheme.order}, not {integrator.order}"
         return [Finding("first-order-integrator", where, scheme.order, integrator.order, says)]
     if not parted:
         return []
@@ -139,8 +155,8 @@ def _scheme(
 
 def _chaos(integrator: Integrator, shown: str, who: str) -> Finding:
     says = (
-        f"{who}: {integrator.name}: accelerations agree and {shown}: the same mechanism; what neighbouring runs part by "
-        "is the motion's own growth of small errors"
+        f"{who}: {integrator.name}: accelerations agree and {shown}: the same mechanism; what neighbouring runs part "
+        "by is the motion's own growth of small errors"
     )
     return Finding("chaos-only", f"{who}, {integrator.name}", None, None, says)
 
@@ -158,9 +174,8 @@ def _converges(engine: Any, m: Mechanism, accelerations: Any, runs: _Runs, integ
         state = np.asarray(made[0], dtype=np.float64), np.asarray(made[1], dtype=np.float64)
     for finer in (1, 4):
         steps = 16 * finer
-        ends = [
-            engine.trajectory(t, w, integrator.name, runs.step / finer, steps)[0] for t, w in zip(theta, omega, strict=True)
-        ]
+        step, starts = runs.step / finer, zip(theta, omega, strict=True)
+        ends = [engine.trajectory(t, w, integrator.name, step, steps)[0] for t, w in starts]
         errors.append(float(np.abs(np.array(ends) - state[0]).max()))
     return errors[0] < 0.1 and errors[1] * 4 ** (integrator.order - 0.5) <= errors[0]
 
@@ -175,7 +190,10 @@ def _late(
         return
     second = [s for s in SCHEMES if _late_miss(runs, s, accelerations, parts) <= 1]
     if second:
-        says = f"{who}: {integrator.name}: {' and '.join(parts)} come one step late: after two steps they are what {second[0].name} gives after one"
+        says = (
+            f"{who}: {integrator.name}: {' and '.join(parts)} come one step late: after two steps they are what "
+            f"{second[0].name} gives after one"
+        )
         yield Finding("stale-derived-state", f"{who}, {integrator.name}", -1.0, 0.0, says)
 
 
@@ -229,7 +247,10 @@ def _hidden_damping(
         middle = float(np.median(share))
         if float(np.quantile(np.abs(share - middle), 0.9)) <= 0.1 * abs(middle) and middle < 0:
             rate = -middle
-            says = f"{who}: {integrator.name}: rates are damped by {rate:.4g} of themselves a second, which accelerations do not show"
+            says = (
+                f"{who}: {integrator.name}: rates are damped by {rate:.4g} of themselves a second, which accelerations "
+                "do not show"
+            )
             yield Finding("damping", where, rate, 0.0, says)
             return
         torque = (planar.mass_matrix(m.parents, p, theta) @ (off / runs.step)[..., None])[..., 0]
@@ -243,7 +264,10 @@ def _hidden_damping(
         if (spread <= 0.2 * np.abs(coefficients.mean(axis=0))).all() and (coefficients > 0).all():
             worst = int(coefficients.mean(axis=0).argmax())
             value = float(np.median(coefficients[:, worst]))
-            says = f"{who}: {integrator.name}: joint {worst + 1} is damped by about {value:.4g} N m s in each step, which accelerations do not show"
+            says = (
+                f"{who}: {integrator.name}: joint {worst + 1} is damped by about {value:.4g} N m s in each step, which "
+                "accelerations do not show"
+            )
             yield Finding("damping", where, value, 0.0, says)
             return
 
@@ -271,8 +295,8 @@ def _dissipation(
     loss = (change - due) / size
     if (loss < -1e3 * EPSILON).all():
         says = (
-            f"{who}: {integrator.name}: accelerations agree, yet a step of {runs.step:g} s loses {amount(float(-np.median(loss)))} "
-            "of the kinetic energy: what keeps the constraints takes it"
+            f"{who}: {integrator.name}: accelerations agree, yet a step of {runs.step:g} s loses "
+            f"{float(-np.median(loss)):.3g} of the kinetic energy: what keeps the constraints takes it"
         )
         yield Finding("constraint-dissipation", f"{who}, {integrator.name}", float(np.median(loss)), 0.0, says)
 
@@ -315,8 +339,8 @@ def _reset(engine: Any, m: Mechanism, integrator: Integrator, who: str) -> list[
                 return []
         if all(np.isfinite(end).all() for end in ends) and (ends[0] == ends[1]).all():
             says = (
-                f"{who}: {integrator.name}: after {steps} steps of {step:.3g} s, far too long, two different starts are in the "
-                "very same state: the engine has put itself back and says nothing"
+                f"{who}: {integrator.name}: after {steps} steps of {step:.3g} s, far too long, two different starts are"
+                " in the very same state: the engine has put itself back and says nothing"
             )
             return [Finding("silent-reset", f"{who}, {integrator.name}", steps, None, says)]
     return []

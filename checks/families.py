@@ -7,7 +7,7 @@ nothing is left that rounding does not explain.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -58,21 +58,21 @@ def added(cause: str, entries: Sequence[tuple[str, int]], p: Parameters, size: f
 
     def apply(base: Parameters, x: Array) -> Parameters:
         items = dict(base.items())
-        for column, (name, link) in enumerate(entries):
+        for column, (name, at) in enumerate(entries):
             unit = np.zeros(base.items()[name].shape[-1])
-            unit[link] = 1.0
+            unit[at] = 1.0
             items[name] = items[name] + x[..., column, None] * unit
         return Parameters(**items)
 
     sizes = []
-    for name, link in entries:
+    for name, _ in entries:
         value = float(np.max(np.abs(p.items()[name])))
         sizes.append(value or size)
     names, links = zip(*entries, strict=True)
     return Family(cause, apply, tuple(names), tuple(links), np.array(sizes))
 
 
-def scaled(cause: str, powers: dict[str, tuple[Sequence[int], int]], link: int, label: str) -> Family:
+def scaled(cause: str, powers: Mapping[str, tuple[Sequence[int], int]], link: int, label: str) -> Family:
     """One factor 1 + x on several parameters: name → (links, power of the factor)."""
 
     def apply(base: Parameters, x: Array) -> Parameters:
@@ -88,7 +88,7 @@ def scaled(cause: str, powers: dict[str, tuple[Sequence[int], int]], link: int, 
 
 
 def unnormalised(link: int, n: int, parents: tuple[int, ...]) -> Family:
-    """Joint ``link`` turns by (cos, sin) of length 1 + x: all that it carries feels motion and gravity that much more."""
+    """Joint ``link`` turns by (cos, sin) of length 1 + x: what it carries feels motion and gravity so much more."""
     carried = [j for j in range(n) if _carried_by(j, link, parents)]
 
     def apply(base: Parameters, x: Array) -> Parameters:
@@ -138,18 +138,18 @@ def singles(mechanism: Mechanism, p: Parameters) -> list[Family]:
             scaled("mass", {"mass": ([i], 1), "inertia": ([i], 1)}, i, "mass"),
             added("inertia", [("inertia", i)], p, inertia),
         ]
-        along = {"com_along": ([i], 1), "com_across": ([i], 1)}
-        reach = {"hinge_along": (children, 1), "hinge_across": (children, 1)} if children else {}
+        along: dict[str, tuple[Sequence[int], int]] = {"com_along": ([i], 1), "com_across": ([i], 1)}
+        reach: dict[str, tuple[Sequence[int], int]] = (
+            {"hinge_along": (children, 1), "hinge_across": (children, 1)} if children else {}
+        )
         if children:
-            families.append(scaled("length", reach, i, "length"))  # type: ignore[arg-type]
-        families.append(scaled("length", along | reach, i, "length"))  # type: ignore[arg-type]
+            families.append(scaled("length", reach, i, "length"))
+        families.append(scaled("length", along | reach, i, "length"))
         if p.inertia[i]:
-            families.append(scaled("length", along | reach | {"inertia": ([i], 2)}, i, "length"))  # type: ignore[arg-type]
-            families.append(
-                scaled("length", along | reach | {"mass": ([i], 1), "inertia": ([i], 3)}, i, "length")  # type: ignore[arg-type]
-            )
+            families.append(scaled("length", along | reach | {"inertia": ([i], 2)}, i, "length"))
+            families.append(scaled("length", along | reach | {"mass": ([i], 1), "inertia": ([i], 3)}, i, "length"))
         families += [
-            scaled("com-displaced", along, i, "com"),  # type: ignore[arg-type]
+            scaled("com-displaced", along, i, "com"),
             added("com-displaced", [("com_along", i), ("com_across", i)], p, length),
         ]
         if parents[i] >= 0:
@@ -166,8 +166,8 @@ def groups(mechanism: Mechanism, p: Parameters) -> list[Family]:
     length = float(np.max(np.hypot(p.com_along, p.com_across), initial=0.0)) or 1.0
     lengths = dict.fromkeys(("com_along", "com_across", "hinge_along", "hinge_across"), (every, 1))
     families = [
-        scaled("length", lengths, -1, "every length"),  # type: ignore[arg-type]
-        scaled("length", lengths | {"inertia": (every, 2)}, -1, "every length"),  # type: ignore[arg-type]
+        scaled("length", lengths, -1, "every length"),
+        scaled("length", lengths | {"inertia": (every, 2)}, -1, "every length"),
         scaled("mass", {"mass": (every, 1), "inertia": (every, 1)}, -1, "every mass"),
         scaled("mass", {"mass": (every, 1)}, -1, "every mass"),
         scaled("inertia", {"inertia": (every, 1)}, -1, "every inertia"),

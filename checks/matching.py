@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..models.mechanism import Mechanism
-from ..models.tree import SUPPORT
+from ..models.tree import SUPPORT, Link
 from .measurement import Array
 
 MOST_LEGS = 6  # up to here all orders of the links on one link are tried
@@ -245,7 +245,9 @@ def unlike(found: Mechanism, i: int, expected: Mechanism, j: int) -> float:
 def without_hinge(m: Mechanism, k: int) -> Mechanism:
     """The mechanism with link k fixed to what carries it, at angle zero (to the support: left out)."""
     parent = m.links[k].parent
-    place, links, hinges, names = {SUPPORT: SUPPORT}, [], [], []
+    place = {SUPPORT: SUPPORT}
+    links: list[Link] = []
+    hinges, names = [], []
     lost = m.links[k]
     for i, link in enumerate(m.links):
         if i == k:
@@ -263,17 +265,11 @@ def without_hinge(m: Mechanism, k: int) -> Mechanism:
     return replace(m, links=tuple(links), hinges=tuple(hinges), link_names=tuple(names))
 
 
-def _fused(link: object, lost: object) -> object:
-    from ..models.tree import Link
-
-    assert isinstance(link, Link) and isinstance(lost, Link)
+def _fused(link: Link, lost: Link) -> Link:
     total = link.mass + lost.mass
     at = (lost.hinge[0] + lost.com[0], lost.hinge[1] + lost.com[1])
-    com = (
-        tuple((link.mass * a + lost.mass * b) / total for a, b in zip(link.com, at, strict=True))
-        if total
-        else (0.0, 0.0)
-    )
+    share = lost.mass / total if total else 0.0
+    com = (link.com[0] + share * (at[0] - link.com[0]), link.com[1] + share * (at[1] - link.com[1]))
     inertia = link.inertia + lost.inertia
     inertia += link.mass * math.dist(link.com, com) ** 2 + lost.mass * math.dist(at, com) ** 2
     return replace(link, mass=total, com=com, inertia=inertia)

@@ -21,7 +21,7 @@ from .rounding import EPSILON, allowed
 
 Array = NDArray[np.float64]
 
-# Readers of files turn frames into one another, a handful of roundings a body that the engine's own count has not in it.
+# Readers of files turn frames into one another: a handful of roundings a body that the engine's own count has not.
 READING = 4
 STATES = 32
 QUANTUM = 2.0**-30
@@ -55,7 +55,10 @@ class Measurement:
         """What rounding explains of each relative row [N m], (S, n)."""
         bound = READING * allowed(len(self.parents), self.accuracy) * EPSILON
         sizes = planar.magnitudes(self.parents, p, self.theta, self.omega, self.alpha)
-        return np.maximum(bound * sizes, 1e-290)
+        # An engine that factorises the mass matrix has its rounding there: see :mod:`.rounding`.
+        root = np.sqrt(planar.stretched_inertias(self.parents, p))
+        felt = np.abs(relative(self.parents, self.alpha)) @ root
+        return np.asarray(np.maximum(bound * np.maximum(sizes, root * felt[:, None]), 1e-290))
 
     def left_over(self, p: Parameters, scale: Array) -> Array:
         """Relative rows of (equations − torque) over ``scale``; leading axes of ``p`` come first: (…, S, n)."""
@@ -68,8 +71,8 @@ class Measurement:
 
     def only(self, chosen: NDArray[np.bool_]) -> Measurement:
         """Some of the rows."""
-        rows = (self.theta, self.omega, self.alpha, self.torque, self.forward)
-        return Measurement(self.parents, *(row[chosen] for row in rows), self.accuracy)  # type: ignore[arg-type]
+        theta, omega, alpha, torque = (rows[chosen] for rows in (self.theta, self.omega, self.alpha, self.torque))
+        return Measurement(self.parents, theta, omega, alpha, torque, self.forward[chosen], self.accuracy)
 
 
 def probe_states(mechanism: Mechanism, count: int = STATES, seed: int = 1) -> tuple[Array, Array]:
@@ -85,24 +88,30 @@ def probe_states(mechanism: Mechanism, count: int = STATES, seed: int = 1) -> tu
             low, high = hinge.stops
             margin = 0.02 * (high - low)
             phi[:, i] = generator.uniform(max(low + margin, -np.pi), min(high - margin, np.pi), count)
-    reach = max(sum(float(np.hypot(*link.hinge)) for link in mechanism.links), 1e-3)
-    natural = np.sqrt(max(float(np.hypot(*mechanism.gravity)), 1.0) / max(reach, _size(mechanism)))
+    hinges = sum(float(np.hypot(*link.hinge)) for link in mechanism.links)
+    centres = [float(np.hypot(*link.com)) for link in mechanism.links]
+    natural = np.sqrt(max(float(np.hypot(*mechanism.gravity)), 1.0) / max(hinges, *centres, 1e-3))
     rates = natural * generator.uniform(0.5, 3.0, (count, n)) * generator.choice([-1.0, 1.0], (count, n))
-    return _absolute(mechanism, _quantised(phi)), _absolute(mechanism, _quantised(rates))
-
-
-def _size(mechanism: Mechanism) -> float:
-    sizes = [float(np.hypot(*link.com)) for link in mechanism.links]
-    return max(max(sizes), 1e-3)
+    return absolute(mechanism.parents, _quantised(phi)), absolute(mechanism.parents, _quantised(rates))
 
 
 def _quantised(values: Array) -> Array:
     return np.asarray(np.round(values / QUANTUM) * QUANTUM)
 
 
-def _absolute(mechanism: Mechanism, relative: Array) -> Array:
-    found = relative.copy()
-    for i, parent in enumerate(mechanism.parents):
+def relative(parents: tuple[int, ...], values: Array) -> Array:
+    """Each link's angle (rate, acceleration) less its parent's."""
+    found = values.copy()
+    for i, parent in enumerate(parents):
+        if parent != SUPPORT:
+            found[:, i] = values[:, i] - values[:, parent]
+    return np.asarray(found)
+
+
+def absolute(parents: tuple[int, ...], values: Array) -> Array:
+    """The inverse of :func:`relative`."""
+    found = values.copy()
+    for i, parent in enumerate(parents):
         if parent != SUPPORT:
             found[:, i] += found[:, parent]
     return np.asarray(found)
@@ -115,14 +124,15 @@ def measure(engine: Any, mechanism: Mechanism, accuracy: float = EPSILON, seed: 
     """
     theta, omega = probe_states(mechanism, max(STATES, 2 * mechanism.n), seed)
     alpha = _finite("accelerations", engine.accelerations(theta, omega), theta.shape)
-    parts = [(theta, omega, alpha, np.zeros_like(alpha), np.ones(len(theta), dtype=bool))]
+    parts = [(theta, omega, alpha, np.zeros_like(alpha))]
     if has_inverse_dynamics(engine):
         generator = np.random.Generator(np.random.PCG64(seed + 1))
         asked = _quantised(np.abs(omega).max() ** 2 * generator.uniform(-1, 1, theta.shape))
         torque = _finite("inverse dynamics", engine.inverse_dynamics(theta, omega, asked), theta.shape)
-        parts.append((theta, omega, asked, torque, np.zeros(len(theta), dtype=bool)))
-    columns = (np.concatenate(column) for column in zip(*parts, strict=True))
-    return Measurement(mechanism.parents, *columns, accuracy)  # type: ignore[arg-type]
+        parts.append((theta, omega, asked, torque))
+    theta, omega, alpha, torque = (np.concatenate([part[k] for part in parts]) for k in range(4))
+    forward = np.concatenate([np.full(len(part[0]), k == 0) for k, part in enumerate(parts)])
+    return Measurement(mechanism.parents, theta, omega, alpha, torque, forward, accuracy)
 
 
 def has_inverse_dynamics(engine: Any) -> bool:

@@ -54,11 +54,10 @@ class MujocoFile:
             if not any(words in str(error) for words in REFUSED):
                 raise
             compiled = self._lifted(file)
-        if file.language == "urdf" or self._notes:
-            for body in file.bodies:
-                found = mujoco.mj_name2id(compiled, mujoco.mjtObj.mjOBJ_BODY, body.name)
-                if found > 0 and not body.inertial.tensor.any():
-                    compiled.body_inertia[found] = 0.0
+        for body in file.bodies:
+            found = mujoco.mj_name2id(compiled, mujoco.mjtObj.mjOBJ_BODY, body.name)
+            if found > 0 and not body.inertial.tensor.any():
+                compiled.body_inertia[found] = 0.0
         return compiled
 
     def _lifted(self, file: ModelFile) -> Any:

@@ -30,7 +30,6 @@ class PinocchioFile:
         _refuse(model)
         self._model = _read(model)
         self._model.gravity.linear = np.array(model.mechanism.gravity_vector)
-        self._data = self._model.createData()
         names = list(self._model.names)
         known = [hinge.name for hinge in model.mechanism.hinges]
         missing = [name for name in known if name not in names]
@@ -40,6 +39,11 @@ class PinocchioFile:
                 + (f"; without joint {missing[0]!r}" if missing else "")
             )
         self._joints = [self._model.getJointId(name) for name in known]
+        for j, link in zip(self._joints, model.mechanism.links, strict=True):
+            if link.mass and link.inertia == 0:  # lifted by boundinertia, which its MJCF reader honours
+                held = self._model.inertias[j]
+                self._model.inertias[j] = pinocchio.Inertia(held.mass, held.lever, np.zeros((3, 3)))
+        self._data = self._model.createData()
         self._coordinates = FileCoordinates(model.mechanism, [self._model.idx_vs[j] for j in self._joints])
         # Where each column of rates has its coordinate, and whether that is an angle or its cosine and sine.
         by_column = sorted(self._joints, key=lambda j: int(self._model.idx_vs[j]))

@@ -139,7 +139,7 @@ class FileCoordinates:
 
 
 def in_order(found: Mechanism, wanted: Mechanism) -> Mechanism:
-    """``found`` with its links in the order of the hinges' names in ``wanted``; as it is where they are not the same."""
+    """``found`` with its links in the order of ``wanted``'s hinges, by name; as it is where they are others."""
     names = [hinge.name for hinge in found.hinges]
     order = [names.index(hinge.name) for hinge in wanted.hinges if hinge.name in names]
     if len(order) != found.n:

@@ -29,8 +29,8 @@ def geom_inertial(element: Element, frame: Pose) -> Inertial | None:
         return None
     if kind not in SOLID:
         raise element.wrong(
-            f"the link's mass comes from a geom of type {kind!r:.40}, whose shape furiko does not load; give the body an "
-            "<inertial>, or the geom mass='0'"
+            f"the link's mass comes from a geom of type {kind!r:.40}, whose shape furiko does not load; give the body "
+            "an <inertial>, or the geom mass='0'"
         )
     if element.get("shellinertia") == "true":
         raise element.wrong("shellinertia: not supported; give the body an <inertial>")

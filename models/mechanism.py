@@ -20,6 +20,7 @@ from .tree import SUPPORT, Link, PlanarTree
 Array = NDArray[np.float64]
 
 MOST_LINKS = 1_000
+MOST_BODIES = 2_000  # those that are fixed to others included
 # Axes this far from parallel [rad] still make a planar mechanism: files print axes with six digits or more, and what
 # it changes is of second order.
 PARALLEL = 2e-6
@@ -143,7 +144,8 @@ class Plane:
 
 @dataclass
 class _Merged:
-    """A link in the making: everything fixed together between two generations of hinges."""
+    """A link in the making: everything fixed together between two generations of hinges. In world axes: ``anchor``,
+    its hinge from its carrier's; ``inertial``, from its own."""
 
     parent: int
     anchor: Array
@@ -168,8 +170,7 @@ def planar_mechanism(bodies: Sequence[Body], gravity: Array, plane: Plane | None
         plane = find_plane(merged[0].axis, gravity, merged)
     links, hinges = [], []
     for link in merged:
-        carrier = np.zeros(3) if link.parent == SUPPORT else merged[link.parent].anchor
-        links.append(_link(link, carrier, plane))
+        links.append(_link(link, plane))
         hinges.append(_hinge(link, plane))
     _refuse_weightless(links, [link.name for link in merged])
     along, across = plane.point(gravity)
@@ -187,18 +188,24 @@ def planar_mechanism(bodies: Sequence[Body], gravity: Array, plane: Plane | None
 
 
 def _merge(bodies: Sequence[Body]) -> list[_Merged]:
-    """Links in the bodies' order, in world axes; what is fixed to the world is left out."""
+    """Links in the bodies' order, in world axes; what is fixed to the world is left out.
+
+    Points are counted from the hinge of the link that they are on, never from the world's origin: so no digits are lost
+    far from it, and what was written exactly is read exactly.
+    """
     merged: list[_Merged] = []
     poses: list[Pose] = []
     link_of_body: list[int] = []
     for body in bodies:
         carrier, carrying = (poses[body.parent], link_of_body[body.parent]) if body.parent >= 0 else (HERE, SUPPORT)
         pose = carrier @ body.pose
-        poses.append(pose)
         for hinge in body.hinges:
             axis = pose.turn @ hinge.axis
-            merged.append(_Merged(carrying, pose.point(hinge.anchor), hinge, axis / np.linalg.norm(axis), body.name))
+            arm = pose.turn @ hinge.anchor
+            merged.append(_Merged(carrying, pose.shift + arm, hinge, axis / np.linalg.norm(axis), body.name))
             carrying = len(merged) - 1
+            pose = Pose(pose.turn, -arm)
+        poses.append(pose)
         link_of_body.append(carrying)
         if carrying != SUPPORT:
             merged[carrying].inertial = merged[carrying].inertial + body.inertial.seen_from(pose)
@@ -215,7 +222,7 @@ def find_plane(axis: Array, gravity: Array, merged: Sequence[_Merged] = ()) -> P
     for candidate in (
         gravity,
         np.array([0.0, 0.0, -1.0]),
-        *(m.inertial.centre - m.anchor for m in merged),
+        *(m.inertial.centre for m in merged),
         np.eye(3)[0],
     ):
         flat = candidate - (candidate @ seen_from) * seen_from
@@ -230,12 +237,12 @@ def _first_sign(values: Sequence[float]) -> float:
     return next((math.copysign(1.0, value) for value in values if abs(value) > 1e-9), 1.0)
 
 
-def _link(merged: _Merged, carrier: Array, plane: Plane) -> Link:
+def _link(merged: _Merged, plane: Plane) -> Link:
     inertial = merged.inertial
-    com = plane.point(inertial.centre - merged.anchor) if inertial.mass or inertial.tensor.any() else (0.0, 0.0)
+    com = plane.point(inertial.centre) if inertial.mass or inertial.tensor.any() else (0.0, 0.0)
     return Link(
         parent=merged.parent,
-        hinge=plane.point(merged.anchor - carrier),
+        hinge=plane.point(merged.anchor),
         length=2 * math.hypot(*com),
         com=com,
         mass=inertial.mass,

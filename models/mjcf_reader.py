@@ -16,7 +16,7 @@ import numpy as np
 
 from .errors import InvalidInput
 from .geoms import geom_inertial
-from .mechanism import Body, SpatialHinge
+from .mechanism import MOST_BODIES, Body, SpatialHinge
 from .numbers_in_xml import Array, axis, not_negative, number, numbers, refuse, word, yes
 from .spatial import (
     HERE,
@@ -33,6 +33,7 @@ from .spatial import (
 from .xml_file import DEEPEST, MOST_ELEMENTS, Element, read_xml
 
 MOST_INCLUDES = 50
+LIFTED = 1e-14  # kg m²; a bound up to here is there for MuJoCo's compiler, which takes no body without inertia
 LEFT_OUT = ("actuator", "sensor", "keyframe", "visual", "statistic", "asset", "custom", "size")
 CARRIED = ("compiler", "option", "default", "worldbody", "contact")
 UNWEIGHED = ("site", "camera", "light", "geom", "inertial", "joint", "freejoint", "body", "frame")
@@ -141,7 +142,8 @@ class _Reader:
             raise element.wrong("coordinate: only 'local' is supported, as in MuJoCo itself since 2.3")
         compiler.autolimits = yes(element, "autolimits", compiler.autolimits)
         compiler.from_geoms = word(element, "inertiafromgeom", ("true", "false", "auto"), compiler.from_geoms)
-        compiler.groups = tuple(map(int, numbers(element, "inertiagrouprange", 2, compiler.groups)))  # type: ignore[assignment]
+        low, high = numbers(element, "inertiagrouprange", 2, compiler.groups)
+        compiler.groups = int(low), int(high)
         compiler.least_mass = not_negative(element, "boundmass", compiler.least_mass)
         compiler.least_inertia = not_negative(element, "boundinertia", compiler.least_inertia)
         compiler.balance = yes(element, "balanceinertia", compiler.balance)
@@ -196,7 +198,8 @@ class _Reader:
         """Bodies, parents first, in the file's order."""
         pending: list[tuple[Element, int, Pose, str]] = [(world, -1, HERE, "main")]
         while pending:
-            element, carrier, frame, childclass = pending.pop()
+            element, carrier, outer, childclass = pending.pop()
+            frame = outer if element is world else outer @ self._pose(element)
             childclass = element.get("childclass", childclass)
             if childclass not in self._defaults:
                 raise element.wrong(f"childclass={childclass[:60]!r}: no <default> of that class")
@@ -214,9 +217,7 @@ class _Reader:
                     )
             element.children = [c for c in element.children if c.tag not in ("site", "camera", "light")]
             below = [
-                (child, carrier, inner @ self._pose(child), childclass)
-                for child in element.children
-                if child.tag in ("body", "frame")
+                (child, carrier, inner, childclass) for child in element.children if child.tag in ("body", "frame")
             ]
             pending.extend(reversed(below))
             if element.tag == "worldbody":
@@ -236,6 +237,8 @@ class _Reader:
 
     def _body(self, element: Element, carrier: int, frame: Pose, childclass: str) -> int:
         name = self._named(element, "body")
+        if len(self._file.bodies) >= MOST_BODIES:
+            raise element.wrong(f"more than {MOST_BODIES} bodies, which no pendulum needs")
         for attribute in ("mocap",):
             if element.get(attribute) == "true":
                 raise refuse(element, f"{attribute}: a body that is moved from outside")
@@ -334,6 +337,11 @@ class _Reader:
             found = drawn or NOTHING
         else:
             found = self._given_inertial(given, name) if given is not None else NOTHING
+        if not found.tensor.any() and 0 < compiler.least_inertia <= LIFTED:
+            self._note(
+                f"boundinertia={compiler.least_inertia:g} is taken as what lets MuJoCo's compiler take a point mass"
+            )
+            return Inertial(max(found.mass, compiler.least_mass), found.centre, found.tensor)
         return _bounded(found, compiler)
 
     def _given_inertial(self, given: Element, name: str) -> Inertial:
@@ -363,8 +371,9 @@ class _Reader:
         pending: list[tuple[Element, Pose, str]] = [(element, HERE, childclass)]
         while pending:
             at, frame, inherited = pending.pop()
-            for nested in at.all("frame"):
-                pending.append((nested, frame @ self._pose(nested), nested.get("childclass", inherited)))
+            pending.extend(
+                (nested, frame @ self._pose(nested), nested.get("childclass", inherited)) for nested in at.all("frame")
+            )
             for geom in list(at.all("geom")):
                 merged = self._merged(geom, inherited)
                 _strip(geom)
@@ -480,6 +489,8 @@ def _include(element: Element, folder: Path, seen: set[Path]) -> list[Element]:
         raise element.wrong(
             f"file={name[:80]!r}: outside the model's own folder, where nothing is read; move it inside"
         )
+    if not path.is_file():
+        raise element.wrong(f"file={name[:80]!r}: cannot be read: there is no such file in the model's folder")
     if path in seen:
         raise element.wrong(f"file={name[:80]!r}: included twice, or by itself")
     if len(seen) > MOST_INCLUDES:

@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .mechanism import Body, SpatialHinge
+from .errors import InvalidInput
+from .mechanism import MOST_BODIES, Body, SpatialHinge
 from .numbers_in_xml import Array, axis, not_negative, number, numbers, refuse, word
 from .spatial import HERE, NOTHING, Inertial, Pose, from_roll_pitch_yaw, symmetric
 from .xml_file import Element
@@ -46,8 +47,10 @@ def read_urdf(root: Element) -> Urdf:
             _take(links if element.tag == "link" else joints, element)
         elif element.tag not in LEFT_OUT and ":" not in element.tag:
             raise element.wrong(f"<{element.tag}> is not known in URDF; remove it")
-    for name, element in _extension(root).items():
-        kept.children.append(Element("mujoco", {}, root.file, root.line, [Element("compiler", {name: element})]))
+    for name, value in _extension(root).items():
+        kept.children.append(Element("mujoco", {}, root.file, root.line, [Element("compiler", {name: value})]))
+    if len(links) > MOST_BODIES:
+        raise root.wrong(f"{len(links)} links, which no pendulum needs; at most {MOST_BODIES} are taken")
     below = _children(links, joints)
     _read(file, links, joints, below)
     kept.children += links.values()
@@ -57,7 +60,7 @@ def read_urdf(root: Element) -> Urdf:
 
 def _extension(root: Element) -> dict[str, str]:
     """Of MuJoCo's own extension, what lets it take a point mass."""
-    found = {}
+    found: dict[str, str] = {}
     for extension in root.all("mujoco"):
         for compiler in extension.all("compiler"):
             for name in ("boundinertia", "boundmass"):
@@ -106,8 +109,6 @@ def _children(links: dict[str, Element], joints: dict[str, Element]) -> dict[str
             else f"{len(roots)} links hang on nothing: {', '.join(roots)[:120]}"
         )
         where = first.file if first is not None else "the file"
-        from .errors import InvalidInput
-
         raise InvalidInput(f"{where}: {what}; one link, the support, must carry all the others")
     below[""] = roots
     return below
@@ -131,8 +132,6 @@ def _read(file: Urdf, links: dict[str, Element], joints: dict[str, Element], bel
         reached += 1
         pending.extend((lower, index) for lower in reversed(below[link.get("name")]))
     if reached != len(links):
-        from .errors import InvalidInput
-
         raise InvalidInput(f"{file.root.file}: the joints go round in a circle; they must make a tree")
     for link in links.values():
         link.children = [child for child in link.children if child.tag == "inertial"]

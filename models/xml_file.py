@@ -15,7 +15,7 @@ from xml.sax.saxutils import quoteattr
 from .errors import InvalidInput
 
 LARGEST_FILE = 8_000_000  # bytes
-MOST_ELEMENTS = 150_000
+MOST_ELEMENTS = 50_000
 DEEPEST = 2_000
 LONGEST_ATTRIBUTE = 10_000  # characters; a list of a few hundred numbers
 

@@ -215,7 +215,7 @@ def mass_matrix(parents: tuple[int, ...], p: Parameters, theta: Array) -> Array:
 
 
 def velocity_terms(parents: tuple[int, ...], p: Parameters, theta: Array, omega: Array) -> Array:
-    """What the equations of motion have besides M θ̈ and gravity, friction and springs: quadratic in the rates, (…, n)."""
+    """What is quadratic in the rates [N m], (…, n)."""
     still = _without(p, "gravity_along", "gravity_across", "stiffness", "preload", "friction", "damping")
     return torques(parents, still, theta, omega, omega * 0)
 
@@ -256,6 +256,26 @@ def magnitudes(parents: tuple[int, ...], p: Parameters, theta: Floats, omega: Fl
     phi, phi_dot, phi_ddot = map(np.abs, relative)
     own = p.armature * phi_ddot + p.damping * phi_dot + p.stiffness * phi + np.abs(p.preload) + p.friction
     return np.asarray(np.stack(np.broadcast_arrays(*rows), axis=-1) + own)
+
+
+def stretched_inertias(parents: tuple[int, ...], p: Parameters) -> Floats:
+    """Inertia about each hinge of all that it carries, stretched out straight away from it [kg m²]; shape (n,).
+
+    The diagonal of the mass matrix of relative angles with every cosine one. With μ, σ and J the mass, first moment
+    and inertia about hinge i of all that it carries, moving it out by the distance h to the parent's hinge gives the
+    parent μ, σ + μ h and J + 2 h σ + μ h².
+    """
+    reach = np.hypot(p.com_along, p.com_across)
+    hinge = np.hypot(p.hinge_along, p.hinge_across)
+    mass, moment = p.mass.copy(), p.mass * reach
+    inertia = p.inertia + p.mass * reach**2
+    for i in range(len(parents) - 1, -1, -1):
+        parent, h = parents[i], hinge[i]
+        if parent != SUPPORT:
+            inertia[parent] += inertia[i] + 2 * h * moment[i] + mass[i] * h**2
+            moment[parent] += moment[i] + mass[i] * h
+            mass[parent] += mass[i]
+    return np.asarray(inertia + p.armature)
 
 
 def relative_rows(parents: tuple[int, ...], absolute: Floats) -> Floats:

@@ -490,7 +490,7 @@ def runs_single(rng):
 
 
 def runs_reset(rng):
-    """MuJoCo as it comes: after a NaN it begins anew. (One link alone cannot become unstable: its forces are bounded.)"""
+    """MuJoCo as it comes: after a NaN it begins anew. (One link alone stays stable: its torque is bounded.)"""
     tree = chain_or_more(rng, 2, kind="chain")
     runs = Runs(tree, lambda inner, *given: inner(*given))
     adapter(runs)._model.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)

@@ -212,8 +212,7 @@ class Writer:
         if any(k.inertia == 0 for k in self.m.links):
             compiler += " boundinertia='1e-15'"
         parts = [f"<mujoco><compiler {compiler}/><option gravity='{numbers(gravity)}' {style.option}/><worldbody>"]
-        for i in self.children[-1]:
-            parts.append(self._body(i))
+        parts += [self._body(i) for i in self.children[-1]]
         return "".join([*parts, "</worldbody></mujoco>"])
 
     def _body(self, i):
@@ -504,7 +503,8 @@ def plant_from_geoms(rng, style):
     for i, link in enumerate(wanted.links):
         half = link.length / 2
         style.geoms[i] = (
-            f"<geom type='capsule' size='{link.length / 30!r} {half!r}' pos='0 0 {-half!r}' contype='0' conaffinity='0'/>"
+            f"<geom type='capsule' size='{link.length / 30!r} {half!r}' pos='0 0 {-half!r}' contype='0' "
+            "conaffinity='0'/>"
         )
     return wanted, wanted
 
