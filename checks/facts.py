@@ -17,14 +17,14 @@ from .rounding import EPSILON, amplitudes, condition
 Array = NDArray[np.float64]
 
 
-FORCE_STATES = 50  # joint forces are compared in the last so many states: a proven sum costs more than the engine's
+FORCE_STATES = 20  # joint forces are compared in the last so many states: a proven sum costs more than the engine's
 
 
 @dataclass(frozen=True)
 class SceneFacts:
     """``high + low``: the proven accelerations, (B, n), to far more than double precision; ``radius``: their proven
     uncertainty. ``literal``: the document's own formula in double precision, (B, n). ``forces``: the true joint forces
-    in the last states, (min(B, 50), n, 2) [N]. ``cond_absolute``, ``cond_relative``: what a backward error of one ε in
+    in the last states, (min(B, 20), n, 2) [N]. ``cond_absolute``, ``cond_relative``: what a backward error of one ε in
     those coordinates does to the accelerations, in ε, (B,).
     """
 

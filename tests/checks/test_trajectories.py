@@ -53,7 +53,6 @@ def test_four_steps_are_reported(make_cell):
 
 @pytest.mark.parametrize("fake", [Damped, LongStep])
 def test_a_fault_of_1e_7_or_less_is_found_at_step_zero(make_cell, fake, monkeypatch):
-    monkeypatch.setattr(trajectories, "BUDGET", 20.0)
     monkeypatch.setattr(trajectories, "ORDER_SETTLED", -0.02)  # refine until the next term is small
     (result,) = trajectories.compare(make_cell(fake, "double-pendulum"))
     assert result.outcome == "differs", result

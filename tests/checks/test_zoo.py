@@ -7,7 +7,7 @@ def outcomes(results):
     return {check: result.outcome for check, result in results.items()}
 
 
-@pytest.mark.parametrize("scene", ["double-pendulum", "two-legs", "rods-3", "rods-5-no-gravity"])
+@pytest.mark.parametrize("scene", ["double-pendulum", "two-legs", "n-leg-3-mass-ratio", "rods-3", "rods-5-no-gravity"])
 def test_the_right_engine_agrees_in_everything(run_cell, scene):
     results = run_cell("zoo:Right", scene)
     skipped = {check: result.reason for check, result in results.items() if result.outcome == "skipped"}
