@@ -269,6 +269,8 @@ def term_by_term(images: Images, rows: Sequence[Vector], alignment: Alignment) -
 
 def explanations(images: Images, rows: Sequence[Vector], alignment: Alignment) -> list[tuple[Mistake, ...]]:
     """The shortest explanations there are, most likely first; empty where the catalogue has none."""
+    if not images.has_catalogue:
+        return []
     found = singles(images, rows)
     if not found:
         found = sums(images, Remainder(images, rows, alignment))

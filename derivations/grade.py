@@ -84,7 +84,12 @@ def _unexplained(given: Given, teller: Teller, alignment: Alignment) -> Diagnosi
         note_ja = "このラグランジアンになる誤りは目録にありません。"
         findings = teller.lagrangian(given.lagrangian, ())
         return answer(given.seen, "wrong", findings=findings, notes=(note,), notes_ja=(note_ja,))
-    return answer(given.seen, "wrong", findings=teller.unexplained(given, alignment))
+    findings = teller.unexplained(given, alignment)
+    if given.seen.has_catalogue:
+        return answer(given.seen, "wrong", findings=findings)
+    note = "With so many links the terms are told one by one; mistakes of earlier steps are not looked for."
+    note_ja = "リンクが多いので、違う項だけを示します（前の段階の誤りは探しません）。"
+    return answer(given.seen, "wrong", findings=findings, notes=(note,), notes_ja=(note_ja,))
 
 
 def named(mistakes: Sequence[Mistake], twins: Sequence[Sequence[Mistake]]) -> tuple[Named, ...]:

@@ -24,7 +24,7 @@ from .diagnosis import Diagnosis
 from .explain import ranked
 from .findings import Teller
 from .grade import answer, named, same_equations
-from .images import Images, View, images
+from .images import MOST_LINKS, Images, View, images
 from .mechanism import KINDS, Mechanism, mechanism
 from .mistakes import catalogue
 from .trig import COS, NOTHING, digits, unit
@@ -91,8 +91,9 @@ def grade_callable(
     """Grade ``module:function``. Raises InvalidInput where it cannot be called, or exceeds its limits."""
     if system not in KINDS:
         raise InvalidInput(f"system: {system!r:.40} is not known{nearest(system, KINDS)}; give 'n-leg' or 'rod-chain'")
-    if not (2 if system == "n-leg" else 1) <= links <= 8:
-        raise InvalidInput(f"links: from {2 if system == 'n-leg' else 1} to 8 for a function, got {links}")
+    least = 2 if system == "n-leg" else 1
+    if not least <= links <= MOST_LINKS[system]:
+        raise InvalidInput(f"links: from {least} to {MOST_LINKS[system]} for a function of this system, got {links}")
     m = mechanism(system, links)
     drawn = samples(m)
     accelerations = _call(function, drawn, seconds, megabytes)

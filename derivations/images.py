@@ -12,6 +12,10 @@ from .mistakes import catalogue
 from .trig import unit
 
 
+# The catalogue grows with the cube of the links: beyond these, wrong terms are told one by one and no mistake is named.
+MOST_LINKS = {"n-leg": 8, "rod-chain": 6}
+
+
 @dataclass(frozen=True)
 class View:
     """How rows are looked at: in which angles, and whether all lengths, all masses, are one symbol."""
@@ -65,9 +69,16 @@ class Images:
                 i = m.parent(i)
         return sums
 
+    @property
+    def has_catalogue(self) -> bool:
+        """Whether the mechanism is short enough for all its mistakes to be worked out, which takes some seconds."""
+        return self.mechanism.n <= MOST_LINKS[self.mechanism.kind]
+
     @cached_property
     def wrong(self) -> list[Image]:
-        """The catalogue's derivations that are really wrong."""
+        """The catalogue's derivations that are really wrong; none where there are too many to be worked out."""
+        if not self.has_catalogue:
+            return []
         images = (self._image(mistake) for mistake in catalogue(self.mechanism))
         return [image for image in images if image.rows]
 

@@ -18,7 +18,7 @@ from .quotient import Quotient
 from .tokens import FUNCTIONS, LETTERS
 from .trig import Formula
 
-LARGEST_FILE = 100_000  # characters; a chain of twenty rods, written out, has about 40 000
+LARGEST_FILE = 200_000  # characters; a chain of twenty rods, every sum multiplied out, has 150 000
 MOST_LINKS = 20
 MOST_DEFINITIONS = 40
 FIELDS = ("system", "links", "angles", "equations", "lagrangian", "define", "title", "author")

@@ -15,7 +15,7 @@ from flint import fmpq
 from ..models.errors import InvalidInput, nearest
 
 LONGEST_LINE = 20_000  # characters; a chain of four rods needs about 1000
-MOST_TOKENS = 8_000
+MOST_TOKENS = 12_000
 LONGEST_NUMBER = 40  # digits
 LARGEST_EXPONENT_OF_TEN = 40
 

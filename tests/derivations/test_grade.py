@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from furiko.derivations.derivation import derive
+from furiko.derivations.derivation import derive, right
 from furiko.derivations.grade import grade, grade_text
 from furiko.derivations.images import View, images
 from furiko.derivations.mechanism import mechanism
@@ -191,6 +191,18 @@ def test_a_wrong_derivation_of_four_links_is_graded_within_two_seconds(kind):
     start = time.process_time()
     assert grade_text(text).verdict == "wrong"
     assert time.process_time() - start < 2.0
+
+
+def test_many_links_are_graded_term_by_term_and_at_once():
+    m = mechanism("rod-chain", 12)
+    text = plain(m, right(m).rows, random.Random(5))
+    assert grade_text(text).verdict == "correct"
+    start = time.process_time()
+    diagnosis = grade_text(text.replace("g*sin(t7)", "g*sin(t8)"))
+    assert diagnosis.verdict == "wrong"
+    assert {finding.term for finding in diagnosis.findings} == {"G[7]"}
+    assert "one by one" in diagnosis.notes[0]
+    assert time.process_time() - start < 2
 
 
 def test_a_file_is_read_and_its_name_told(tmp_path):

@@ -152,7 +152,7 @@ FILES = [
     ("system = 'n-leg'\nlinks = 2\nlagrangian = '1/(m1+m2)'", "fraction bar"),
     ("system = ", "not TOML"),
     ("a = " + "[" * 10000, "not TOML"),
-    ("x" * 200_000, "longer than"),
+    ("x" * 300_000, "longer than"),
 ]
 
 
