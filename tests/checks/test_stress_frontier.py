@@ -52,3 +52,8 @@ def test_an_open_frontier_says_how_wide_it_is():
 def test_scouts_reach_from_end_to_end():
     assert scouts(40) == [0, 10, 20, 30, 40]
     assert scouts(0) == [0]
+
+
+def test_a_failure_that_came_early_does_not_hide_what_lies_below():
+    assert next_rung({40: False}, 40) == 0
+    assert next_rung({0: True, 40: False}, 40) == 10
