@@ -73,7 +73,7 @@ def _english(d: Diagnosis) -> str:
         lines.append(f"  {mistake.says}  [{mistake.cause}, made in the {STAGES_EN[mistake.stage]}]{also}")
     for f in d.findings:
         told = "" if d.mistakes and any(f.says == m.says for m in d.mistakes) else f"  {f.says}"
-        row = f" of row {f.row}" if f.row else ""
+        row = f" of row {f.row}" if f.row and " in row " not in f.term else ""
         lines.append(f"  ({f.equation}) {f.term}{row}: {f.found} stands there, {f.expected} belongs there.{told}")
     lines += [f"  Or: {' and '.join(names)}" for names in d.alternatives]
     return "\n".join([*lines, *(f"  {note}" for note in d.notes)])

@@ -15,6 +15,7 @@ from .trig import COS, Formula, Space, digits
 PRIME = 2305843009213693921  # the largest prime below 2⁶¹ that leaves 1 when divided by 4
 ROOT = 583529827753931384  # ROOT² = -1 modulo PRIME
 HALF = pow(2, -1, PRIME)
+MOST_KEPT = 100_000  # products and waves whose values are kept: a point serves many derivations
 
 Vector = dict[int, int]  # a row at the point: value of the coefficient of each product of motion
 
@@ -39,6 +40,9 @@ class Point:
 
     def value(self, f: Formula) -> int:
         """The formula at the point; the motion has values too."""
+        if len(self._products) + len(self._waves) > MOST_KEPT:
+            self._products.clear()
+            self._waves.clear()
         total = 0
         for (e, h, s), c in f.terms.items():
             number = int(c.p) if c.q == 1 else int(c.p) * pow(int(c.q), -1, PRIME)
@@ -54,6 +58,8 @@ class Point:
         """A random weight for each product of motion, by which a vector becomes one number."""
         found = self._weights.get(q)
         if found is None:
+            if len(self._weights) > MOST_KEPT:
+                self._weights.clear()
             found = self._weights[q] = pow(self.base, q % (PRIME - 1), PRIME)
         return found
 

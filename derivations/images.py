@@ -11,7 +11,6 @@ from .mechanism import Mechanism
 from .mistakes import catalogue
 from .trig import unit
 
-
 # The catalogue grows with the cube of the links: beyond these, wrong terms are told one by one and no mistake is named.
 MOST_LINKS = {"n-leg": 8, "rod-chain": 6}
 

@@ -143,7 +143,7 @@ def term_name(m: Mechanism, i: int, q: int) -> str:
             return f"A[{i + 1},{j + 1}]"
         case [(j, 2)] if j >= n and not (m.kind == "n-leg" and j - n == i):
             return f"B[{i + 1},{j - n + 1}]"
-    return f"row {i + 1}, {motion_text(m.space, q)}"
+    return f"{motion_text(m.space, q)} in row {i + 1}"
 
 
 def solved_term_name(m: Mechanism, i: int, q: int) -> str:

@@ -73,12 +73,14 @@ BY_HAND = [
         "l2*a2 - l1*(a1*sin(t1+t2) + w1^2*cos(t1+t2)) - g*cos(t2) = 0"]),
     ("n-leg", "height-sine:2:2", [ROW_1, ROW_2.replace("+ m2*g*sin(t2)", "- m2*g*cos(t2)")]),
     ("n-leg", "wrong-length-in-height:2:1:2", [ROW_1.replace("(m1+m2)*g", "(m1+m2*l2/l1)*g"), ROW_2]),
-    ("n-leg", "potential-not-differentiated:1", [ROW_1.replace("(m1+m2)*g*sin(t1)", "-(m1+m2)*g*cos(t1)").replace("+ -", "-"), ROW_2]),
+    ("n-leg", "potential-not-differentiated:1", [
+        ROW_1.replace("(m1+m2)*g*sin(t1)", "-(m1+m2)*g*cos(t1)").replace("+ -", "-"), ROW_2]),
     ("n-leg", "wrong-rate-in-velocity:2:2:1", [
         "(m1+m2)*l1*a1 + m2*l2*(2*a1*cos(t1-t2) - w1^2*sin(t1-t2)) + m2*l2^2/l1*a1 + m2*l2*w1*w2*2*sin(t1-t2)"
         " + (m1+m2)*g*sin(t1) = 0",
         "-m2*l1*w1^2*sin(t1-t2) + m2*g*sin(t2) = 0"]),
-    ("n-leg", "centripetal-missing:2", [ROW_1.replace("m2*l2*w2^2*sin(t1-t2)", "0"), ROW_2.replace("m2*l1*w1^2*sin(t1-t2)", "0")]),
+    ("n-leg", "centripetal-missing:2", [
+        ROW_1.replace("m2*l2*w2^2*sin(t1-t2)", "0"), ROW_2.replace("m2*l1*w1^2*sin(t1-t2)", "0")]),
     ("n-leg", "velocity-terms-forgotten", [ROW_1.replace("w2^2", "w1*w2"), ROW_2.replace("w1^2", "w1*w2")]),
     ("n-leg", "other-angles-held:1", [ROW_1.replace("m2*l2*w2^2*sin(t1-t2)", "0"), ROW_2]),
     ("n-leg", "kinetic-slope-missing", [
