@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from ..engines.from_file import READERS, FileEngine, Reader
+from ..engines.quiet import silenced
 from ..models import InvalidInput, PlanarTree
 from ..models.mechanism import Hinge, Mechanism, mechanism_of
 from ..models.model_file import ModelFile, read_model
@@ -25,9 +26,11 @@ from .explain import explain, mechanism_from
 from .finding import CAUSES, Finding, joint
 from .matching import mirrored, natural_turns, orders, rearranged, same_motion, without_hinge
 from .measurement import Array, Measurement, measure, probe_states
+from .rounding import EPSILON
 from .suspects import degrees_in_file, suspects
 
 PASSIVE = {"damping": "damping-ignored", "friction": "friction-ignored", "stiffness": "stiffness-ignored"}
+TOLD = 1e-13  # a tilt above this is told
 ALTOGETHER = 40  # findings shown for one engine, at most
 
 
@@ -89,7 +92,8 @@ def diagnose(model: str | Path | ModelFile, against: Any = None, engines: Mappin
     file = model if isinstance(model, ModelFile) else read_model(model)
     wanted, name = _wanted(against)
     file = _with_gravity(file, wanted)
-    asked = [_ask(reader, file) for reader in engines.values()]
+    with silenced(), np.errstate(all="ignore"):
+        asked = [_ask(reader, file) for reader in engines.values()]
     findings = _vote(file, asked)
     of_file = list(degrees_in_file(file))
     of_file += _unideal(file.mechanism) if wanted is None else _against(file, wanted)
@@ -101,10 +105,16 @@ def diagnose(model: str | Path | ModelFile, against: Any = None, engines: Mappin
         verdict=verdict,
         findings=tuple(findings),
         engines={a.name: a.to_json() for a in asked},
-        notes=tuple(dict.fromkeys([*file.notes, *(note for a in asked for note in a.notes)])),
+        notes=tuple(dict.fromkeys([*file.notes, *_tilted(file.mechanism), *(note for a in asked for note in a.notes)])),
         against=name,
         mechanism=described(file.mechanism),
     )
+
+
+def _tilted(mechanism: Mechanism) -> list[str]:
+    if mechanism.tilt < TOLD:
+        return []
+    return [f"the hinges' axes are not quite parallel: engines are held to {mechanism.tilt:.1g} of each torque"]
 
 
 def _wanted(against: Any) -> tuple[Mechanism | None, str]:
@@ -184,7 +194,7 @@ def _ask(reader: Reader, file: ModelFile) -> _Asked:
     theory = _without_friction(said) if viewed.without else said
     try:
         asked.compiled = engine.compiled()
-        measured = measure(viewed, theory)
+        measured = measure(viewed, theory, max(EPSILON, theory.tilt))
     except (RuntimeError, ValueError, InvalidInput) as error:
         words = " ".join(str(error).split())
         asked.status = "differs"
@@ -248,7 +258,7 @@ def _why(
         found = _compiled(held, file, theory, measured, reader.name)
         if found:
             return found
-    return explain(viewed, theory, who=reader.name, slight=False)
+    return explain(viewed, theory, who=reader.name, accuracy=max(EPSILON, theory.tilt), slight=False)
 
 
 def _by_switching_off(reader: Reader, engine: FileEngine, viewed: _View, theory: Mechanism) -> Iterator[Finding]:
@@ -257,7 +267,7 @@ def _by_switching_off(reader: Reader, engine: FileEngine, viewed: _View, theory:
         if feature not in reader.features:
             continue
         without = _View(engine, viewed.without | {feature})
-        if measure(without, theory).worst(planar.parameters(theory)) > 1:
+        if measure(without, theory, max(EPSILON, theory.tilt)).worst(planar.parameters(theory)) > 1:
             continue
         theta, _ = probe_states(theory)
         touching = engine.contacts(theta) if feature == "contact" and hasattr(engine, "contacts") else []

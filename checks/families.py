@@ -251,6 +251,8 @@ def _columns(family: Family, p: Parameters, x: Array, sizes: Array, measured: Me
 
 def _solve(columns: Array, left: Array) -> tuple[Array, Array]:
     """−columns⁺ · left, and the spread of the solution for left-overs of one each."""
+    if not (np.isfinite(columns).all() and np.isfinite(left).all()):  # numbers out of range: nothing to be had here
+        return np.zeros(columns.shape[1]), np.full(columns.shape[1], np.inf)
     size = np.linalg.norm(columns, axis=0)
     size = np.where(size > 0, size, 1.0)
     inverse = np.linalg.pinv(columns / size, rcond=1e-12)

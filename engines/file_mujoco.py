@@ -35,6 +35,8 @@ class MujocoFile:
     """The file in MuJoCo."""
 
     def __init__(self, model: ModelFile) -> None:
+        # Otherwise a model that is nearly singular has MuJoCo write a file MUJOCO_LOG.TXT into the present folder.
+        mujoco.set_mju_user_warning(lambda message: None)
         self._file = model
         self._notes: list[str] = []
         self._model = self._compile(model)

@@ -12,6 +12,7 @@ from .xml_file import Element
 
 DENSITY = 1000.0  # kg/m³, MJCF's default
 SOLID = {"sphere": 1, "capsule": 2, "cylinder": 2, "ellipsoid": 3, "box": 3}  # and how many sizes each has
+SMALLEST, LARGEST = 1e-30, 1e9  # m; beyond, volumes are nothing or infinite
 WEIGHTLESS = ("plane", "hfield")
 ALONG = ("capsule", "cylinder", "ellipsoid", "box")  # may be given by fromto
 
@@ -35,6 +36,8 @@ def geom_inertial(element: Element, frame: Pose) -> Inertial | None:
     if element.get("shellinertia") == "true":
         raise element.wrong("shellinertia: not supported; give the body an <inertial>")
     size, pose = _size_and_pose(element, kind, frame)
+    if not SMALLEST < float(size[: SOLID[kind]].min()) <= float(size.max()) < LARGEST:
+        raise element.wrong(f"size: from {SMALLEST:g} to {LARGEST:g} m are taken")
     volume, unit = _solid(kind, size)
     mass = not_negative(element, "mass") if given else not_negative(element, "density", DENSITY) * volume
     return Inertial(mass, np.zeros(3), np.diag(mass * unit)).seen_from(pose)

@@ -21,9 +21,12 @@ Array = NDArray[np.float64]
 
 MOST_LINKS = 1_000
 MOST_BODIES = 2_000  # those that are fixed to others included
-# Axes this far from parallel [rad] still make a planar mechanism: files print axes with six digits or more, and what
-# it changes is of second order.
+# Axes this far from parallel [rad] still make a planar mechanism: files print axes with six digits or more. Engines are
+# then held to no more than that; below, it is rounding.
 PARALLEL = 2e-6
+ROUNDING = 2.0**-49
+FAR_APART = 8  # links that lie further apart along the axes than so many times their size blur each other by rounding
+LARGEST = 1e9  # of any number of a link: engines give up beyond (MuJoCo at rates of 1e10)
 NO_STOP = 1e3  # a limit further away [rad] is one that nothing reaches
 
 
@@ -57,7 +60,8 @@ class Mechanism:
     """Links and their hinges, and gravity (along, across) of the plane [m/s²].
 
     ``gravity_vector``: gravity in the file's world; ``down`` and ``across``: the plane's axes there, (3,).
-    ``link_names``: as the file has them.
+    ``link_names``: as the file has them. ``tilt``: how much not being quite planar may change a torque, relative to it:
+    the hinges' axes' largest angle with each other, times how far the links lie apart along them over their size.
     """
 
     links: tuple[Link, ...]
@@ -67,6 +71,7 @@ class Mechanism:
     gravity_vector: tuple[float, ...] = (0.0, 0.0, 0.0)
     down: tuple[float, ...] = (0.0, 0.0, -1.0)
     across: tuple[float, ...] = (1.0, 0.0, 0.0)
+    tilt: float = 0.0
 
     @property
     def n(self) -> int:
@@ -172,11 +177,14 @@ def planar_mechanism(bodies: Sequence[Body], gravity: Array, plane: Plane | None
     for link in merged:
         links.append(_link(link, plane))
         hinges.append(_hinge(link, plane))
+    for planar, hinge, made in zip(links, hinges, merged, strict=True):
+        _refuse_immense(planar, hinge, made)
     _refuse_weightless(links, [link.name for link in merged])
     along, across = plane.point(gravity)
     if abs(across) <= 4e-16 * abs(along):
         across = 0.0
     return Mechanism(
+        tilt=_tilt(merged, plane),
         links=tuple(links),
         hinges=tuple(hinges),
         gravity=(along, across),
@@ -275,6 +283,29 @@ def _hinge(merged: _Merged, plane: Plane) -> Hinge:
         sense=sense,
         zero=given.zero,
     )
+
+
+def _tilt(merged: Sequence[_Merged], plane: Plane) -> float:
+    largest = max(float(np.linalg.norm(np.cross(link.axis, plane.axis))) for link in merged)
+    arms = [arm for link in merged for arm in (link.anchor, link.inertial.centre)]
+    size = max(math.hypot(*plane.point(arm)) for arm in arms) or 1.0
+    apart = sum(abs(float(arm @ plane.axis)) for arm in arms) / size
+    if largest <= ROUNDING:
+        return 2.0**-52 * apart if apart > FAR_APART else 0.0
+    return largest * (1 + apart)
+
+
+def _refuse_immense(link: Link, hinge: Hinge, merged: _Merged) -> None:
+    numbers = {
+        "a length [m]": max(map(abs, (*link.hinge, *link.com))),
+        "its mass [kg]": link.mass,
+        "its inertia [kg m²]": link.inertia,
+        "a number of its hinge": max(hinge.armature, hinge.damping, hinge.friction, hinge.stiffness),
+    }
+    for name, value in numbers.items():
+        if value > LARGEST:
+            where = merged.hinge.where or merged.name
+            raise InvalidInput(f"{where}: link {merged.name!r}: {name} is {value:g}; at most {LARGEST:g} is taken")
 
 
 def _refuse_weightless(links: Sequence[Link], names: Sequence[str]) -> None:

@@ -199,7 +199,10 @@ def _inertial(file: Urdf, link: Element) -> Inertial:
     if mass_element is None or "value" not in mass_element.attributes:
         raise given.wrong("<mass value=> is needed")
     mass = not_negative(mass_element, "value")
-    tensor = np.zeros((3, 3)) if moments is None else symmetric(*(number(moments, name) for name in SIX))
+    missing = [name for name in SIX if moments is None or name not in moments.attributes]
+    if moments is None or missing:
+        raise given.wrong(f"<inertia {' '.join(f'{name}=' for name in SIX)}> is needed, {', '.join(missing)} missing")
+    tensor = symmetric(*(number(moments, name) for name in SIX))
     least = float(np.linalg.eigvalsh(tensor)[0])
     if least < -1e-9 * abs(float(np.trace(tensor))) or math.isnan(least):
         raise given.wrong("inertia: no body has an inertia with a negative principal moment")
