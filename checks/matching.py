@@ -139,11 +139,10 @@ def _argument(z: complex) -> float:
 def same_motion(found: Mechanism, expected: Mechanism, tolerance: float = 1e-12) -> bool:
     """Whether both move alike when each angle is counted from where it suits (ideal hinges).
 
-    In the base parameters a link's frame only shows as an argument; each link's is taken from its first moment.
+    In the base parameters a link's frame only shows as an argument, which is taken from one of them for each link.
     """
     a, b = base_parameters(found), base_parameters(expected)
-    turn = np.where((np.abs(a.moment) > 0) & (np.abs(b.moment) > 0), a.moment * np.conj(b.moment), 1.0)
-    turn = turn / np.abs(turn)
+    turn = _frames_turned(a, b, expected.parents, weighed=any(expected.gravity) or any(found.gravity))
     scale = max(float(np.max(np.abs(b.inertia))), 1e-300)
     # Tolerances follow the links: a slight link hanging on a heavy one is held to its own size.
     own = np.maximum(np.abs(b.inertia), 1e-12 * scale)
@@ -157,6 +156,22 @@ def same_motion(found: Mechanism, expected: Mechanism, tolerance: float = 1e-12)
     total = sum(link.mass for link in expected.links)
     sizes_of_weight = np.maximum(np.abs(b.weight), g * np.sqrt(own * total))
     return bool((np.abs(a.weight / turn - b.weight) <= tolerance * sizes_of_weight).all())
+
+
+def _frames_turned(a: Base, b: Base, parents: Sequence[int], weighed: bool) -> Array:
+    """e^{iψ} for each link, ψ the angle by which its frame is turned: from gravity's pull, or where nothing weighs from
+    its coupling to the link that carries it (where a link on the support is counted from is then all the same)."""
+    turn = np.ones(len(parents), dtype=complex)
+    for j, parent in enumerate(parents):
+        if weighed:
+            seen = a.moment[j] * np.conj(b.moment[j])
+        elif parent != SUPPORT:
+            seen = a.coupling[parent, j] * turn[parent] * np.conj(b.coupling[parent, j])
+        else:
+            continue
+        if abs(seen) > 0:
+            turn[j] = seen / abs(seen)
+    return turn
 
 
 def orders(found: Mechanism, expected: Mechanism) -> Iterator[list[int]]:

@@ -197,3 +197,32 @@ def test_ten_links_against_three_engines_take_less_than_three_seconds_cold(tmp_p
     begun = time.perf_counter()
     subprocess.run([sys.executable, "-c", code], check=True)
     assert time.perf_counter() - begun < 3
+
+
+def test_where_nothing_weighs_only_coupling_tells():
+    """Turning the inner link's centre about its hinge changes no inertia and no coupling: nothing but its weight."""
+    from furiko.checks.matching import same_motion
+    from furiko.models import Link, PlanarTree
+
+    def mechanism(angle):
+        com = (0.5 * math.cos(angle), 0.5 * math.sin(angle))
+        return free(PlanarTree((Link(-1, (0, 0), 1, com, 1.0, 1.1), Link(0, (1, 0), 1, (0.4, 0), 2.0, 0.2)), 0.0))
+
+    still = mechanism(0.0)
+    assert same_motion(mechanism(0.0), still)
+    from furiko.checks.explain import explain
+    from furiko.reference import planar
+
+    class Other:
+        p = planar.parameters(mechanism(1.0))
+
+        def accelerations(self, theta, omega):
+            return planar.accelerations((-1, 0), self.p, theta, omega)
+
+    assert explain(Other(), still) == []
+    assert same_motion(mechanism(1.0), still)
+    longer = mechanism(0.0)
+    links = (longer.links[0], replace(longer.links[1], hinge=(1.1, 0)))
+    # An inner inertia that makes up for the longer arm leaves the coupling alone to tell.
+    links = (replace(links[0], inertia=links[0].inertia - 2.0 * (1.1**2 - 1)), links[1])
+    assert not same_motion(replace(longer, links=links), still)
