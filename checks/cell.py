@@ -14,6 +14,7 @@ from ..models import Scene
 from ..models.result import Outcome, Result
 from ..models.states import States
 from .facts import SceneFacts
+from .finding import Finding
 from .rounding import Amplitudes, amplitudes
 
 Array = NDArray[np.float64]
@@ -37,6 +38,16 @@ class Cell:
     def amplitude(self) -> Amplitudes:
         """Magnitudes of the terms in the coordinates in which this engine computes."""
         return amplitudes(self.scene.system, self.info.coordinates)
+
+    @cached_property
+    def findings(self) -> list[Finding]:
+        """Why this engine differs, by what it was measured to do; none where it cannot be measured either."""
+        from .explain import explain
+
+        try:
+            return explain(self.engine, self.scene.system, who=self.info.name, accuracy=self.info.accuracy)
+        except Exception:
+            return []  # an engine that fails here has failed, or will, in a check of its own
 
     def accelerations(self) -> Array:
         """The engine's accelerations in all states, (B, n)."""

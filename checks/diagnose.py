@@ -21,16 +21,19 @@ from ..models import InvalidInput, PlanarTree
 from ..models.mechanism import Hinge, Mechanism, mechanism_of
 from ..models.model_file import ModelFile, read_model
 from ..reference import planar
+from .apart import Lost, call_apart
 from .differences import differences
 from .explain import explain, mechanism_from
 from .finding import CAUSES, Finding, joint
 from .matching import mirrored, natural_turns, orders, rearranged, same_motion, without_hinge
 from .measurement import Array, Measurement, measure, probe_states
+from .messages import CallJob
 from .rounding import EPSILON
 from .suspects import degrees_in_file, suspects
 
 PASSIVE = {"damping": "damping-ignored", "friction": "friction-ignored", "stiffness": "stiffness-ignored"}
 TOLD = 1e-13  # a tilt above this is told
+TIMEOUT = 60.0  # [s] for one engine; ten links take less than one
 ALTOGETHER = 40  # findings shown for one engine, at most
 
 
@@ -92,8 +95,11 @@ def diagnose(model: str | Path | ModelFile, against: Any = None, engines: Mappin
     file = model if isinstance(model, ModelFile) else read_model(model)
     wanted, name = _wanted(against)
     file = _with_gravity(file, wanted)
-    with silenced(), np.errstate(all="ignore"):
-        asked = [_ask(reader, file) for reader in engines.values()]
+    if engines is READERS:
+        asked = _ask_apart(file)
+    else:  # readers of a test or of a user's own: they are objects of this process
+        with silenced(), np.errstate(all="ignore"):
+            asked = [_ask(reader, file) for reader in engines.values()]
     findings = _vote(file, asked)
     of_file = list(degrees_in_file(file))
     of_file += _unideal(file.mechanism) if wanted is None else _against(file, wanted)
@@ -173,6 +179,25 @@ class _Asked:
         if self.compiled is not None:
             content |= {"compiled": described(self.compiled), "residual": self.left, **self.settings}
         return content
+
+
+def _ask_apart(file: ModelFile) -> list[_Asked]:
+    """All engines' answers, each from a process of its own: a file that brings one down leaves the others standing."""
+    calls = [CallJob(".diagnose", "ask", (name, file)) for name in READERS]
+    answers = zip(READERS.values(), call_apart(calls, TIMEOUT), strict=True)
+    return [_brought_down(reader, answer) if isinstance(answer, Lost) else answer for reader, answer in answers]
+
+
+def _brought_down(reader: Reader, lost: Lost) -> _Asked:
+    says = f"{reader.name}: {lost.reason}"
+    findings = [Finding("unexplained", reader.name, None, None, says)]
+    return _Asked(reader.name, "failed", lost.reason, findings=findings, native=reader.native)
+
+
+def ask(name: str, file: ModelFile) -> _Asked:
+    """What one of the engines makes of the file: runs in a worker."""
+    with np.errstate(all="ignore"):
+        return _ask(READERS[name], file)
 
 
 def _ask(reader: Reader, file: ModelFile) -> _Asked:

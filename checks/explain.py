@@ -350,8 +350,3 @@ def _by_term(engine: Any, inverse: Measurement, m: Mechanism, p: Parameters) -> 
             row = int(np.unravel_index(int((sizes / scale).argmax()), sizes.shape)[1])
             words.append(f"{name} off by up to {float(sizes.max()):.3g} N m, most at {joint(m, row)}")
     return words or ["inverse dynamics differs in all terms together"]
-
-
-def explain_cell(cell: Any) -> list[Finding]:
-    """:func:`explain` for a cell whose comparisons differ: its engine against its scene's system."""
-    return explain(cell.engine, cell.scene.system, who=cell.info.name, accuracy=cell.info.accuracy)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 from ..models import Scene
 from ..models.result import Result
@@ -48,6 +48,22 @@ class CaseJob:
 
 
 @dataclass(frozen=True)
+class CallJob:
+    """Call a function of furiko's, ``module`` relative to ``checks``, and send back what it returns."""
+
+    module: str
+    function: str
+    arguments: tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a called function returned."""
+
+    value: Any
+
+
+@dataclass(frozen=True)
 class Begun:
     """A check has begun: if the worker dies now, this is the one that killed it."""
 
@@ -74,4 +90,4 @@ class Done:
     """The job is over."""
 
 
-Message = Begun | Result | Facts | Failed | Done
+Message = Answer | Begun | Result | Facts | Failed | Done

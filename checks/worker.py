@@ -11,15 +11,19 @@ import time
 import traceback
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from importlib import import_module
 from multiprocessing.connection import Connection
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
 from ..models import EngineMissing
 from ..models.result import Result
-from .messages import Begun, CaseJob, CellJob, Done, Facts, FactsJob, Failed, Message
+from .messages import Answer, Begun, CallJob, CaseJob, CellJob, Done, Facts, FactsJob, Failed, Message
 from .plan import CHECKS
+
+if TYPE_CHECKING:
+    from .cell import Cell
 
 
 def main() -> None:
@@ -36,13 +40,15 @@ def main() -> None:
         connection.send(Done())
 
 
-def do(job: FactsJob | CellJob | CaseJob) -> Iterator[Message]:
+def do(job: FactsJob | CellJob | CaseJob | CallJob) -> Iterator[Message]:
     """Everything that a job has to say."""
     try:
         if isinstance(job, FactsJob):
             yield facts(job)
         elif isinstance(job, CaseJob):
             yield job.case.run()
+        elif isinstance(job, CallJob):
+            yield Answer(getattr(import_module(job.module, __package__), job.function)(*job.arguments))
         else:
             yield from cell(job)
     except Exception as error:
@@ -81,7 +87,7 @@ def cell(job: CellJob) -> Iterator[Message]:
         try:
             for result in comparison(check)(this):
                 now = time.perf_counter()
-                yield msgspec.structs.replace(result, seconds=now - begun)
+                yield explained(msgspec.structs.replace(result, seconds=now - begun), check, this)
                 begun = now
                 differ = differ or (check == "accelerations" and result.outcome == "differs")
         except Exception as error:
@@ -89,14 +95,21 @@ def cell(job: CellJob) -> Iterator[Message]:
             yield this.result(check, "error", reason=one_line(error), details=details)
 
 
+def explained(result: Result, check: str, cell: Cell) -> Result:
+    """A result that differs with the cause that measurements name; anything else as it is."""
+    if result.outcome != "differs" or check not in EXPLAINED or result.cause is not None or not cell.findings:
+        return result
+    first = cell.findings[0]
+    return msgspec.structs.replace(result, cause=first.cause, reason=f"{result.reason}; {first.cause}: {first.says}")
+
+
 def comparison(check: str) -> Callable[[Any], Iterator[Result]]:
     """The function that makes this check's comparison, imported now."""
-    from importlib import import_module
-
     compare: Callable[[Any], Iterator[Result]] = import_module(MODULES[check], __package__).compare
     return compare
 
 
+EXPLAINED = ("model fields", "accelerations", "terms")  # instantaneous quantities of the model, which can be fitted
 MODULES = {
     "model fields": ".model_fields",
     "accelerations": ".accelerations",

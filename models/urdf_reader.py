@@ -51,6 +51,8 @@ def read_urdf(root: Element) -> Urdf:
         kept.children.append(Element("mujoco", {}, root.file, root.line, [Element("compiler", {name: value})]))
     if len(links) > MOST_BODIES:
         raise root.wrong(f"{len(links)} links, which no pendulum needs; at most {MOST_BODIES} are taken")
+    if not links:
+        raise root.wrong("no links; at least one must hang from the support")
     below = _children(links, joints)
     _read(file, links, joints, below)
     kept.children += links.values()

@@ -37,7 +37,8 @@ def escape(text: str, longest: int = LONGEST_REASON) -> str:
 def _top(report: Report) -> str:
     mark = {0: GLYPHS["agrees"], 1: GLYPHS["differs"]}.get(report.exit_status, GLYPHS["error"])
     flaws = [f"> [!WARNING]\n> {escape(flaw)}" for flaw in report.flaws]
-    return "\n\n".join([f"## furiko {mark} {escape(report.verdict)}", *flaws])
+    alone = [escape(sentence) for sentence in report.alone]
+    return "\n\n".join([f"## furiko {mark} {escape(report.verdict)}", *flaws, *alone])
 
 
 def _findings(results: Sequence[Result], title: str) -> str:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ..models.result import OUTCOMES, EngineEntry, Footer, Header, Outcome, Result, SceneEntry
-from .words import count, figure, last_line
+from .words import count, few, figure, last_line
 
 # What a cell of several checks says: the worst of them, where that something differs outweighs that something
 # failed, and that one check was skipped says little where others ran.
@@ -183,6 +183,30 @@ class Report:
             if result.outcome == outcome:
                 found.setdefault(last_line(result.reason) or "no reason was given", []).append(result)
         return sorted(found.items(), key=lambda item: -len(item[1]))
+
+    @cached_property
+    def alone(self) -> tuple[str, ...]:
+        """Who stands alone where something differs, a sentence each: one engine, or the documents' equations.
+
+        The equations and at least two engines vote on each scene and check. Where these are split otherwise nobody is
+        blamed.
+        """
+        votes: dict[tuple[str, str], dict[Outcome, list[str]]] = {}
+        for result in self.results:
+            votes.setdefault((result.scene, result.check), {}).setdefault(result.outcome, []).append(result.engine)
+        lone: dict[str, list[str]] = {}
+        for (scene, _), vote in votes.items():
+            differing, agreeing = vote.get("differs", []), vote.get("agrees", [])
+            if len(differing) == 1 and len(agreeing) >= 2:
+                lone.setdefault(differing[0], []).append(scene)
+            elif len(differing) >= 2 and not agreeing:
+                lone.setdefault("", []).append(scene)
+        return tuple(
+            f"{engine} stands alone in {few(scenes, 'scene')}: the equations and the other engines agree."
+            if engine
+            else f"The equations stand alone in {few(scenes, 'scene')}: all engines differ from them."
+            for engine, scenes in lone.items()
+        )
 
     def scene(self, name: str) -> SceneEntry | None:
         """What the header says of this scene."""

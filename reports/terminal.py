@@ -39,6 +39,8 @@ def print_report(
     page = Page(file or sys.stdout, width)
     _print_table(report, page)
     _print_differing(report, page)
+    for sentence in report.alone:
+        page.line(sentence)
     _print_reasons(report, "error", "Failed", page)
     _print_reasons(report, "skipped", "Skipped", page)
     page.line()

@@ -85,3 +85,11 @@ def test_a_scene_at_rest_needs_no_velocity_terms(run_cell, tmp_path):
     for check in ("terms C", "terms velocity"):
         assert (results[check].outcome, results[check].reason) == ("skipped", "every state of the scene is at rest")
     assert {results[check].outcome for check in ("accelerations", "terms M", "terms G", "energy")} == {"agrees"}
+
+
+def test_a_difference_is_given_its_cause_with_what_was_measured(run_cell):
+    results = run_cell("zoo:SignFlipped", "rods-3")
+    for check in ("accelerations", "terms G"):
+        assert results[check].cause == "angle-convention"
+        assert "counted from upwards" in results[check].reason
+    assert run_cell("zoo:HiddenArmature")["model fields"].outcome == "differs"

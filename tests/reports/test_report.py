@@ -108,3 +108,19 @@ def test_the_command_that_runs_a_row_again_is_one_shell_command(make):
         """furiko check 'my scenes/it'"'"'s.toml' --engine mujoco --profile full"""
     )
     assert report.again("not in the header") == "furiko check 'not in the header' --profile full"
+
+
+@pytest.mark.parametrize(
+    ("outcomes", "says"),
+    [
+        (("differs", "agrees", "agrees"), "one stands alone in rods-2: the equations and the other engines agree."),
+        (("differs", "differs", "differs"), "The equations stand alone in rods-2: all engines differ from them."),
+        (("differs", "differs", "agrees"), None),  # two against one and the equations: nobody is blamed
+        (("differs", "agrees", "skipped"), None),  # one engine is no second witness
+        (("agrees", "agrees", "agrees"), None),
+    ],
+)
+def test_who_stands_alone_is_put_to_the_vote(make, outcomes, says):
+    named = zip(("one", "two", "three"), outcomes, strict=True)
+    report = make.report(*(make.result(outcome, engine=engine) for engine, outcome in named))
+    assert report.alone == ((says,) if says else ())

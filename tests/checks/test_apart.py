@@ -1,0 +1,44 @@
+"""Calls in processes of their own: one that dies, hangs or fails is told, and the others answer."""
+
+import os
+import time
+from pathlib import Path
+
+import pytest
+
+from furiko.checks.apart import Lost, call_apart
+from furiko.checks.messages import CallJob
+
+
+@pytest.fixture(autouse=True)
+def here_on_path(monkeypatch):
+    monkeypatch.syspath_prepend(str(Path(__file__).parent))
+
+
+def die():
+    os.abort()
+
+
+def hang():
+    time.sleep(3600)
+
+
+def fail():
+    raise ValueError("no")
+
+
+def double(number):
+    return 2 * number
+
+
+def test_each_call_is_its_own():
+    # The functions are this module's own, found by name: a worker searches where this process does.
+    names = ("double", "die", "hang", "fail", "double")
+    calls = [CallJob("test_apart", name, (21,) if name == "double" else ()) for name in names]
+    first, died, hung, failed, last = call_apart(calls, timeout=8.0)
+    assert first == last == 42
+    assert isinstance(died, Lost)
+    assert "SIGABRT" in died.reason
+    assert isinstance(hung, Lost)
+    assert "hangs" in hung.reason
+    assert failed == Lost("ValueError: no")
