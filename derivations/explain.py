@@ -23,7 +23,7 @@ from .images import Image, Images
 MOST_FACTORS = 14  # guesses at a row's factor that are followed
 MOST_EXPLANATIONS = 8
 COMPOSED_FIRST = 80  # mistakes that are tried as the first of two that do not add: those that leave least unexplained
-COMPOSED_TRIES = 800  # derivations with two mistakes that are worked out; about a third of a second
+COMPOSED_TRIES = 600  # derivations with two mistakes that are worked out; about a quarter of a second
 LAGRANGE_ONLY = ("velocity", "speed", "energy", "lagrangian", "momentum", "derivative")  # not on Newton's road
 
 
@@ -137,13 +137,14 @@ def usual_factors(images: Images, i: int) -> list[int]:
     return [sign * v % PRIME for v in values for sign in (1, -1)]
 
 
-def sums(images: Images, remainder: Remainder) -> list[tuple[Mistake, ...]]:
+def sums(images: Images, rows: Sequence[Vector], remainder: Remainder) -> list[tuple[Mistake, ...]]:
     """Pairs of mistakes whose changes add up to what is wrong: the second is looked up by what the first leaves."""
     table: dict[int, dict[int, list[Image]]] = defaultdict(lambda: defaultdict(list))
     for image in images.wrong:
         for i, change in image.change.items():
             table[i][change].append(image)
     found: dict[frozenset[str], tuple[Mistake, ...]] = {}
+    given = Counter(images.point.projective(row) for row in rows)
     for first in images.wrong:
         left = remainder.after(first)
         if not left or (len(left) == len(remainder.rows) and remainder.rows.keys().isdisjoint(first.change)):
@@ -151,10 +152,18 @@ def sums(images: Images, remainder: Remainder) -> list[tuple[Mistake, ...]]:
         row = min(left, key=lambda i: len(left[i]))
         for number in left[row]:
             for second in table[row].get(number, ()):
-                if second is not first and _explains(left, second):
+                if second is not first and _explains(left, second) and _can_add(images, first, second, given):
                     pair = (first.mistake, second.mistake)
                     found.setdefault(frozenset(m.name for m in pair), pair)
     return list(found.values())
+
+
+def _can_add(images: Images, first: Image, second: Image, given: Counter[int]) -> bool:
+    """Whether two mistakes really lead to the rows: where they meet in a term, that takes a derivation with both."""
+    if first.terms.isdisjoint(second.terms):
+        return True
+    made = images.rows(derive(images.mechanism, (first.mistake, second.mistake)))
+    return given <= Counter(images.point.projective(row) for row in made)
 
 
 def _explains(left: dict[int, set[int]], image: Image) -> bool:
@@ -273,7 +282,7 @@ def explanations(images: Images, rows: Sequence[Vector], alignment: Alignment) -
         return []
     found = singles(images, rows)
     if not found:
-        found = sums(images, Remainder(images, rows, alignment))
+        found = sums(images, rows, Remainder(images, rows, alignment))
     if not found and len(rows) == images.mechanism.n:
         found = singles_solved(images, rows)
     if not found:
