@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from .derivations.grade import grade
     from .engines import engine_names, load_engine
     from .models import EngineMissing, InvalidInput, NLegPendulum, RodChain, to_mjcf, to_urdf
-    from .reference.energy import energy
+    from .reference.energies import energy
     from .reference.kernels import accelerations
     from .reference.taylor import simulate
     from .reports import Report, read_stream
@@ -34,7 +34,7 @@ _HOMES = {
     "audit": "derivations.audit",
     "check": "run",
     "diagnose": "checks.diagnose",
-    "energy": "reference.energy",
+    "energy": "reference.energies",
     "engine_names": "engines",
     "grade": "derivations.grade",
     "load_engine": "engines",

@@ -10,7 +10,7 @@ import pytest
 
 ROOT = Path(__file__).parent.parent.parent
 FOLDERS = ("furiko", "models", "reference", "engines", "checks", "derivations", "reports")
-DATA = {".toml", ".json", ".j2", ".css", ".typed"}  # what the code reads at run time
+DATA = {".toml", ".json", ".j2", ".css", ".html", ".typed"}  # what the code reads at run time
 
 
 @pytest.mark.slow

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from furiko.models import InvalidInput, NLegPendulum, RodChain
 from furiko.reference import exact, truth
-from furiko.reference.energy import energy
+from furiko.reference.energies import energy
 from furiko.reference.taylor import simulate
 
 ROD = RodChain((0.7,), density=3.0)
