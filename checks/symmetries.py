@@ -120,7 +120,7 @@ def _result(cell: Cell, symmetry: Symmetry, found: Worst, theory: float) -> Resu
         "agrees" if max(found.value, theory) <= 1 else "differs",
         measured=found.value,
         allowed=1.0,
-        unit="of rounding",
+        unit="×",
         reason=reason,
         details={"states": STATES, "state": label, "angle": angle + 1, "documents' formula": theory},
     )
