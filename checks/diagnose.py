@@ -85,19 +85,26 @@ class Diagnosis:
         return "\n".join(lines)
 
 
-def diagnose(model: str | Path | ModelFile, against: Any = None, engines: Mapping[str, Reader] = READERS) -> Diagnosis:
+def diagnose(
+    model: str | Path | ModelFile,
+    against: Any = None,
+    engines: Mapping[str, Reader] = READERS,
+    *,
+    apart: bool = False,
+) -> Diagnosis:
     """Diagnose an MJCF or URDF file.
 
     ``against``: None for what the file's own links would do on ideal hinges; the name of a scene or the path of its
-    TOML file; the path of another model file; or a system, planar tree or mechanism. Raises :class:`InvalidInput` for
+    TOML file; the path of another model file; or a system, planar tree or mechanism. ``apart``: ask furiko's own
+    engines each in a process of its own, so that a file that brings one down leaves the others standing. Raises :class:`InvalidInput` for
     a file that is no planar tree of hinges, and for bad ``against``.
     """
     file = model if isinstance(model, ModelFile) else read_model(model)
     wanted, name = _wanted(against)
     file = _with_gravity(file, wanted)
-    if engines is READERS:
+    if apart:
         asked = _ask_apart(file)
-    else:  # readers of a test or of a user's own: they are objects of this process
+    else:
         with silenced(), np.errstate(all="ignore"):
             asked = [_ask(reader, file) for reader in engines.values()]
     findings = _vote(file, asked)

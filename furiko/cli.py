@@ -298,7 +298,7 @@ def diagnose(model: Path, against: str | None, as_json: bool) -> int:
     """Say what each engine makes of an MJCF or URDF file, whether they agree, and why not."""
     from .checks.diagnose import diagnose as diagnose_file
 
-    found = diagnose_file(model, against)
+    found = diagnose_file(model, against, apart=True)
     if as_json:
         print_json(found.to_json())
     else:
