@@ -96,8 +96,8 @@ def diagnose(
 
     ``against``: None for what the file's own links would do on ideal hinges; the name of a scene or the path of its
     TOML file; the path of another model file; or a system, planar tree or mechanism. ``apart``: ask furiko's own
-    engines each in a process of its own, so that a file that brings one down leaves the others standing. Raises :class:`InvalidInput` for
-    a file that is no planar tree of hinges, and for bad ``against``.
+    engines each in a process of its own, so that a file that brings one down leaves the others standing. Raises
+    :class:`InvalidInput` for a file that is no planar tree of hinges, and for bad ``against``.
     """
     file = model if isinstance(model, ModelFile) else read_model(model)
     wanted, name = _wanted(against)
