@@ -6,7 +6,7 @@ its answers. A failure is a finding about the engine and never ends a run.
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,18 +25,7 @@ Failure = Literal[
     "crash",
     "refused",
 ]
-FAILURES: tuple[Failure, ...] = (
-    "half its digits lost",
-    "wrong numbers that look right",
-    "NaN",
-    "silent reset",
-    "energy runs away",
-    "joints come apart",
-    "exception",
-    "hang",
-    "crash",
-    "refused",
-)
+FAILURES: tuple[Failure, ...] = get_args(Failure)
 
 HALF_THE_DIGITS = 2.0**-26  # of a double's 53 bits 27 are lost
 NO_DIGITS = 0.01  # an error that no one would call rounding: finite, unannounced, and wrong in the second digit
