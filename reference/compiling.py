@@ -1,4 +1,4 @@
-"""How numba compiles furiko's kernels: the options, and five instructions that Python has no word for.
+"""How numba compiles furiko's kernels: the options, and what Python has no word for, memory and instructions.
 
 Nothing imports this module before compiled code is wanted: importing numba takes a quarter of a second.
 """
@@ -11,16 +11,27 @@ from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
 
+import numpy as np
 from llvmlite import ir
 from numba import njit, types
 from numba.extending import intrinsic
 
+LINE = 8  # numbers in a line of the cache
 F = TypeVar("F", bound=Callable[..., Any])
 
 # error_model: Python's check for division by zero would keep every loop with a division from being vectorised.
 # fastmath: fused multiply-add and reciprocals of constants, but no reassociation: compensated sums stay exact.
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract", "nsz", "arcp"}}
-SOURCES = ("elimination.py", "compiling.py", "sincos.py", "convolution.py", "kernels_compiled.py", "taylor_compiled.py")
+SOURCES = (
+    "elimination.py",
+    "compiling.py",
+    "lanes.py",
+    "limits.py",
+    "sincos.py",
+    "convolution.py",
+    "kernels_compiled.py",
+    "taylor_compiled.py",
+)
 
 
 def inlined(function: F) -> F:
@@ -60,6 +71,14 @@ def source_stamp() -> str:
     """A digest of all source text that goes into compiled code."""
     folder = Path(__file__).parent
     return hashlib.sha256(b"".join((folder / name).read_bytes() for name in SOURCES)).hexdigest()
+
+
+@inlined
+def aligned(count: int) -> Any:
+    """So many numbers, not set, from the start of a line of the cache on: a vector across two lines takes twice."""
+    numbers = np.empty(count + LINE)
+    start = (-(numbers.ctypes.data // 8)) % LINE
+    return numbers[start : start + count]
 
 
 @intrinsic  # type: ignore[untyped-decorator]

@@ -12,7 +12,7 @@ from __future__ import annotations
 import os
 import sys
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from typing import Any
@@ -45,7 +45,6 @@ FloatArray = NDArray[np.floating[Any]]
 MANY_ANGLES, MANY_CALLS = 4096, 8
 ANGLES_A_THREAD = 50_000  # about 0.2 ms of work; handing a part to a thread takes 0.05 ms
 SCRATCH_COLUMNS = 9
-BLOCK = 64  # states the batch kernels take at a time
 
 _COMPILED = f"{__package__}.kernels_compiled"
 _ARRAY, _FLOAT64, _empty = np.ndarray, np.dtype(np.float64), np.empty
@@ -126,7 +125,8 @@ class Kernel:
         self.refined = unequal(self.lengths)
         self.table = table(self.masses, self.lengths, self.gravity, self.refined)
         self.single = _entry(compiled.rods_single if rods else compiled.legs_single)
-        self._batch = compiled.rods_batch if rods else compiled.legs_batch
+        rods_batch = compiled.refined_rods_batch if self.refined else compiled.rods_batch
+        self._batch = rods_batch if rods else compiled.legs_batch
 
     def __call__(self, theta: Array, omega: Array) -> Array:
         """θ'' of one state; the types of the arrays are not checked."""
@@ -138,18 +138,25 @@ class Kernel:
 
     def batch(self, theta: Array, omega: Array, threads: int | None = None, out: Array | None = None) -> Array:
         """θ'' of one state or many, contiguous float64 arrays of shape (..., n), into ``out`` if given."""
-        out = np.empty(theta.shape) if out is None else out
-        angles, rates, found = (a.reshape(-1, self.n) for a in (theta, omega, out))
-        parts = _parts(len(angles), self.n, threads)
-
-        def run(part: slice) -> int:
-            return self._batch(
-                angles[part], rates[part], found[part], self.masses, self.lengths, self.gravity, self.refined
-            )
-
-        if any([run(parts[0])] if len(parts) == 1 else thread_pool().map(run, parts)):
+        out = _empty(theta.shape) if out is None else out
+        angles, rates, found = (theta, omega, out) if theta.ndim == 2 else self._rows(theta, omega, out)
+        count = _parts(theta.size, threads)
+        if count == 1:
+            status = self._run(angles, rates, found)
+        else:
+            size = -(-len(angles) // count)
+            parts = [slice(first, first + size) for first in range(0, len(angles), size)]
+            run = thread_pool().map(lambda part: self._run(angles[part], rates[part], found[part]), parts)
+            status = max(run)  # waits for all: they write into out
+        if status:
             refuse_outside(theta, omega)
         return out
+
+    def _rows(self, *arrays: Array) -> Iterator[Array]:
+        return (array.reshape(-1, self.n) for array in arrays)
+
+    def _run(self, theta: Array, omega: Array, out: Array) -> int:
+        return self._batch(theta, omega, out, self.masses, self.lengths, self.gravity)
 
 
 def kernel_of(system: System) -> Kernel:
@@ -200,6 +207,8 @@ def processors(threads: int | None) -> int:
     """How many threads may run: those asked for, and no more than there are processors for this process."""
     if threads is not None and threads < 1:
         raise InvalidInput(f"threads: at least 1 is needed, got {threads}")
+    if threads == 1:
+        return 1
     available = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     return min(threads or available, available)
 
@@ -214,12 +223,12 @@ if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=thread_pool.cache_clear)  # a child has the pool, but none of its threads
 
 
-def _parts(batch: int, n: int, threads: int | None) -> list[slice]:
-    """Equal runs of whole blocks of states, one for each thread that is worth its start."""
-    count = max(1, min(processors(threads), batch * n // ANGLES_A_THREAD))
-    size = -(-batch // count)
-    size += -size % BLOCK
-    return [slice(first, first + size) for first in range(0, max(batch, 1), max(size, 1))]
+def _parts(angles: int, threads: int | None) -> int:
+    """How many threads are worth their start."""
+    worth = angles // ANGLES_A_THREAD
+    if worth > 1 or threads is not None:
+        worth = min(worth, processors(threads))
+    return max(worth, 1)
 
 
 def _plain_rods(

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from . import elimination
-from .compiling import called, compiled, fma, inlined, wide_vectors
+from .compiling import aligned, called, compiled, fma, inlined, wide_vectors
 from .convolution import COSINE, EIGHT, FP, FQ, OMEGA, SERIES, SINE, WP, WQ, R, convolve_eight
 from .sincos import sincos
 
@@ -233,15 +233,6 @@ def wrap(state: Any, j: int) -> None:
         state[j, TURNS] += turns
 
 
-@called
-def aligned(shape: Any) -> Any:
-    """Zeros that begin at a multiple of 64 bytes: a vector across two lines of memory costs two reads."""
-    size = shape[0] * shape[1] * shape[2]
-    whole = np.zeros(size + EIGHT)
-    skip = (-(whole.ctypes.data // 8)) % EIGHT
-    return whole[skip : skip + size].reshape(shape)
-
-
 @compiled(releases_gil=True)
 def start(theta: Any, omega: Any, state: Any) -> None:
     """Write the state of one trajectory, shape (n,) each, into a fresh ``state`` of shape (n, STATE)."""
@@ -277,7 +268,9 @@ def run(
     """
     n = len(masses)
     width = (n + EIGHT - 1) // EIGHT * EIGHT
-    series, part = aligned((SERIES, top + 3, width)), aligned((1, ORDER, width))[0]
+    series = aligned(SERIES * (top + 3) * width).reshape((SERIES, top + 3, width))
+    part = aligned(ORDER * width).reshape((ORDER, width))
+    series[:], part[:] = 0.0, 0.0
     factors = np.zeros((n, FACTORS))
     factors[:, MASS], factors[:, LENGTH] = masses, lengths
     direction = 1.0 if times[-1] >= times[0] else -1.0
