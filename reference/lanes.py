@@ -7,7 +7,7 @@ rows at a time are read as vectors and turned in registers, which takes a third 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import numpy as np
@@ -20,19 +20,9 @@ from .limits import LARGEST_ANGLE, LARGEST_RATE
 
 LANES = 32  # four vectors of 512 bits hide each other's latency; more would leave the cache with fewer rods
 
-INT = ir.IntType(32)
-NUMBERS, WORDS, MASK = (ir.VectorType(kind, LINE) for kind in (ir.DoubleType(), ir.IntType(64), ir.IntType(1)))
-ADDRESS = NUMBERS.as_pointer()
-ALIGNED, ZEROS = INT(8), ir.Constant(NUMBERS, [0.0] * LINE)
-EVEN, ODD, LOWER, UPPER = (  # of two vectors one after the other; the halves of what they are number by number
-    ir.Constant(ir.VectorType(INT, LINE), picked)
-    for picked in (
-        [0, 2, 4, 6, 8, 10, 12, 14],
-        [1, 3, 5, 7, 9, 11, 13, 15],
-        [0, 8, 1, 9, 2, 10, 3, 11],
-        [4, 12, 5, 13, 6, 14, 7, 15],
-    )
-)
+INT, DOUBLE = ir.IntType(32), ir.DoubleType()
+EVEN, ODD = [0, 2, 4, 6, 8, 10, 12, 14], [1, 3, 5, 7, 9, 11, 13, 15]  # of two vectors one after the other
+LOWER, UPPER = [0, 8, 1, 9, 2, 10, 3, 11], [4, 12, 5, 13, 6, 14, 7, 15]  # halves of two vectors number by number
 
 
 @inlined
@@ -51,19 +41,30 @@ def filled_up(states: Any, first: int) -> Any:
 def read_columns(states: Any, row: int, first: int, count: int, scratch: Any, to: int, stride: int) -> None:
     """``count`` ≤ 8 columns of the LANES states from ``row`` on, each into LANES places of the scratch from ``to`` on.
 
-    ``first``: of the columns; ``stride``: from one column's places to the next one's. There must be room for eight.
+    ``first``: of the columns; ``stride``: from one column's places to the next one's. The places of the
+    next columns, of eight in all, may be overwritten.
     """
-    width = states.shape[1]
+    at, width = row * states.shape[1] + first, states.shape[1]
     for i in range(0, LANES, LINE):
-        read_tile(states, (row + i) * width + first, count, scratch, to + i, stride)
+        if count <= 2:
+            read_two(states, at + i * width, count, scratch, to + i, stride)
+        elif count <= 4:
+            read_four(states, at + i * width, count, scratch, to + i, stride)
+        else:
+            read_eight(states, at + i * width, count, scratch, to + i, stride)
 
 
 @inlined
 def write_columns(scratch: Any, to: int, stride: int, states: Any, row: int, first: int, count: int) -> None:
     """The way back from :func:`read_columns`."""
-    width = states.shape[1]
+    at, width = row * states.shape[1] + first, states.shape[1]
     for i in range(0, LANES, LINE):
-        write_tile(scratch, to + i, stride, states, (row + i) * width + first, count)
+        if count <= 2:
+            write_two(scratch, to + i, stride, states, at + i * width, count)
+        elif count <= 4:
+            write_four(scratch, to + i, stride, states, at + i * width, count)
+        else:
+            write_eight(scratch, to + i, stride, states, at + i * width, count)
 
 
 @inlined
@@ -98,66 +99,102 @@ def any_suspicious(sizes: Any) -> int:
     return found
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def read_tile(_context: Any, states: Any, _at: Any, _count: Any, scratch: Any, _to: Any, _stride: Any) -> Any:
-    """Eight rows, ``count`` columns of each, the others 0, to eight vectors: three times even from odd."""
+def _reader(most: int) -> Any:
+    """Eight rows, ``count`` ≤ ``most`` columns of each, to vectors of eight: log2(most) times even from odd."""
 
-    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        source, target = (context.make_array(signature.args[k])(context, builder, args[k]) for k in (0, 3))
-        row = builder.extract_value(source.shape, 1)
-        mask, places = _first(builder, args[2]), _places(builder, source.data, args[1], row)
-        vectors = [builder.call(_masked_load(builder), [place, ALIGNED, mask, ZEROS]) for place in places]
-        for _ in range(3):
-            pairs = [*zip(vectors[::2], vectors[1::2], strict=True)]
-            vectors = [builder.shuffle_vector(a, b, picked) for picked in (EVEN, ODD) for a, b in pairs]
-        for vector, place in zip(vectors, _places(builder, target.data, args[4], args[5]), strict=True):
-            builder.store(vector, place, align=8)
-        return context.get_dummy_value()
+    @intrinsic  # type: ignore[untyped-decorator]
+    def read(_context: Any, states: Any, _at: Any, _count: Any, scratch: Any, _to: Any, _stride: Any) -> Any:
+        def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+            source, target = (context.make_array(signature.args[k])(context, builder, args[k]) for k in (0, 3))
+            row, mask = builder.extract_value(source.shape, 1), _first(builder, args[2], most)
+            places = _places(builder, source.data, args[1], row, LINE)
+            vectors = [_masked_load(builder, place, mask) for place in places]
+            while len(vectors) > most:
+                vectors = [_shuffled(builder, a, b, range(2 * a.type.count)) for a, b in _neighbours(vectors)]
+            for _ in range(most.bit_length() - 1):
+                pairs = _neighbours(vectors)
+                vectors = [_shuffled(builder, a, b, picked) for picked in (EVEN, ODD) for a, b in pairs]
+            for vector, place in zip(vectors, _places(builder, target.data, args[4], args[5], most), strict=True):
+                builder.store(vector, _as_vector(builder, place, LINE), align=8)
+            return context.get_dummy_value()
 
-    return types.void(states, types.int64, types.int64, scratch, types.int64, types.int64), generate
+        return types.void(states, types.int64, types.int64, scratch, types.int64, types.int64), generate
 
-
-@intrinsic  # type: ignore[untyped-decorator]
-def write_tile(_context: Any, scratch: Any, _to: Any, _stride: Any, states: Any, _at: Any, _count: Any) -> Any:
-    """The way back: three times number by number."""
-
-    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        source, target = (context.make_array(signature.args[k])(context, builder, args[k]) for k in (0, 3))
-        vectors = [builder.load(place, align=8) for place in _places(builder, source.data, args[1], args[2])]
-        for _ in range(3):
-            pairs = [*zip(vectors[:4], vectors[4:], strict=True)]
-            vectors = [builder.shuffle_vector(a, b, picked) for a, b in pairs for picked in (LOWER, UPPER)]
-        row, mask = builder.extract_value(target.shape, 1), _first(builder, args[5])
-        for vector, place in zip(vectors, _places(builder, target.data, args[4], row), strict=True):
-            builder.call(_masked_store(builder), [vector, place, ALIGNED, mask])
-        return context.get_dummy_value()
-
-    return types.void(scratch, types.int64, types.int64, states, types.int64, types.int64), generate
+    return read
 
 
-def _first(builder: Any, count: Any) -> Any:
-    """A mask of the first ``count`` of eight."""
-    filled = builder.insert_element(ir.Constant(WORDS, ir.Undefined), count, INT(0))
-    counts = builder.shuffle_vector(filled, filled, ir.Constant(ir.VectorType(INT, LINE), [0] * LINE))
-    return builder.icmp_signed("<", ir.Constant(WORDS, [*range(LINE)]), counts)
+def _writer(most: int) -> Any:
+    """The way back: log2(most) times number by number."""
+
+    @intrinsic  # type: ignore[untyped-decorator]
+    def write(_context: Any, scratch: Any, _to: Any, _stride: Any, states: Any, _at: Any, _count: Any) -> Any:
+        def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+            source, target = (context.make_array(signature.args[k])(context, builder, args[k]) for k in (0, 3))
+            places = _places(builder, source.data, args[1], args[2], most)
+            vectors = [builder.load(_as_vector(builder, place, LINE), align=8) for place in places]
+            for _ in range(most.bit_length() - 1):
+                pairs = zip(vectors[: most // 2], vectors[most // 2 :], strict=True)
+                vectors = [_shuffled(builder, a, b, picked) for a, b in pairs for picked in (LOWER, UPPER)]
+            while len(vectors) < LINE:
+                half = vectors[0].type.count // 2
+                parts = range(half), range(half, 2 * half)
+                vectors = [_shuffled(builder, vector, vector, part) for vector in vectors for part in parts]
+            row, mask = builder.extract_value(target.shape, 1), _first(builder, args[5], most)
+            for vector, place in zip(vectors, _places(builder, target.data, args[4], row, LINE), strict=True):
+                _masked_store(builder, vector, place, mask)
+            return context.get_dummy_value()
+
+        return types.void(scratch, types.int64, types.int64, states, types.int64, types.int64), generate
+
+    return write
 
 
-def _places(builder: Any, data: Any, at: Any, apart: Any) -> Iterator[Any]:
-    """Eight addresses of vectors."""
-    for _ in range(LINE):
-        yield builder.bitcast(builder.gep(data, [at]), ADDRESS)
+def _neighbours(vectors: list[Any]) -> list[Any]:
+    return [*zip(vectors[::2], vectors[1::2], strict=True)]
+
+
+def _places(builder: Any, data: Any, at: Any, apart: Any, count: int) -> Iterator[Any]:
+    for _ in range(count):
+        yield builder.gep(data, [at])
         at = builder.add(at, apart)
 
 
-def _masked_load(builder: Any) -> Any:
-    kind = ir.FunctionType(NUMBERS, [ADDRESS, INT, MASK, NUMBERS])
-    return _declared(builder, "llvm.masked.load.v8f64.p0", kind)
+def _as_vector(builder: Any, place: Any, count: int) -> Any:
+    return builder.bitcast(place, ir.VectorType(DOUBLE, count).as_pointer())
 
 
-def _masked_store(builder: Any) -> Any:
-    kind = ir.FunctionType(ir.VoidType(), [NUMBERS, ADDRESS, INT, MASK])
-    return _declared(builder, "llvm.masked.store.v8f64.p0", kind)
+def _shuffled(builder: Any, a: Any, b: Any, picked: Iterable[int]) -> Any:
+    picks = [*picked]
+    return builder.shuffle_vector(a, b, ir.Constant(ir.VectorType(INT, len(picks)), picks))
+
+
+def _first(builder: Any, count: Any, most: int) -> Any:
+    """A mask of the first ``count`` of ``most``."""
+    words = ir.VectorType(ir.IntType(64), most)
+    counts = _shuffled(
+        builder, *2 * [builder.insert_element(ir.Constant(words, ir.Undefined), count, INT(0))], [0] * most
+    )
+    return builder.icmp_signed("<", ir.Constant(words, [*range(most)]), counts)
+
+
+def _masked_load(builder: Any, place: Any, mask: Any) -> Any:
+    numbers = ir.VectorType(DOUBLE, mask.type.count)
+    kind = ir.FunctionType(numbers, [numbers.as_pointer(), INT, mask.type, numbers])
+    function = _declared(builder, f"llvm.masked.load.v{numbers.count}f64.p0", kind)
+    zeros = ir.Constant(numbers, [0.0] * numbers.count)
+    return builder.call(function, [_as_vector(builder, place, numbers.count), INT(8), mask, zeros])
+
+
+def _masked_store(builder: Any, vector: Any, place: Any, mask: Any) -> None:
+    numbers = vector.type
+    kind = ir.FunctionType(ir.VoidType(), [numbers, numbers.as_pointer(), INT, mask.type])
+    function = _declared(builder, f"llvm.masked.store.v{numbers.count}f64.p0", kind)
+    builder.call(function, [vector, _as_vector(builder, place, numbers.count), INT(8), mask])
 
 
 def _declared(builder: Any, name: str, kind: Any) -> Any:
     return builder.module.globals.get(name) or ir.Function(builder.module, kind, name)
+
+
+read_two, read_four, read_eight = map(_reader, (2, 4, 8))
+write_two, write_four, write_eight = map(_writer, (2, 4, 8))
