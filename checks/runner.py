@@ -14,6 +14,7 @@ import time
 from collections import Counter, deque
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from itertools import chain
 from multiprocessing.connection import Connection, wait
 
 from ..engines import engine_version
@@ -32,19 +33,22 @@ def run(
 ) -> Iterator[Result]:
     """Every result of the plan: first what is settled or kept already, then the others in the order in which they come.
 
-    ``place``: where workers come from; ``jobs``: how many, as many as there are cores for None; ``timeout``: seconds
-    for one check.
+    Workers are busy from the call on, before the first result is asked for; they end with their ``place``, if not by
+    themselves. ``place``: where workers come from; ``jobs``: how many, as many as there are cores for None;
+    ``timeout``: seconds for one check.
     """
-    yield from plan.settled
-    tasks = []
+    known, tasks = [*plan.settled], []
     for task in plan.tasks:
         kept = cache.results(task, version) if (version := engine_version(task.engine)) else None
         if kept is None:
             tasks.append(task)
         else:
-            yield from kept
-    if tasks:
-        yield from _Pool(tasks, cache, place, jobs or os.cpu_count() or 1, timeout).results()
+            known += kept
+    if not tasks:
+        return iter(known)
+    pool = _Pool(tasks, cache, place, jobs or os.cpu_count() or 1, timeout)
+    pool.begin()
+    return chain(known, pool.results())
 
 
 @dataclass(eq=False)
@@ -81,15 +85,18 @@ class _Pool:
         self.workers: list[_Worker] = []
         self.size = min(jobs, len(tasks))
 
-    def results(self) -> Iterator[Result]:
+    def begin(self) -> None:
         for job in list(self.facts_jobs):
             content = self.cache.facts(job.scene, job.random_states)
             if content is not None:
                 self.facts_jobs.remove(job)
                 self._release(job, content)
+        for _ in range(self.size):
+            self._start()
+        self._employ()
+
+    def results(self) -> Iterator[Result]:
         try:
-            for _ in range(self.size):
-                self._start()
             while self._employ():
                 yield from self._listen()
         finally:

@@ -31,21 +31,23 @@ class Workshop:
 
     folder: str
     waiting: list[Spawned] = field(default_factory=list)
+    taken: list[Spawned] = field(default_factory=list)
 
     def worker(self) -> Spawned:
         """One that waits, or a fresh one."""
-        return self.waiting.pop() if self.waiting else spawn(self.folder)
+        self.taken.append(self.waiting.pop() if self.waiting else spawn(self.folder))
+        return self.taken[-1]
 
 
 @contextlib.contextmanager
 def workshop(ahead: int = 0) -> Iterator[Workshop]:
-    """A workshop with so many workers started already; those that nobody took are ended with it."""
+    """A workshop with so many workers started already; all its workers are ended with it."""
     with tempfile.TemporaryDirectory(prefix="furiko-") as folder:
         found = Workshop(folder, [spawn(folder) for _ in range(min(ahead, MOST_AHEAD))])
         try:
             yield found
         finally:
-            for process, connection in found.waiting:
+            for process, connection in found.waiting + found.taken:
                 process.kill()
                 process.wait()
                 connection.close()

@@ -30,6 +30,8 @@ def main() -> None:
     """Serve until the other end closes: ``python -m furiko.checks.worker FILE_DESCRIPTOR``."""
     connection = Connection(int(sys.argv[1]))
     sys.path += [path for path in connection.recv() if path not in sys.path]
+    for module in (".facts", ".cell"):  # most jobs need them: import them while the first is still being decided on
+        import_module(module, __package__)
     while True:
         try:
             job = connection.recv()

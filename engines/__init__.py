@@ -1,8 +1,27 @@
-"""Physics engines behind one protocol; nothing else in furiko imports one."""
+"""Physics engines behind one protocol; nothing else in furiko imports one.
 
-from .protocol import BareCall, Engine, EngineInfo, Integrator, ModelFields, Native, Quantity
+What an engine is and can do is known without numpy: a plan is made while the workers are still importing it.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from .info import EngineInfo, Integrator, Quantity
 from .registry import ENGINES, cannot, engine_info, engine_names, engine_version, load_engine
-from .shapes import AnyShape
+
+if TYPE_CHECKING:
+    from .protocol import BareCall, Engine, ModelFields, Native
+    from .shapes import AnyShape
+
+_HOMES = {
+    "AnyShape": "shapes",
+    "BareCall": "protocol",
+    "Engine": "protocol",
+    "ModelFields": "protocol",
+    "Native": "protocol",
+}
 
 __all__ = [
     "ENGINES",
@@ -20,3 +39,9 @@ __all__ = [
     "engine_version",
     "load_engine",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'furiko.engines' has no attribute {name!r}")
+    return getattr(import_module(f".{_HOMES[name]}", __name__), name)

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import importlib
 import importlib.metadata
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..models import EngineMissing, InvalidInput, System
 from ..models.errors import nearest
-from .protocol import EngineInfo, Integrator
-from .shapes import AnyShape
+from .info import EngineInfo, Integrator
+
+if TYPE_CHECKING:
+    from .shapes import AnyShape
 
 _PINOCCHIO: dict[str, Any] = {
     "module": "pinocchio",
@@ -152,6 +154,8 @@ def load_engine(name: str, system: System) -> AnyShape:
     Raises :class:`InvalidInput` for an unknown engine or a system that it cannot take (before anything is imported or
     allocated), :class:`EngineMissing` where the engine cannot be imported.
     """
+    from .shapes import AnyShape
+
     info = engine_info(name)
     why_not = cannot(info, system)
     if why_not is not None:

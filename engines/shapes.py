@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike
 
 from ..models import InvalidInput, System
 from ..models.errors import nearest
-from .protocol import Array, BareCall, Engine, EngineInfo, ModelFields, Native, Quantity
+from .info import EngineInfo, Quantity
+from .protocol import Array, BareCall, Engine, ModelFields, Native
 
 
 class AnyShape:

@@ -8,7 +8,7 @@ import shlex
 import sys
 import time
 from collections.abc import Callable, Sequence
-from contextlib import nullcontext
+from contextlib import ExitStack
 from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -53,13 +53,13 @@ def check(
     given = None if scenes is None else [str(scene) for scene in scenes]
     plan = make_plan(given, engines, profile)
     cache = user_cache() if use_cache else Cache(None)
-    header = make_header(plan, given)
     results = []
-    with (
-        nullcontext() if out is None else open_report(out, header) as stream,
-        nullcontext(place) if place else workshop() as workers,
-    ):
-        for result in run(plan, cache=cache, place=workers, jobs=jobs, timeout=timeout):
+    with ExitStack() as open_until_done:
+        workers = place or open_until_done.enter_context(workshop())
+        running = run(plan, cache=cache, place=workers, jobs=jobs, timeout=timeout)
+        header = make_header(plan, given)  # while they work: the formulas in it need numpy
+        stream = None if out is None else open_until_done.enter_context(open_report(out, header))
+        for result in running:
             results.append(result if stream is None else stream.write(result))
             if watch is not None:
                 watch(plan, results[-1])

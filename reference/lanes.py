@@ -171,9 +171,8 @@ def _shuffled(builder: Any, a: Any, b: Any, picked: Iterable[int]) -> Any:
 def _first(builder: Any, count: Any, most: int) -> Any:
     """A mask of the first ``count`` of ``most``."""
     words = ir.VectorType(ir.IntType(64), most)
-    counts = _shuffled(
-        builder, *2 * [builder.insert_element(ir.Constant(words, ir.Undefined), count, INT(0))], [0] * most
-    )
+    alone = builder.insert_element(ir.Constant(words, ir.Undefined), count, INT(0))
+    counts = _shuffled(builder, alone, alone, [0] * most)
     return builder.icmp_signed("<", ir.Constant(words, [*range(most)]), counts)
 
 

@@ -15,9 +15,8 @@ import numpy as np
 import pinocchio
 from faults import Shape, free, fused, off, random_style, random_tree, with_hinge, with_link, written
 
-from furiko.engines import load_engine
+from furiko.engines import Integrator, load_engine
 from furiko.engines.from_file import READERS, Reader
-from furiko.engines.protocol import Integrator
 from furiko.models import PlanarTree, to_urdf
 from furiko.models.model_file import model_from_text
 from furiko.models.tree import SUPPORT
