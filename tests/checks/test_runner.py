@@ -1,13 +1,18 @@
 """Runs on worker processes: one engine's failure is its own, and nothing is lost or counted twice."""
 
 import os
+import subprocess
+import sys
 from collections import Counter
 from pathlib import Path
 
 import pytest
 
 import furiko
-from furiko.checks.plan import PROFILES
+from furiko.checks.cache import Cache
+from furiko.checks.plan import PROFILES, make_plan
+from furiko.checks.runner import run
+from furiko.checks.spawn import workshop
 
 CHECKS = PROFILES["quick"].checks
 
@@ -79,12 +84,29 @@ def test_no_worker_outlives_its_run():
     assert workers == []
 
 
+def test_workers_begin_at_once_and_end_with_their_workshop():
+    """Nobody asks for a result here: as where the header or the stream cannot be written."""
+    with workshop() as place:
+        run(make_plan(["rods-2"], ["mujoco"], "smoke"), cache=Cache(None), place=place, jobs=2)
+        processes = [process for process, _ in place.taken]
+        assert processes
+        assert all(process.poll() is None for process in processes)
+    assert all(process.poll() is not None for process in processes)
+
+
+def test_a_plan_is_made_without_numpy():
+    """Workers import it at the same time; a plan that waited for it too would make every run a tenth slower."""
+    code = "import furiko.run, sys; from furiko.checks.plan import make_plan; make_plan(None, None, 'smoke')"
+    loaded = subprocess.run([sys.executable, "-c", f"{code}; print(*sys.modules)"], capture_output=True, check=True)
+    assert not {"numpy", "mujoco", "rich", "jinja2"} & set(loaded.stdout.decode().split())
+
+
 def test_results_do_not_depend_on_the_number_of_workers():
-    def run(jobs):
+    def verdicts(jobs):
         found = check("Right", "SignFlipped", scenes=["rods-2", "rods-3"], jobs=jobs).results
         return {(r.scene, r.engine, r.check): (r.outcome, r.measured) for r in found if "trajectory" not in r.check}
 
-    assert run(1) == run(2)
+    assert verdicts(1) == verdicts(2)
 
 
 def test_a_missing_engine_is_skipped_unless_it_was_asked_for(monkeypatch):
