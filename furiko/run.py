@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from datetime import UTC, datetime
+from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
@@ -59,6 +60,8 @@ def check(
         running = run(plan, cache=cache, place=workers, jobs=jobs, timeout=timeout)
         header = make_header(plan, given)  # while they work: the formulas in it need numpy
         stream = None if out is None else open_until_done.enter_context(open_report(out, header))
+        if stream is not None:
+            import_module("furiko.reports.html")  # likewise: it takes as long as a small run's last check
         for result in running:
             results.append(result if stream is None else stream.write(result))
             if watch is not None:
