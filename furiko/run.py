@@ -10,7 +10,6 @@ import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from datetime import UTC, datetime
-from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
@@ -22,7 +21,7 @@ from .checks.spawn import Workshop, workshop
 from .engines import engine_version
 from .models import Scene, catalogue
 from .models.result import OUTCOMES, EngineEntry, Footer, Header, Result, SceneEntry
-from .reports import Report, StreamWriter, open_report, write_reports
+from .reports import Report, StreamWriter, open_report, prepare_reports, write_reports
 
 PACKAGES = ("numpy", "scipy", "mujoco", "pin", "exudyn", "python-flint", "heyoka", "numba")
 SEED = "sha256 of the scene's name, PCG64"
@@ -61,7 +60,7 @@ def check(
         header = make_header(plan, given)  # while they work: the formulas in it need numpy
         stream = None if out is None else open_until_done.enter_context(open_report(out, header))
         if stream is not None:
-            import_module("furiko.reports.html")  # likewise: it takes as long as a small run's last check
+            prepare_reports()  # likewise: at the end of a small run nothing else would be left to do
         for result in running:
             results.append(result if stream is None else stream.write(result))
             if watch is not None:

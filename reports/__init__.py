@@ -3,6 +3,16 @@
 from .compare import Comparison, compare
 from .report import Cell, Report
 from .stream import StreamWriter, read_stream
-from .write import open_report, write_reports
+from .write import open_report, prepare_reports, write_reports
 
-__all__ = ["Cell", "Comparison", "Report", "StreamWriter", "compare", "open_report", "read_stream", "write_reports"]
+__all__ = [
+    "Cell",
+    "Comparison",
+    "Report",
+    "StreamWriter",
+    "compare",
+    "open_report",
+    "prepare_reports",
+    "read_stream",
+    "write_reports",
+]

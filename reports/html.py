@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 DRAWN = ("traceback", "errors over time")  # further figures that stand elsewhere on the page
 
 TEMPLATES = Path(__file__).parent / "templates"
+PAGE = "report.html.j2"
+PARTS = ("marks.html.j2", "facts.html.j2", "overview.html.j2", "reasons.html.j2", "scene.html.j2")  # it includes these
 
 
 @dataclass(frozen=True)
@@ -108,7 +110,7 @@ def to_html(report: Report) -> str:
     """The whole page as text; everything from the stream is escaped, markup comes from the templates alone."""
     from markupsafe import Markup
 
-    page = environment().get_template("report.html.j2")
+    page = environment().get_template(PAGE)
     return page.render(
         report=report,
         scenes=[SceneView(report, name, f"s{i}") for i, name in enumerate(report.scenes, start=1)],
@@ -117,6 +119,12 @@ def to_html(report: Report) -> str:
         style=Markup((TEMPLATES / "style.css").read_text(encoding="utf-8")),
         in_words=_in_words,
     )
+
+
+def load_templates() -> None:
+    """Compile the page's templates ahead of their use; they are kept."""
+    for name in (PAGE, *PARTS):
+        environment().get_template(name)
 
 
 @cache

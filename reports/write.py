@@ -29,6 +29,13 @@ def open_report(directory: str | Path, header: Header) -> StreamWriter:
     return StreamWriter(folder / STREAM, header)
 
 
+def prepare_reports() -> None:
+    """Load what :func:`write_reports` will need, while something else computes."""
+    from .html import load_templates
+
+    load_templates()
+
+
 def write_reports(directory: str | Path, report: Report) -> tuple[Path, ...]:
     """Write the page, the summary and the JUnit file of a run into its folder; returns their paths.
 

@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from furiko.reports.drawings import MOST_LINKS, draw_errors, draw_mechanism
-from furiko.reports.html import to_html
+from furiko.reports.html import environment, load_templates, to_html
 from furiko.reports.report import Report
 
 VOID = {"meta", "br"}
@@ -67,6 +67,15 @@ def test_a_large_run_is_one_small_file_that_fetches_and_runs_nothing(make):
     assert all(target.startswith("#") for target in page.attributes("href"))
     assert not re.search(r"url\(|@import|https?://|file://", html)
     assert {"default-src 'none'; style-src 'unsafe-inline'"} <= set(page.attributes("content"))
+
+
+def test_templates_loaded_ahead_are_those_that_the_page_uses(make):
+    environment.cache_clear()
+    load_templates()
+    ahead = {name for _, name in environment().cache}
+    environment.cache_clear()
+    to_html(make.large())
+    assert {name for _, name in environment().cache} == ahead
 
 
 def test_every_link_leads_somewhere_and_every_id_is_one(make):
