@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from . import __version__
-from .models.errors import EngineMissing, InvalidInput
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -169,7 +168,7 @@ def engines(as_json: bool) -> int:
 @click.option("--out", "-o", type=click.Path(path_type=Path), help="File to write; standard output if not given.")
 def export(scene: str, language: str | None, out: Path | None) -> int:
     """Write a scene's mechanism as a model file."""
-    from .models import find_scene, to_mjcf, to_urdf
+    from .models import InvalidInput, find_scene, to_mjcf, to_urdf
 
     if language is None:
         raise click.UsageError("one of --mjcf and --urdf is needed")
@@ -485,10 +484,6 @@ def run(arguments: list[str]) -> int:
     try:
         status = cli.main(arguments, prog_name="furiko", standalone_mode=False)
         sys.stdout.flush()
-    except InvalidInput as error:
-        return _say(str(error), BAD_INPUT)
-    except EngineMissing as error:
-        return _say(str(error), ENGINE_FAILED)
     except click.ClickException as error:
         return _say(error.format_message(), BAD_INPUT)
     except (KeyboardInterrupt, click.Abort):
@@ -497,6 +492,14 @@ def run(arguments: list[str]) -> int:
         # Who read standard output has gone: nothing more can be said there.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return INTERRUPTED
+    except (ValueError, RuntimeError) as error:
+        from .models import EngineMissing, InvalidInput  # only now: workers are started before it is needed elsewhere
+
+        if isinstance(error, InvalidInput):
+            return _say(str(error), BAD_INPUT)
+        if isinstance(error, EngineMissing):
+            return _say(str(error), ENGINE_FAILED)
+        raise
     return status if isinstance(status, int) else AGREES
 
 
