@@ -52,7 +52,7 @@ def imported_by_smoke() -> list[str]:
 
 def smoke_target() -> Target:
     """A cold smoke run, and that it imports nothing heavy."""
-    check_seconds("smoke")  # from here on the files are in the system's memory
+    check_seconds("smoke")  # from here on the files are compiled and in the system's memory
     runs = [check_seconds("smoke") for _ in range(SMOKE_RUNS)]
     seconds = statistics.median(taken for taken, _ in runs)
     heavy = sorted(set(HEAVY) & set(imported_by_smoke()))
@@ -87,5 +87,6 @@ def profile_targets(watch: Callable[[str], None] = lambda _: None) -> Iterator[T
 
 
 def _environment() -> dict[str, str]:
-    """This process's, less what was set for its own timings."""
-    return {key: value for key, value in os.environ.items() if not key.endswith("_NUM_THREADS")}
+    """This process's, less what was set for its own timings, and with modules compiled once and kept, as installed."""
+    left_out = "PYTHONDONTWRITEBYTECODE"
+    return {key: value for key, value in os.environ.items() if not key.endswith("_NUM_THREADS") and key != left_out}
