@@ -9,8 +9,7 @@ from multiprocessing.connection import wait
 from typing import Any
 
 from .messages import Answer, CallJob, Failed
-from .runner import death
-from .spawn import Spawned, workshop
+from .spawn import Spawned, death, workshop
 
 
 @dataclass(frozen=True)
@@ -24,16 +23,10 @@ def call_apart(calls: Sequence[CallJob], timeout: float) -> list[Any]:
     """What each call returns, or :class:`Lost`: each in a worker of its own, for ``timeout`` seconds at most."""
     with workshop(ahead=len(calls)) as place:
         workers = [place.worker() for _ in calls]
-        try:
-            for (_, connection), call in zip(workers, calls, strict=True):
-                connection.send(call)
-            deadline = time.monotonic() + timeout
-            return [_answer(worker, deadline, timeout) for worker in workers]
-        finally:
-            for process, connection in workers:
-                process.kill()
-                process.wait()
-                connection.close()
+        for (_, connection), call in zip(workers, calls, strict=True):
+            connection.send(call)
+        deadline = time.monotonic() + timeout
+        return [_answer(worker, deadline, timeout) for worker in workers]
 
 
 def _answer(worker: Spawned, deadline: float, timeout: float) -> Any:

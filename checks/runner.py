@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import signal
 import subprocess
 import time
 from collections import Counter, deque
@@ -22,7 +21,7 @@ from ..models.result import Result
 from .cache import Cache
 from .messages import Begun, CellJob, Done, Facts, FactsJob, Failed
 from .plan import Plan, Task
-from .spawn import Workshop
+from .spawn import Workshop, death, end
 
 TIMEOUT = 60.0  # [s] for one check; the slowest sound one seen takes a few
 HANGS = 2  # after so many time-outs an engine is given up: each costs the whole time-out
@@ -108,9 +107,7 @@ class _Pool:
 
     def _stop(self, worker: _Worker) -> None:
         self.workers.remove(worker)
-        worker.process.kill()
-        worker.process.wait()
-        worker.connection.close()
+        end(worker.process, worker.connection)
 
     def _employ(self) -> bool:
         """Give every idle worker a job; whether anything is still under way."""
@@ -222,11 +219,3 @@ def _error(task: Task, check: str, reason: str, details: dict[str, str] | None =
     return Result(
         scene=task.scene.name, engine=task.engine, check=check, outcome="error", reason=reason, details=details or {}
     )
-
-
-def death(process: subprocess.Popen[bytes]) -> str:
-    """How a worker that went silent came to its end, in words."""
-    status = process.wait()
-    if status < 0:
-        return f"the engine's process died of {signal.Signals(-status).name}"
-    return f"the engine's process ended with status {status}"

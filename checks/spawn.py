@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -47,10 +48,8 @@ def workshop(ahead: int = 0) -> Iterator[Workshop]:
         try:
             yield found
         finally:
-            for process, connection in found.waiting + found.taken:
-                process.kill()
-                process.wait()
-                connection.close()
+            for spawned in found.waiting + found.taken:
+                end(*spawned)
 
 
 def spawn(folder: str) -> Spawned:
@@ -69,3 +68,18 @@ def spawn(folder: str) -> Spawned:
     theirs.close()
     ours.send([os.path.abspath(path) for path in sys.path])
     return process, ours
+
+
+def end(process: subprocess.Popen[bytes], connection: Connection) -> None:
+    """End a worker, whatever it is doing; one that has ended already stays so."""
+    process.kill()
+    process.wait()
+    connection.close()
+
+
+def death(process: subprocess.Popen[bytes]) -> str:
+    """How a worker that went silent came to its end, in words."""
+    status = process.wait()
+    if status < 0:
+        return f"the engine's process died of {signal.Signals(-status).name}"
+    return f"the engine's process ended with status {status}"

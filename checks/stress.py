@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import contextlib
 import subprocess
-import tempfile
 import time
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -26,8 +25,7 @@ from ..models.result import Result
 from .failures import Failure
 from .frontier import Frontier, frontier, next_rung
 from .messages import Case, CaseJob, Done, Failed
-from .runner import death
-from .spawn import spawn
+from .spawn import Workshop, death, end, workshop
 from .stability import CHUNKS, STRESSES, TOP, LongRunCase, StabilityCase, Stress
 from .stress_accelerations import DOCUMENT, KERNELS, AccelerationCase
 from .stress_axes import Ladder, Pair
@@ -231,8 +229,8 @@ def run(
     ``jobs``: worker processes; ``timeout`` [s] for one case; ``watch`` is called with each case that begins,
     and how many questions are open.
     """
-    with tempfile.TemporaryDirectory(prefix="furiko-stress-") as folder:
-        pool = _Pool(searches, results, time.monotonic() + budget, timeout, folder, watch)
+    with workshop() as place:
+        pool = _Pool(searches, results, time.monotonic() + budget, timeout, place, watch)
         yield from pool.run(jobs)
 
 
@@ -255,13 +253,13 @@ class _Pool:
         self,
         searches: Sequence[Search],
         results: dict[Key, Result],
-        end: float,
+        until: float,
         timeout: float,
-        folder: str,
+        place: Workshop,
         watch: Watch,
     ) -> None:
         self.asking = {search: search.next(results) for search in searches}
-        self.results, self.end, self.timeout, self.folder, self.watch = results, end, timeout, folder, watch
+        self.results, self.until, self.timeout, self.place, self.watch = results, until, timeout, place, watch
         self.spent: defaultdict[str, float] = defaultdict(float)
         self.workers: list[_Worker] = []
 
@@ -279,18 +277,16 @@ class _Pool:
                 self._stop(worker)
 
     def _start(self) -> None:
-        self.workers.append(_Worker(*spawn(self.folder)))
+        self.workers.append(_Worker(*self.place.worker()))
 
     def _stop(self, worker: _Worker) -> None:
         self.workers.remove(worker)
-        worker.process.kill()
-        worker.process.wait()
-        worker.connection.close()
+        end(worker.process, worker.connection)
 
     def _employ(self) -> bool:
         """Give idle workers cases while there is time; whether any is at work."""
         for worker in self.workers:
-            if worker.case is None and time.monotonic() < self.end:
+            if worker.case is None and time.monotonic() < self.until:
                 chosen = self._choose()
                 if chosen is not None:
                     worker.search, worker.case = chosen
@@ -322,7 +318,7 @@ class _Pool:
         return [worker for worker in busy if worker.connection in ready]
 
     def _deadline(self, worker: _Worker) -> float:
-        return min(worker.begun + self._allowed(worker.case), max(self.end, worker.begun) + GRACE)
+        return min(worker.begun + self._allowed(worker.case), max(self.until, worker.begun) + GRACE)
 
     def _allowed(self, case: Case | None) -> float:
         """Seconds for a case: some are known to take long."""
