@@ -21,7 +21,8 @@ def print_bench(found: Bench, path: str | Path | None = None, file: TextIO | Non
         page.console.width = 140
     machine, versions = found.machine, found.versions
     page.line(f"furiko {found.furiko} bench, {found.seconds:.0f} s")
-    page.line(", ".join(machine.values()) + "; " + ", ".join(f"{key}: {value}" for key, value in found.threads.items()))
+    threads = ", ".join(f"{key}: {value}" for key, value in found.threads.items())
+    page.line(f"{', '.join(machine.values())} cores; {threads}")
     page.line(", ".join(f"{name} {version}" for name, version in versions.items()), "dim")
     for motion in found.motions:
         _motion(motion, page)
@@ -59,7 +60,7 @@ def _motion(motion: Motion, page: Page) -> None:
     _table(("  engine", "scheme", *(f"{error:g}" for error in errors), "its nearest"), rows, page)
     page.line("* on the Pareto front; in brackets: how many times furiko's own time", "dim")
     for reason, found in _reasons(motion).items():
-        page.line(f"not reached by {', '.join(found)}: {reason}", "dim")
+        page.line(f"not reached by {'; '.join(found)}: {reason}", "dim")
     for sentence in motion.left_out:
         page.line(f"left out: {sentence}", "dim")
 
