@@ -119,18 +119,26 @@ def wide_vectors(_context: Any) -> Any:
     return types.void(), generate
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def prefetch(_context: Any, array: Any, _index: Any) -> Any:
-    """Ask for the memory at the array's index-th number, counted through all axes; harmless beyond its end."""
+def _prefetcher(*, to_write: int, nearness: int) -> Any:
+    """Ask for the memory at the array's index-th number, counted through all axes; harmless beyond its ends."""
 
-    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        data = context.make_array(signature.args[0])(context, builder, args[0]).data
-        address = builder.bitcast(builder.gep(data, [args[1]]), ir.IntType(8).as_pointer())
-        word = ir.IntType(32)
-        function = builder.module.declare_intrinsic(
-            "llvm.prefetch", [address.type], ir.FunctionType(ir.VoidType(), [address.type, word, word, word])
-        )
-        builder.call(function, [address, word(0), word(2), word(1)])  # to read, into the second-level cache, data
-        return context.get_dummy_value()
+    @intrinsic  # type: ignore[untyped-decorator]
+    def prefetch(_context: Any, array: Any, _index: Any) -> Any:
+        def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+            data = context.make_array(signature.args[0])(context, builder, args[0]).data
+            address = builder.bitcast(builder.gep(data, [args[1]]), ir.IntType(8).as_pointer())
+            word = ir.IntType(32)
+            function = builder.module.declare_intrinsic(
+                "llvm.prefetch", [address.type], ir.FunctionType(ir.VoidType(), [address.type, word, word, word])
+            )
+            builder.call(function, [address, word(to_write), word(nearness), word(1)])  # 1: data
+            return context.get_dummy_value()
 
-    return types.void(array, types.int64), generate
+        return types.void(array, types.int64), generate
+
+    return prefetch
+
+
+prefetch_near = _prefetcher(to_write=0, nearness=2)  # into the second-level cache
+prefetch_next = _prefetcher(to_write=0, nearness=3)  # into the first
+prefetch_own = _prefetcher(to_write=1, nearness=3)  # into the first, to be written

@@ -16,7 +16,17 @@ import numpy as np
 
 from . import elimination
 from .compiling import aligned, called, compiled, inlined, wide_vectors
-from .lanes import LANES, any_suspicious, fetch_ahead, filled_up, read_columns, size, write_columns
+from .lanes import (
+    any_suspicious,
+    fetch_block,
+    fetch_scratch,
+    fetch_to_read,
+    fetch_to_write,
+    filled_up,
+    read_columns,
+    size,
+    write_columns,
+)
 from .limits import LARGEST_ANGLE, LARGEST_RATE
 from .sincos import sincos
 
@@ -114,6 +124,7 @@ def legs_single(theta: Any, omega: Any, out: Any, table: Any) -> int:
     return 1 if bad > 0.0 else 0
 
 
+LANES = 16  # states of rod chains at a time: with more, long chains leave the cache sooner
 A, B, C, D, P, Q, SIZE = (k * LANES for k in range(7))  # of each lane
 ALONG_T, ACROSS_T = A, B  # take their places
 STATE = 7 * LANES
@@ -122,35 +133,39 @@ SIN = ANGLE  # takes its place, and gives it to θ'' in the end
 ROW = 6 * LANES
 ALONG, ACROSS, MOVED = (k * LANES for k in range(3))  # of each lane and rod, for the refinement
 KEPT = 3 * LANES
+AHEAD = 18  # rods: so far ahead scratch is fetched, three pages of memory
+SHORT = 1024  # links: the next block is fetched meanwhile; more would push this one's scratch out of the cache
 
-FIRST, H, PULL, INERTIA, SIN1, LEG_SIZE = (k * LANES for k in range(6))  # of each lane
-FIRST_STATE = 6 * LANES
-LEG_ANGLE, LEG_RATE = 0, LANES  # of each lane and leg
+LEG_LANES = 32  # states of N-leg pendulums at a time: their scratch is small
+FIRST, H, PULL, INERTIA, SIN1, LEG_SIZE = (k * LEG_LANES for k in range(6))  # of each lane
+FIRST_STATE = 6 * LEG_LANES
+LEG_ANGLE, LEG_RATE = 0, LEG_LANES  # of each lane and leg
 LEG_SIN, LEG_COS = LEG_ANGLE, LEG_RATE  # take their places
-LEG = 2 * LANES
+LEG = 2 * LEG_LANES
 
 
 @compiled(releases_gil=True)
 def rods_batch(theta: Any, omega: Any, out: Any, masses: Any, lengths: Any, gravity: float) -> int:
     """θ'' of a rod chain in many states, shape (B, n) each."""
-    return in_blocks(rods_block, STATE, ROW, theta, omega, out, masses, lengths, gravity)
+    return in_blocks(rods_block, LANES, STATE, ROW, theta, omega, out, masses, lengths, gravity)
 
 
 @compiled(releases_gil=True)  # apart, because the mere presence of the refinement slows down what goes without
 def refined_rods_batch(theta: Any, omega: Any, out: Any, masses: Any, lengths: Any, gravity: float) -> int:
     """:func:`rods_batch` with one step of refinement."""
-    return in_blocks(refined_rods_block, STATE, ROW + KEPT, theta, omega, out, masses, lengths, gravity)
+    return in_blocks(refined_rods_block, LANES, STATE, ROW + KEPT, theta, omega, out, masses, lengths, gravity)
 
 
 @compiled(releases_gil=True)
 def legs_batch(theta: Any, omega: Any, out: Any, masses: Any, lengths: Any, gravity: float) -> int:
     """θ'' of an N-leg pendulum in many states, shape (B, n) each."""
-    return in_blocks(legs_block, FIRST_STATE, LEG, theta, omega, out, masses, lengths, gravity)
+    return in_blocks(legs_block, LEG_LANES, FIRST_STATE, LEG, theta, omega, out, masses, lengths, gravity)
 
 
 @inlined
 def in_blocks(
     solve: Any,
+    lanes: int,
     lane_size: int,
     link_size: int,
     theta: Any,
@@ -160,14 +175,14 @@ def in_blocks(
     lengths: Any,
     gravity: float,
 ) -> int:
-    """Have ``solve`` find θ'' of LANES states at a time, with scratch for them and each link."""
+    """Have ``solve`` find θ'' of so many states at a time, with scratch for them and each link."""
     batch, n = theta.shape
     scratch = aligned(lane_size + (n + 8) * link_size)  # the support comes first; tiles are eight links wide
-    status, whole = 0, batch - batch % LANES
-    for first in range(0, whole, LANES):
+    status, whole = 0, batch - batch % lanes
+    for first in range(0, whole, lanes):
         status |= solve(theta, omega, out, first, masses, lengths, gravity, scratch)
     if whole < batch:
-        angles, rates, found = filled_up(theta, whole), filled_up(omega, whole), np.empty((LANES, n))
+        angles, rates, found = filled_up(theta, whole, lanes), filled_up(omega, whole, lanes), np.empty((lanes, n))
         status |= solve(angles, rates, found, 0, masses, lengths, gravity, scratch)
         out[whole:] = found[: batch - whole]
     return status
@@ -183,9 +198,12 @@ def rods_block(
     eliminate(theta, omega, out, first, masses, lengths, gravity, lane, rods)
     for start in range(0, lengths.size, 8):
         count = min(8, lengths.size - start)
+        if lengths.size > SHORT:
+            fetch_to_write(out, first, start + 16, LANES)
         for j in range(start, start + count):
+            fetch_scratch(rods, (j + 1 + AHEAD) * ROW, ROW)
             accelerate_rod(lane, rods[(j + 1) * ROW : (j + 2) * ROW], 1.0 / lengths[j])
-        write_columns(rods, (start + 1) * ROW + ANGLE, ROW, out, first, start, count)
+        write_columns(rods, (start + 1) * ROW + ANGLE, ROW, out, first, start, count, LANES)
     return any_suspicious(lane[SIZE : SIZE + LANES])
 
 
@@ -203,7 +221,7 @@ def refined_rods_block(
         for j in range(start, start + count):
             rod = rods[(j + 1) * ROW : (j + 2) * ROW]
             correct_rod(lane, rod, motion[j * KEPT : (j + 1) * KEPT], 1.0 / lengths[j])
-        write_columns(rods, (start + 1) * ROW + ANGLE, ROW, out, first, start, count)
+        write_columns(rods, (start + 1) * ROW + ANGLE, ROW, out, first, start, count, LANES)
     return any_suspicious(lane[SIZE : SIZE + LANES])
 
 
@@ -223,10 +241,15 @@ def eliminate(
     last = (n - 1) // 8 * 8
     read_rods(theta, omega, first, last, n - last, rods)
     for start in range(last, -1, -8):
+        if n > SHORT:
+            fetch_to_read(theta, first, start - 16, LANES)  # what is read in the next round
+            fetch_to_read(omega, first, start - 16, LANES)
         if start > 0:  # the next eight, because the lowest of these needs the angle above
             read_rods(theta, omega, first, start - 8, 8, rods)
         for j in range(min(start + 8, n) - 1, start - 1, -1):
-            fetch_ahead(theta, omega, out, first + LANES, n - 1 - j)
+            fetch_scratch(rods, (j + 1 - AHEAD) * ROW, ROW)
+            if n <= SHORT:
+                fetch_block(theta, omega, out, first + LANES, n - 1 - j, LANES)
             above, rod = rods[j * ROW : (j + 1) * ROW], rods[(j + 1) * ROW : (j + 2) * ROW]
             eliminate_rod(lane, rod, above, masses[j], lengths[j])
     for i in range(LANES):
@@ -236,8 +259,8 @@ def eliminate(
 @inlined
 def read_rods(theta: Any, omega: Any, first: int, start: int, count: int, rods: Any) -> None:
     """θ and ω of a few rods into their places."""
-    read_columns(theta, first, start, count, rods, (start + 1) * ROW + ANGLE, ROW)
-    read_columns(omega, first, start, count, rods, (start + 1) * ROW + RATE, ROW)
+    read_columns(theta, first, start, count, rods, (start + 1) * ROW + ANGLE, ROW, LANES)
+    read_columns(omega, first, start, count, rods, (start + 1) * ROW + RATE, ROW, LANES)
 
 
 @inlined
@@ -339,16 +362,17 @@ def correct_rod(lane: Any, rod: Any, kept: Any, inverse_length: float) -> None:
 def legs_block(
     theta: Any, omega: Any, out: Any, first: int, masses: Any, lengths: Any, gravity: float, scratch: Any
 ) -> int:
-    """θ'' of an N-leg pendulum in the LANES states from the first on."""
+    """θ'' of an N-leg pendulum in LEG_LANES states from the first on."""
     wide_vectors()
     n = masses.size
     lane, legs = scratch[:FIRST_STATE], scratch[FIRST_STATE:]  # first in legs: the first link
     for start in range(0, n, 8):
         count = min(8, n - start)
-        read_columns(theta, first, start, count, legs, start * LEG + LEG_ANGLE, LEG)
-        read_columns(omega, first, start, count, legs, start * LEG + LEG_RATE, LEG)
+        read_columns(theta, first, start, count, legs, start * LEG + LEG_ANGLE, LEG, LEG_LANES)
+        read_columns(omega, first, start, count, legs, start * LEG + LEG_RATE, LEG, LEG_LANES)
         for j in range(start, start + count):
-            fetch_ahead(theta, omega, out, first + LANES, j)
+            if n <= SHORT:
+                fetch_block(theta, omega, out, first + LEG_LANES, j, LEG_LANES)
             leg = legs[j * LEG : (j + 1) * LEG]
             if j == 0:
                 hang_first(lane, leg, masses[0], lengths[0], gravity)
@@ -359,15 +383,15 @@ def legs_block(
         count = min(8, n - start)
         for j in range(max(start, 1), start + count):
             accelerate_leg(lane, legs[j * LEG : (j + 1) * LEG], 1.0 / lengths[j])
-        write_columns(legs, start * LEG + LEG_ANGLE, LEG, out, first, start, count)
-    return any_suspicious(lane[LEG_SIZE : LEG_SIZE + LANES])
+        write_columns(legs, start * LEG + LEG_ANGLE, LEG, out, first, start, count, LEG_LANES)
+    return any_suspicious(lane[LEG_SIZE : LEG_SIZE + LEG_LANES])
 
 
 @inlined
 def hang_first(lane: Any, link: Any, mass: float, length: float, gravity: float) -> None:
     """h, sin θ1 and the first terms of both sums in every lane."""
     wide_vectors()
-    for i in range(LANES):
+    for i in range(LEG_LANES):
         angle, rate = link[LEG_ANGLE + i], link[LEG_RATE + i]
         rate_squared = rate * rate
         s, c = sincos(angle, 0.0)
@@ -379,7 +403,7 @@ def hang_first(lane: Any, link: Any, mass: float, length: float, gravity: float)
 def add_leg(lane: Any, leg: Any, mass: float, length: float) -> None:
     """One leg's terms of both sums in every lane."""
     wide_vectors()
-    for i in range(LANES):
+    for i in range(LEG_LANES):
         angle, rate = leg[LEG_ANGLE + i], leg[LEG_RATE + i]
         rate_squared = rate * rate
         lane[LEG_SIZE + i] += size(angle, rate_squared)
@@ -394,7 +418,7 @@ def add_leg(lane: Any, leg: Any, mass: float, length: float) -> None:
 @inlined
 def accelerate_first(lane: Any, link: Any, length: float, gravity: float) -> None:
     """G, left in PULL, and θ1'', left in LEG_ANGLE, in every lane."""
-    for i in range(LANES):
+    for i in range(LEG_LANES):
         lane[PULL + i] = -lane[PULL + i] / lane[INERTIA + i]
         link[LEG_ANGLE + i] = (lane[PULL + i] - gravity * lane[SIN1 + i]) / length
 
@@ -403,5 +427,5 @@ def accelerate_first(lane: Any, link: Any, length: float, gravity: float) -> Non
 def accelerate_leg(lane: Any, leg: Any, inverse_length: float) -> None:
     """θi'', left in LEG_ANGLE, in every lane."""
     wide_vectors()
-    for i in range(LANES):
+    for i in range(LEG_LANES):
         leg[LEG_ANGLE + i] = (lane[H + i] * leg[LEG_SIN + i] - leg[LEG_COS + i] * lane[PULL + i]) * inverse_length

@@ -1,8 +1,10 @@
 """Many states in the lanes of vectors: from rows, as numpy has them, to lanes and back. Compiled code only.
 
-A kernel works on LANES states at a time, one a lane; a quantity of a link is then LANES consecutive numbers of one
-flat scratch array. A state is a row in memory, so that the same column of LANES states lies in as many places: eight
-rows at a time are read as vectors and turned in registers, which takes a third of the time of single numbers.
+A kernel works on so many states at a time, ``lanes``, one a lane; a quantity of a link is then as many consecutive
+numbers of one flat scratch array. A state is a row in memory, so that the same column of several states lies in as many
+places: eight rows at a time are read as vectors and turned in registers, in a third of the time of single numbers.
+
+``lanes`` is a multiple of eight known at compile time, and everything here is compiled into the place of its call.
 """
 
 from __future__ import annotations
@@ -15,10 +17,8 @@ from llvmlite import ir
 from numba import types
 from numba.extending import intrinsic
 
-from .compiling import LINE, inlined, prefetch
+from .compiling import LINE, inlined, prefetch_near, prefetch_next, prefetch_own
 from .limits import LARGEST_ANGLE, LARGEST_RATE
-
-LANES = 32  # four vectors of 512 bits hide each other's latency; more would leave the cache with fewer rods
 
 INT, DOUBLE = ir.IntType(32), ir.DoubleType()
 EVEN, ODD = [0, 2, 4, 6, 8, 10, 12, 14], [1, 3, 5, 7, 9, 11, 13, 15]  # of two vectors one after the other
@@ -26,26 +26,26 @@ LOWER, UPPER = [0, 8, 1, 9, 2, 10, 3, 11], [4, 12, 5, 13, 6, 14, 7, 15]  # halve
 
 
 @inlined
-def filled_up(states: Any, first: int) -> Any:
-    """A block of the states from the first on, fewer than LANES, and the last of them over and over.
+def filled_up(states: Any, first: int, lanes: int) -> Any:
+    """A block of the states from the first on, fewer than lanes, and the last of them over and over.
 
     So a state's result does not depend on how many others there are.
     """
-    filled = np.empty((LANES, states.shape[1]))
-    for i in range(LANES):
+    filled = np.empty((lanes, states.shape[1]))
+    for i in range(lanes):
         filled[i] = states[min(first + i, states.shape[0] - 1)]
     return filled
 
 
 @inlined
-def read_columns(states: Any, row: int, first: int, count: int, scratch: Any, to: int, stride: int) -> None:
-    """``count`` ≤ 8 columns of the LANES states from ``row`` on, each into LANES places of the scratch from ``to`` on.
+def read_columns(states: Any, row: int, first: int, count: int, scratch: Any, to: int, stride: int, lanes: int) -> None:
+    """``count`` ≤ 8 columns of the states from ``row`` on, each into as many places of the scratch from ``to`` on.
 
     ``first``: of the columns; ``stride``: from one column's places to the next one's. The places of the
     next columns, of eight in all, may be overwritten.
     """
     at, width = row * states.shape[1] + first, states.shape[1]
-    for i in range(0, LANES, LINE):
+    for i in range(0, lanes, LINE):
         if count <= 2:
             read_two(states, at + i * width, count, scratch, to + i, stride)
         elif count <= 4:
@@ -55,10 +55,12 @@ def read_columns(states: Any, row: int, first: int, count: int, scratch: Any, to
 
 
 @inlined
-def write_columns(scratch: Any, to: int, stride: int, states: Any, row: int, first: int, count: int) -> None:
+def write_columns(
+    scratch: Any, to: int, stride: int, states: Any, row: int, first: int, count: int, lanes: int
+) -> None:
     """The way back from :func:`read_columns`."""
     at, width = row * states.shape[1] + first, states.shape[1]
-    for i in range(0, LANES, LINE):
+    for i in range(0, lanes, LINE):
         if count <= 2:
             write_two(scratch, to + i, stride, states, at + i * width, count)
         elif count <= 4:
@@ -68,16 +70,37 @@ def write_columns(scratch: Any, to: int, stride: int, states: Any, row: int, fir
 
 
 @inlined
-def fetch_ahead(theta: Any, omega: Any, out: Any, row: int, part: int) -> None:
-    """Bring one part of the next block, LANES numbers of each array, near the processor.
+def fetch_block(theta: Any, omega: Any, out: Any, row: int, part: int, lanes: int) -> None:
+    """Bring one part of the next block, as many numbers of each array as there are lanes, near the processor.
 
     The columns of a block lie far apart in memory; without this every line of it would be waited for.
     """
-    start = row * theta.shape[1] + part * LANES
-    for i in range(0, LANES, LINE):
-        prefetch(theta, start + i)
-        prefetch(omega, start + i)
-        prefetch(out, start + i)
+    start = row * theta.shape[1] + part * lanes
+    for i in range(0, lanes, LINE):
+        prefetch_near(theta, start + i)
+        prefetch_near(omega, start + i)
+        prefetch_near(out, start + i)
+
+
+@inlined
+def fetch_to_read(states: Any, row: int, first: int, lanes: int) -> None:
+    """Bring the columns from ``first`` on near, as many as a line of the cache holds."""
+    for i in range(lanes):
+        prefetch_next(states, (row + i) * states.shape[1] + first)
+
+
+@inlined
+def fetch_to_write(states: Any, row: int, first: int, lanes: int) -> None:
+    """:func:`fetch_to_read` for what will be written."""
+    for i in range(lanes):
+        prefetch_own(states, (row + i) * states.shape[1] + first)
+
+
+@inlined
+def fetch_scratch(scratch: Any, start: int, count: int) -> None:
+    """Bring part of the scratch near, to be written: of long chains it lies in the third-level cache and far apart."""
+    for i in range(0, count, LINE):
+        prefetch_own(scratch, start + i)
 
 
 RATE_WEIGHT = (LARGEST_ANGLE / LARGEST_RATE) ** 2
@@ -94,7 +117,7 @@ def size(angle: float, rate_squared: float) -> float:
 def any_suspicious(sizes: Any) -> int:
     """1 if any lane may hold a number that is beyond what the kernels hold for, or not finite; it may be many large."""
     found = 0
-    for i in range(LANES):
+    for i in range(sizes.size):
         found |= 0 if sizes[i] <= SUSPICIOUS else 1
     return found
 

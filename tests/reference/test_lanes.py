@@ -10,18 +10,19 @@ from furiko.reference import kernels, lanes
 from furiko.reference.compiling import aligned
 from furiko.reference.limits import LARGEST_ANGLE, LARGEST_RATE
 
-STRIDE = 2 * lanes.LANES
+LANES = 16
+STRIDE = 2 * LANES
 UNTOUCHED = -7.0
 
 
 @njit
 def read(states, row, first, count, scratch):
-    lanes.read_columns(states, row, first, count, scratch, 3, STRIDE)
+    lanes.read_columns(states, row, first, count, scratch, 3, STRIDE, LANES)
 
 
 @njit
 def write(scratch, states, row, first, count):
-    lanes.write_columns(scratch, 3, STRIDE, states, row, first, count)
+    lanes.write_columns(scratch, 3, STRIDE, states, row, first, count, LANES)
 
 
 @njit
@@ -34,24 +35,24 @@ CASES = [(width, first, min(8, width - first)) for width in (*range(1, 11), 16, 
 
 @pytest.mark.parametrize(("width", "first", "count"), CASES)
 def test_columns_to_lanes(width, first, count):
-    states = np.arange(3.0 * lanes.LANES * width).reshape(-1, width)
+    states = np.arange(3.0 * LANES * width).reshape(-1, width)
     scratch = np.full(3 + 8 * STRIDE, UNTOUCHED)
     read(states, 5, first, count, scratch)
     for k in range(8):
-        own, between = np.split(scratch[3 + k * STRIDE : 3 + (k + 1) * STRIDE], [lanes.LANES])
+        own, between = np.split(scratch[3 + k * STRIDE : 3 + (k + 1) * STRIDE], [LANES])
         assert (between == UNTOUCHED).all()
         if k < count:
-            np.testing.assert_array_equal(own, states[5 : 5 + lanes.LANES, first + k])
+            np.testing.assert_array_equal(own, states[5 : 5 + LANES, first + k])
 
 
 @pytest.mark.parametrize(("width", "first", "count"), CASES)
 def test_lanes_to_columns_and_nowhere_else(width, first, count):
     scratch = np.arange(3.0 + 8 * STRIDE)
-    states = np.full((lanes.LANES + 9, width), UNTOUCHED)
+    states = np.full((LANES + 9, width), UNTOUCHED)
     write(scratch, states, 5, first, count)
     expected = np.full_like(states, UNTOUCHED)
     for k in range(count):
-        expected[5 : 5 + lanes.LANES, first + k] = scratch[3 + k * STRIDE :][: lanes.LANES]
+        expected[5 : 5 + LANES, first + k] = scratch[3 + k * STRIDE :][:LANES]
     np.testing.assert_array_equal(states, expected)
 
 
