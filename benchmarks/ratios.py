@@ -103,6 +103,26 @@ class Accelerations:
         return ratio(lambda: proven_accelerations(self.system, theta, omega), dense(n))
 
 
+class Growth:
+    """Rods in all being equal, long chains over short ones: 1 would be a cost that is exactly linear."""
+
+    params = ([100, 1000, 10_000],)
+    param_names = ("n",)
+    unit = "chains of 10 rods with as many rods in all"
+    timeout = 300
+
+    def track_batch(self, n: int) -> float:
+        """One thread; 64 states of the longest chain."""
+        import furiko
+
+        def call(length: int) -> Callable[[], object]:
+            system = furiko.RodChain((2.0 / length,) * length)
+            theta, omega = states(length, 640_000 // length)
+            return lambda: furiko.accelerations(system, theta, omega, threads=1)
+
+        return ratio(call(n), call(10))
+
+
 class Motions:
     """Trajectories to the last digits that doubles hold."""
 
