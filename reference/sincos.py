@@ -17,7 +17,7 @@ def sincos(high: float, low: float) -> tuple[float, float]:
     the two parts leave of π/2 is 1.5e-33 k, at most 3e-18 for k < 2^51. Above 1e14, k may miss the nearest whole
     number by 0.7, where the polynomials are a little less exact.
     """
-    rounded = high * TWO_OVER_PI + ROUNDER
+    rounded = fma(high, TWO_OVER_PI, ROUNDER)
     quadrant = bits(rounded)
     k = rounded - ROUNDER
     r = fma(-k, HALF_PI_LOW, fma(-k, HALF_PI, high)) + low

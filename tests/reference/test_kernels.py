@@ -2,6 +2,7 @@
 
 import math
 import os
+import platform
 import subprocess
 import sys
 
@@ -318,6 +319,28 @@ def test_compiles_where_no_cache_can_be_written(tmp_path):
     done = subprocess.run([sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert float(done.stdout) == pytest.approx(-1.5 * 9.81 * math.sin(0.5), rel=1e-14)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(platform.machine() != "x86_64", reason="the processors named here are x86-64")
+@pytest.mark.parametrize("processor", ["x86-64", "haswell"])  # without fused multiply-add; with it, in 256 bits
+def test_other_processors_are_as_exact(processor, tmp_path):
+    script = (
+        "import sys, numpy as np; from furiko.models import NLegPendulum\n"
+        "from furiko.reference.kernels import kernel_of\n"
+        "lengths, masses, theta, omega = np.load(sys.argv[1])\n"
+        "kernel = kernel_of(NLegPendulum(tuple(lengths.tolist()), tuple(masses.tolist())))\n"
+        "batch = kernel.batch(np.tile(theta, (3, 1)), np.tile(omega, (3, 1)))[1]\n"
+        "np.save(sys.argv[1], [kernel(theta, omega), batch])"
+    )
+    rng = np.random.default_rng([1001, 1_000_000])
+    system = NLegPendulum(spread(rng, 1001, 1e3), spread(rng, 1001, 1e6))
+    theta, omega = STATES["huge angles"](rng, 1001)
+    np.save(tmp_path / "state.npy", [system.lengths, system.masses, theta, omega])
+    named = {"NUMBA_CPU_NAME": processor, "NUMBA_CPU_FEATURES": "", "NUMBA_CACHE_DIR": str(tmp_path)}
+    subprocess.run([sys.executable, "-c", script, str(tmp_path / "state.npy")], env=os.environ | named, check=True)
+    errors = [error(system, theta, omega, found) for found in np.load(tmp_path / "state.npy")]
+    assert max(errors) <= ALLOWED, errors
 
 
 def test_writes_into_an_array_that_is_given():
