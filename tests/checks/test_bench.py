@@ -362,7 +362,6 @@ def test_every_skip_keeps_the_verdicts():
     assert all(skip.same and skip.verdicts for skip in found.values())
     # the planted engine's accelerations differ: its trajectories were left out, and would have changed no verdict
     assert "1 of 2 cells differ" in found["trajectory"].says
-    assert found["cache"].seconds_with < found["cache"].seconds_without
 
 
 @pytest.mark.slow
