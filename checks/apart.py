@@ -9,7 +9,7 @@ from multiprocessing.connection import wait
 from typing import Any
 
 from .messages import Answer, CallJob, Failed
-from .spawn import Spawned, death, workshop
+from .spawn import Spawned, death, give, workshop
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ def call_apart(calls: Sequence[CallJob], timeout: float) -> list[Any]:
     with workshop(ahead=len(calls)) as place:
         workers = [place.worker() for _ in calls]
         for (_, connection), call in zip(workers, calls, strict=True):
-            connection.send(call)
+            give(connection, call)
         deadline = time.monotonic() + timeout
         return [_answer(worker, deadline, timeout) for worker in workers]
 

@@ -6,7 +6,6 @@ cell is given to a fresh worker.
 
 from __future__ import annotations
 
-import contextlib
 import os
 import subprocess
 import time
@@ -21,7 +20,7 @@ from ..models.result import Result
 from .cache import Cache
 from .messages import Begun, CellJob, Done, Facts, FactsJob, Failed
 from .plan import Plan, Task
-from .spawn import Workshop, death, end
+from .spawn import Workshop, death, end, give
 
 TIMEOUT = 60.0  # [s] for one check; the slowest sound one seen takes a few
 HANGS = 2  # after so many time-outs an engine is given up: each costs the whole time-out
@@ -64,8 +63,7 @@ class _Worker:
 
     def give(self, job: FactsJob | CellJob) -> None:
         self.job, self.check, self.results = job, "", []
-        with contextlib.suppress(BrokenPipeError):  # it has died: its silence will tell
-            self.connection.send(job)
+        give(self.connection, job)
 
 
 class _Pool:

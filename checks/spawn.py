@@ -70,6 +70,12 @@ def spawn(folder: str) -> Spawned:
     return process, ours
 
 
+def give(connection: Connection, job: object) -> None:
+    """Send a worker its job; if it has died, its silence will tell."""
+    with contextlib.suppress(ConnectionError):
+        connection.send(job)
+
+
 def end(process: subprocess.Popen[bytes], connection: Connection) -> None:
     """End a worker, whatever it is doing; one that has ended already stays so."""
     process.kill()

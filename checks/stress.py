@@ -9,7 +9,6 @@ a frontier that is caught between two rungs, then one search after the other: th
 
 from __future__ import annotations
 
-import contextlib
 import subprocess
 import time
 from collections import defaultdict
@@ -25,7 +24,7 @@ from ..models.result import Result
 from .failures import Failure
 from .frontier import Frontier, frontier, next_rung
 from .messages import Case, CaseJob, Done, Failed
-from .spawn import Workshop, death, end, workshop
+from .spawn import Workshop, death, end, give, workshop
 from .stability import CHUNKS, STRESSES, TOP, LongRunCase, StabilityCase, Stress
 from .stress_accelerations import DOCUMENT, KERNELS, AccelerationCase
 from .stress_axes import Ladder, Pair
@@ -292,8 +291,7 @@ class _Pool:
                     worker.search, worker.case = chosen
                     worker.begun, worker.result = time.monotonic(), None
                     self.watch(worker.case, sum(case is not None for case, _ in self.asking.values()))
-                    with contextlib.suppress(BrokenPipeError):  # it has died: its silence will tell
-                        worker.connection.send(CaseJob(worker.case))
+                    give(worker.connection, CaseJob(worker.case))
         return any(worker.case is not None for worker in self.workers)
 
     def _choose(self) -> tuple[Search, Case] | None:

@@ -8,6 +8,7 @@ import pytest
 
 from furiko.checks.apart import Lost, call_apart
 from furiko.checks.messages import CallJob
+from furiko.checks.spawn import spawn
 
 
 @pytest.fixture(autouse=True)
@@ -42,3 +43,16 @@ def test_each_call_is_its_own():
     assert isinstance(hung, Lost)
     assert "hangs" in hung.reason
     assert failed == Lost("ValueError: no")
+
+
+def test_a_worker_that_died_before_its_call_is_told(monkeypatch):
+    def still_born(folder):
+        process, connection = spawn(folder)
+        process.kill()
+        process.wait()
+        return process, connection
+
+    monkeypatch.setattr("furiko.checks.spawn.spawn", still_born)
+    (found,) = call_apart([CallJob("test_apart", "double", (21,))], timeout=8.0)
+    assert isinstance(found, Lost)
+    assert "SIGKILL" in found.reason
