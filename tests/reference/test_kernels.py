@@ -10,7 +10,7 @@ import flint
 import numpy as np
 import pytest
 from flint import arb, arb_mat
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from furiko.models import InvalidInput, NLegPendulum, RodChain
@@ -286,13 +286,16 @@ def test_threads_must_be_positive():
     ),
     st.sampled_from([0.0, 9.81, 1e3]),
 )
+@example(([1.0, 1.0], [0.0, 1.0], [0.0, 4.3601874202292895e-156]), 0.0)  # its square, 1.9e-311, has 38 bits
 def test_any_small_system(lists, gravity):
     lengths, theta, omega = lists
     for system in (RodChain(lengths, gravity=gravity), NLegPendulum(lengths, lengths[::-1], gravity)):
         found = all_forms(system, np.array(theta), np.array(omega))
         # Searched states find accelerations that nearly vanish as sums of terms that do not, where one unit in the
-        # last place of an angle already changes them by more. The scale is then that of the terms of l θ''.
-        terms = (gravity + max(l * w * w for l in lengths for w in omega)) / min(lengths)
+        # last place of an angle already changes them by more. The scale is then that of the terms of l θ''; and below
+        # the smallest normal number, where doubles lie evenly spaced and no operation is relatively exact, that number.
+        largest = max(l * w * w for l in lengths for w in omega)
+        terms = (gravity + max(largest, sys.float_info.min)) / min(lengths)
         errors = {form: error(system, theta, omega, a, terms) for form, a in found.items()}
         assert max(errors.values()) <= ALLOWED, errors
 

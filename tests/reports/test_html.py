@@ -141,7 +141,7 @@ def everywhere(make, text, outcome):
         make.result(
             outcome, check=text, unit=text, cause=text, reason=text, details={text: text, "l": [text]}, **named
         ),
-        make.result("error", check="e", reason=f"a\n{text}", details={"traceback": text}, **named),
+        make.result("error", check=f"{text}!", reason=f"a\n{text}", details={"traceback": text}, **named),
     ]
     facts = {"command": text, "profile": text, "seed": text, "started": text, "furiko": text}
     tables = {"machine": {text: text}, "versions": {text: text}}
