@@ -13,6 +13,7 @@ from ..engines import AnyShape, EngineInfo, Integrator
 from ..models import Scene
 from ..models.result import Outcome, Result
 from ..models.states import States
+from ..reference.motion import Mechanism
 from .facts import SceneFacts
 from .finding import Finding
 from .rounding import Amplitudes, amplitudes
@@ -37,7 +38,11 @@ class Cell:
     @cached_property
     def amplitude(self) -> Amplitudes:
         """Magnitudes of the terms in the coordinates in which this engine computes."""
-        return amplitudes(self.scene.system, self.info.coordinates)
+        return self.amplitude_of(self.scene.system)
+
+    def amplitude_of(self, system: Mechanism) -> Amplitudes:
+        """The same for another mechanism in this engine."""
+        return amplitudes(system, self.info.coordinates, self.info.moments)
 
     @cached_property
     def findings(self) -> list[Finding]:

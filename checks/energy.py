@@ -46,8 +46,9 @@ def compare(cell: Cell) -> Iterator[Result]:
 
 
 def energy_amplitudes(tree: PlanarTree, amplitude: Amplitudes, omega: Array) -> Array:
-    """½ (Σ sqrt(W_ii) |rate_i|)², a bound of Σ ½ |M_ij rate_i rate_j|, and Σ m g × length of the way; (B, 2) [J]."""
-    kinetic = (np.abs(amplitude.own(omega)) @ amplitude.root) ** 2 / 2
+    """½ Σ |rate_i| sqrt(W_ii W_jj) |rate_j|, and Σ m g × length of the way; (B, 2) [J]."""
+    rates = np.abs(amplitude.own(omega))
+    kinetic = ((rates @ amplitude.products) * rates).sum(axis=-1) / 2
     reach: list[float] = []
     potential = 0.0
     for link in tree.links:

@@ -12,19 +12,35 @@ W is M with every cosine one, which for these mechanisms is the chain stretched 
 entrywise not below |M|, so that sqrt(W_ii W_jj) bounds the factors' product in Cholesky's backward error (Higham,
 Accuracy and Stability of Numerical Algorithms, theorem 10.3). β is the sum of the magnitudes of the bias' terms with
 every sine one: an angle is known to ε, so a sine near zero is not known relatively better than that.
+
+In absolute angles the velocity terms are those of the documents, Σ_j W_ij ω_j². In relative ones an engine gets them by
+spatial algebra, where far more meets than is left. With F_k the sum of |q̇_a| over the hinges on the way to link k, with
+V_k and U_k the same sum weighted by the lengths (:mod:`.levers`) from hinge a to the point about which link k's moments
+are taken and on to its centre of mass: the point's velocity is at most V_k, the momentum m_k U_k. The acceleration that
+hinge a adds is its motion times q̇_a, turned with F_a and carried along with V_a, together at most 2 F_k V_k. The force
+is m_k (2 F_k V_k) and the momentum turned, m_k F_k U_k. The moment about the point is that force's, and the velocity
+times the momentum: in v × m(v + ω × r) the v × m v cancels but for its rounding, m_k V_k U_k. With A_ik the arm of the
+force about hinge i and inertias likewise (ω × Iω), the rows are
+
+    β_i  =  Σ_{k carried by i}  m_k (F_k (2 V_k + U_k) A_ik + V_k U_k) + I_k F_k²   + gravity.
+
+An engine that takes all moments about the centre of mass of the whole tree has longer arms, and lengths that are known
+less well than to their own ε: the products of two lengths, in W and in β, are then joined by those of one length and
+the other's error, in units of ε.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..models import PlanarTree
-from ..models.tree import SUPPORT
-from ..reference import gravity_vector, mass_matrix
+from ..reference import mass_matrix
 from ..reference.motion import Mechanism
+from .levers import Levers, absolute_levers, relative_levers, relative_to_absolute, tree_levers
 
 Array = NDArray[np.float64]
 
@@ -45,24 +61,57 @@ def allowed(n: int, accuracy: float = EPSILON) -> float:
 class Amplitudes:
     """The magnitudes of a system's terms, in one set of coordinates.
 
-    ``to_absolute``: S, with θ = S q, shape (n, n); ``root``: sqrt(W_ii), shape (n,); ``inertia``: W in absolute
-    angles; ``gravity``: the gravity terms with every sine one, absolute.
+    ``to_absolute``: S, with θ = S q, shape (n, n); ``carried``: 1 where a link (row) hangs below a link (column) or is
+    it; ``levers``: the lengths that enter; ``errors``: what they are off by, in units of ε, where that is more than
+    themselves; ``mass`` [kg] and ``inertia`` [kg m²] of the links, (n,); ``gravity`` [m/s²].
     """
 
     to_absolute: Array
-    root: Array
+    carried: Array
+    levers: Levers
+    errors: Levers | None
+    mass: Array
     inertia: Array
-    gravity: Array
+    gravity: float
 
     def rows(self, alpha: Array, omega: Array) -> Array:
         """Σ|terms| of each row of the equations of motion, in these coordinates, (B, n) from (B, n)."""
-        solve = self.root * (np.abs(self.own(alpha)) @ self.root)[..., None]
-        bias: Array = (self.felt(omega) ** 2 @ self.inertia + self.gravity) @ self.to_absolute
-        return np.asarray(solve + bias)
+        return np.asarray(np.abs(self.own(alpha)) @ self.products + self.velocity_terms(omega) + self.weights)
+
+    @cached_property
+    def products(self) -> Array:
+        """sqrt(W_ii W_jj), what meets in each entry of the mass matrix and its factors, (n, n)."""
+        arm = self.levers.arm
+        root = np.sqrt(arm**2 @ self.mass + self.inertia @ self.to_absolute**2)
+        found = np.outer(root, root)
+        for one, other in self._pairs[1:]:
+            found += (one.arm * self.mass) @ other.arm.T
+        return found
+
+    @cached_property
+    def weights(self) -> Array:
+        """The gravity terms with every sine one, (n,)."""
+        arms = np.sum([levers.arm for levers in self._each], axis=0)
+        return np.asarray(arms @ (self.mass * self.gravity))
+
+    def velocity_terms(self, omega: Array) -> Array:
+        """β without gravity, (B, n)."""
+        moment = self.felt(omega) ** 2 * self.inertia
+        rows = np.zeros_like(omega)
+        for one, other in self._pairs:
+            rows += (self._rush(omega, one) * self.mass) @ other.arm.T
+            moment += self._moment(omega, one, other) * self.mass
+        return np.asarray(rows + moment @ self.to_absolute)
+
+    def forces(self, alpha: Array, omega: Array) -> Array:
+        """Σ|terms| of the force at each link's hinge, (B, n) [N]: mass × acceleration of all that hangs there."""
+        pull = np.abs(self.own(alpha))
+        swing = np.sum([pull @ levers.arm + self._rush(omega, levers) for levers in self._each], axis=0)
+        return np.asarray((self.mass * (self.gravity + swing)) @ self.carried)
 
     def own(self, absolute: Array) -> Array:
         """Accelerations (or rates) in these coordinates."""
-        return np.asarray(np.linalg.solve(self.to_absolute, absolute[..., None])[..., 0], dtype=np.float64)
+        return np.asarray(absolute @ self._from_absolute.T)
 
     def felt(self, absolute: Array) -> Array:
         """Magnitudes that add up to each absolute rate or acceleration: in relative coordinates, all on the way."""
@@ -74,31 +123,64 @@ class Amplitudes:
 
     def entries(self) -> Array:
         """Magnitudes that meet in each entry of the absolute mass matrix, (n, n)."""
-        back = np.abs(np.linalg.inv(self.to_absolute))
-        return np.asarray(back.T @ np.outer(self.root, self.root) @ back)
+        return np.asarray(self.absolute_rows(self.absolute_rows(self.products).T).T)
 
-    def forces(self) -> Array:
-        """Magnitudes that meet in each row of an absolute generalised force, per magnitude in own rows, (n, n)."""
-        return np.asarray(np.abs(np.linalg.inv(self.to_absolute)).T)
+    def absolute_rows(self, own: Array) -> Array:
+        """Magnitudes in rows of these coordinates as those that meet in rows of absolute ones, (..., n)."""
+        return np.asarray(own @ np.abs(self._from_absolute))
+
+    @cached_property
+    def _from_absolute(self) -> Array:
+        return np.asarray(np.linalg.inv(self.to_absolute), dtype=np.float64)
+
+    @property
+    def _each(self) -> tuple[Levers, ...]:
+        return (self.levers,) if self.errors is None else (self.levers, self.errors)
+
+    @property
+    def _pairs(self) -> tuple[tuple[Levers, Levers], ...]:
+        """Lengths that are multiplied: both as they are, then either as it errs."""
+        itself = (self.levers, self.levers)
+        return (itself,) if self.errors is None else (itself, (self.levers, self.errors), (self.errors, self.levers))
+
+    def _rush(self, omega: Array, levers: Levers) -> Array:
+        """The acceleration of each link's centre of mass that its rates and those on the way make, (B, n)."""
+        if levers.throw is None:
+            return np.asarray(omega**2 @ levers.arm)
+        return np.asarray(self.felt(omega) * (np.abs(self.own(omega)) @ (2 * levers.throw + levers.arm)))
+
+    def _moment(self, omega: Array, one: Levers, other: Levers) -> Array:
+        """V_k U_k of each link, (B, n)."""
+        if one.throw is None:
+            return np.zeros_like(omega)
+        rates = np.abs(self.own(omega))
+        return np.asarray((rates @ one.throw) * (rates @ other.arm))
 
 
-def amplitudes(system: Mechanism, coordinates: str) -> Amplitudes:
-    """Of the system's terms in ``relative`` coordinates, or in absolute angles for any other word."""
+def amplitudes(system: Mechanism, coordinates: str, moments: str = "hinge") -> Amplitudes:
+    """Of the system's terms in ``relative`` coordinates, or in absolute angles for any other word.
+
+    ``moments``: the point about which moments are taken in relative coordinates, ``tree`` for the tree's centre of
+    mass, or each link's own hinge for any other word.
+    """
     tree = system.tree()
-    to_absolute = relative_to_absolute(tree) if coordinates == "relative" else np.eye(tree.n)
-    inertia = mass_matrix(system, np.zeros(tree.n))  # every cosine one
-    gravity = gravity_vector(system, np.full(tree.n, np.pi / 2))  # every sine one
-    own = to_absolute.T @ inertia @ to_absolute
-    return Amplitudes(to_absolute, np.sqrt(np.diag(own)), inertia, gravity)
+    carried = relative_to_absolute(tree)
+    levers, errors = _levers(tree, coordinates, moments)
+    return Amplitudes(
+        to_absolute=carried if coordinates == "relative" else np.eye(tree.n),
+        carried=carried,
+        levers=levers,
+        errors=errors,
+        mass=np.array([link.mass for link in tree.links]),
+        inertia=np.array([link.inertia for link in tree.links]),
+        gravity=tree.gravity,
+    )
 
 
-def relative_to_absolute(tree: PlanarTree) -> Array:
-    """S of θ = S q: an absolute angle is the sum of the relative ones from the support to it, shape (n, n)."""
-    matrix = np.eye(tree.n)
-    for i, parent in enumerate(tree.parents):
-        if parent != SUPPORT:
-            matrix[i] += matrix[parent]
-    return matrix
+def _levers(tree: PlanarTree, coordinates: str, moments: str) -> tuple[Levers, Levers | None]:
+    if coordinates != "relative":
+        return absolute_levers(tree), None
+    return tree_levers(tree) if moments == "tree" else (relative_levers(tree), None)
 
 
 def condition(system: Mechanism, theta: Array, amplitude: Amplitudes, alpha: Array, omega: Array) -> Array:

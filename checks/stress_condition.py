@@ -14,7 +14,7 @@ import numpy as np
 from ..models import NLegPendulum, RodChain
 from ..models.result import Result
 from ..reference import mass_matrix
-from .rounding import relative_to_absolute
+from .levers import relative_to_absolute
 
 Coordinates = Literal["absolute", "relative"]
 Posture = Literal["straight chain", "random chain", "legs"]

@@ -3,8 +3,7 @@
 Each symmetry turns a mechanism and a state into another whose accelerations follow from the first one's. The engine is
 asked both, and its two answers are held together; so are the two of the documents' own formula. All changes are exact
 in floating point (powers of two, signs, permutations) but for the turn by 2π, whose rounding is carried through the
-accelerations' derivatives. Two answers may therefore differ by the rounding of each, backward error times |M⁻¹|, which
-is as large in the image as in the original (for a split leg to a factor of √2).
+accelerations' derivatives. Two answers may therefore differ by the rounding of each, backward error times |M⁻¹|.
 """
 
 from __future__ import annotations
@@ -22,10 +21,11 @@ from ..reference import literal_accelerations, mass_matrix
 from ..reference.motion import Mechanism
 from ..reference.variation import variation
 from .cell import Cell, Worst, quotient, worst
-from .rounding import EPSILON, allowed, amplitude_transform, amplitudes
+from .rounding import EPSILON, Amplitudes, allowed, amplitude_transform, amplitudes
 
 Array = NDArray[np.float64]
 Accelerations = Callable[[Mechanism, Array, Array], Array]
+AmplitudeOf = Callable[[Mechanism], Amplitudes]
 
 NAME = "symmetry"
 NEEDS = "accelerations"
@@ -70,7 +70,7 @@ def compare(cell: Cell) -> Iterator[Result]:
         asked = cell.engine if other == system else cell.engine.of(other)
         return cell.answer("accelerations", asked.accelerations(angles, rates), angles.shape)
 
-    found = excesses(system, theta, omega, engine, cell.info.coordinates, cell.info.accuracy)
+    found = excesses(system, theta, omega, engine, cell.amplitude_of, cell.info.accuracy)
     theory = _theory(system, theta.tobytes(), omega.tobytes())
     for symmetry in SYMMETRIES:
         if symmetry.name in found:
@@ -78,7 +78,7 @@ def compare(cell: Cell) -> Iterator[Result]:
 
 
 def excesses(
-    system: Mechanism, theta: Array, omega: Array, ask: Accelerations, coordinates: str, accuracy: float
+    system: Mechanism, theta: Array, omega: Array, ask: Accelerations, amplitude: AmplitudeOf, accuracy: float
 ) -> dict[str, Worst]:
     """For each symmetry: the difference of the two answers over what rounding explains of it, where it is worst."""
     answers: dict[Mechanism, tuple[Array, Array]] = {}
@@ -88,11 +88,10 @@ def excesses(
         if image is None:
             continue
         if image.before not in answers:
-            first = ask(image.before, theta, omega)
-            answers[image.before] = first, rounding(image.before, theta, omega, first, coordinates)
-        first, unit = answers[image.before]
-        second = image.back(ask(image.after, image.theta, image.omega))
-        bound = unit * (allowed(image.before.n, accuracy) + allowed(image.after.n, accuracy))
+            answers[image.before] = _answer(image.before, theta, omega, ask, amplitude, accuracy)
+        first, bound = answers[image.before]
+        second, error = map(image.back, _answer(image.after, image.theta, image.omega, ask, amplitude, accuracy))
+        bound = bound + np.abs(error)
         if image.moved:
             bound = bound + image.moved * np.abs(variation(image.before, theta, omega).by_theta).sum(-1)
         found[symmetry.name] = worst(quotient(first - second, bound))
@@ -103,7 +102,11 @@ def excesses(
 def _theory(system: Mechanism, theta: bytes, omega: bytes) -> dict[str, Worst]:
     """The same of the documents' own formula; the states as bytes, so that every engine's cell can share it."""
     angles, rates = (np.frombuffer(values).reshape(-1, system.n) for values in (theta, omega))
-    return excesses(system, angles, rates, literal_accelerations, "absolute", EPSILON)
+
+    def absolute(other: Mechanism) -> Amplitudes:
+        return amplitudes(other, "absolute")
+
+    return excesses(system, angles, rates, literal_accelerations, absolute, EPSILON)
 
 
 def _result(cell: Cell, symmetry: Symmetry, found: Worst, theory: float) -> Result:
@@ -126,9 +129,16 @@ def _result(cell: Cell, symmetry: Symmetry, found: Worst, theory: float) -> Resu
     )
 
 
-def rounding(system: Mechanism, theta: Array, omega: Array, alpha: Array, coordinates: str) -> Array:
+def _answer(
+    system: Mechanism, theta: Array, omega: Array, ask: Accelerations, amplitude: AmplitudeOf, accuracy: float
+) -> tuple[Array, Array]:
+    """Accelerations, and how far rounding may leave them from the exact ones [rad/s²], (B, n) each."""
+    alpha = ask(system, theta, omega)
+    return alpha, allowed(system.n, accuracy) * rounding(system, theta, omega, alpha, amplitude(system))
+
+
+def rounding(system: Mechanism, theta: Array, omega: Array, alpha: Array, amplitude: Amplitudes) -> Array:
     """How far accelerations are from the exact ones by a backward error of one ε [rad/s²], (B, n)."""
-    amplitude = amplitudes(system, coordinates)
     spread = np.abs(np.linalg.inv(mass_matrix(system, theta)) @ amplitude_transform(amplitude))
     return np.asarray(EPSILON * (spread @ amplitude.rows(alpha, omega)[..., None])[..., 0])
 

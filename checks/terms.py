@@ -36,20 +36,16 @@ def compare(cell: Cell) -> Iterator[Result]:
     if cell.scene.system.gravity:
         rest = np.zeros_like(theta)
         error = cell.torques(theta, rest, rest, gravity=True) - gravity_vector(cell.scene.system, theta)
-        scale = (cell.amplitude.gravity @ cell.amplitude.to_absolute) @ cell.amplitude.forces().T
-        yield _result(cell, "G", error, scale, labels)
+        yield _result(cell, "G", error, cell.amplitude.absolute_rows(cell.amplitude.weights), labels)
     else:
         yield cell.result(f"{NAME} G", "skipped", reason="the scene has no gravity")
     if cell.states.omega.any():
         coriolis = coriolis_matrix(cell.scene.system, theta)
+        entries = cell.amplitude.absolute_rows(cell.amplitude.velocity_terms(np.eye(cell.scene.system.n))).T
         yield _result(cell, "C", columns(cell, theta, "omega") - coriolis, entries, labels)
         error = cell.torques(theta, omega, np.zeros_like(theta), gravity=False)
         error -= (coriolis @ (omega**2)[..., None])[..., 0]
-        scale = (
-            (cell.amplitude.felt(omega) ** 2 @ cell.amplitude.inertia)
-            @ cell.amplitude.to_absolute
-            @ cell.amplitude.forces().T
-        )
+        scale = cell.amplitude.absolute_rows(cell.amplitude.velocity_terms(omega))
         yield _result(cell, "velocity", error, scale, labels)
     else:
         for term in ("C", "velocity"):

@@ -29,12 +29,13 @@ class EngineInfo:
     """An engine's name and capabilities, known without importing it.
 
     ``adapter``: where its class is, ``module:Class``; ``module``: what it imports; ``package``: what to pip install.
-    ``coordinates``: those in which it forms and solves the equations, hence where its rounding arises. ``adaptive``:
-    its schemes that choose their own steps from a tolerance. ``missing``:
-    for each quantity it cannot give, the sentence that says why. ``accuracy``: relative accuracy of one operation,
-    and ``accuracy_reason`` where that is more than double precision's rounding. ``largest_n`` links it takes,
-    and a mass of ``least_mass`` [kg] or more and an inertia about the hinge of ``least_inertia`` [kg m²] or more for
-    each link; the reasons say what stands in the way.
+    ``coordinates``: those in which it forms and solves the equations, hence where its rounding arises; ``moments``: the
+    point about which it takes moments then, each link's own hinge or the centre of mass of the whole tree.
+    ``adaptive``: its schemes that choose their own steps from a tolerance. ``missing``: for each quantity it cannot
+    give, the sentence that says why. ``accuracy``: relative accuracy of one operation, and ``accuracy_reason`` where
+    that is more than double precision's rounding. ``largest_n`` links it takes, and a mass of ``least_mass`` [kg] or
+    more and an inertia about the hinge of ``least_inertia`` [kg m²] or more for each link; the reasons say what stands
+    in the way.
     """
 
     name: str
@@ -54,3 +55,4 @@ class EngineInfo:
     least_reason: str = ""
     accuracy: float = 2.0**-52
     accuracy_reason: str = ""
+    moments: Literal["hinge", "tree"] = "hinge"

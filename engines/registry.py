@@ -38,6 +38,7 @@ ENGINES: dict[str, EngineInfo] = {
             package="mujoco",
             homepage="https://github.com/google-deepmind/mujoco",
             coordinates="relative",
+            moments="tree",  # mjData.cinert, cdof, cvel and cacc are "com-based", about subtree_com of the root body
             integrators=(Integrator("Euler", 1), Integrator("implicitfast", 1), Integrator("RK4", 4)),
             largest_n=1000,
             largest_n_reason="its compiler gives up on bodies nested 1024 deep",
