@@ -12,7 +12,7 @@ from ..models.result import Result
 from ..reference import mass_matrix
 from .cell import Cell, Worst, quotient, worst
 from .facts import forward_error
-from .rounding import EPSILON, Amplitudes, allowed
+from .rounding import EPSILON, Amplitudes, allowed, turns
 
 Array = NDArray[np.float64]
 
@@ -64,7 +64,7 @@ def backward_error(cell: Cell, accelerations: Array, amplitude: Amplitudes) -> A
     error = cell.facts.error(accelerations)
     residual = (mass_matrix(cell.scene.system, cell.states.theta) @ error[..., None])[..., 0]
     scale = EPSILON * amplitude.rows(accelerations, cell.states.omega)
-    return quotient(amplitude.residual(residual), scale)
+    return quotient(amplitude.residual(residual), scale * turns(cell.states.theta)[:, None])
 
 
 def inexact_side(engine: Array, literal: Array) -> str:

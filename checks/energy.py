@@ -12,7 +12,7 @@ from ..models.result import Result
 from ..models.tree import SUPPORT, PlanarTree
 from ..reference import energy
 from .cell import Cell, quotient, worst
-from .rounding import EPSILON, Amplitudes, allowed
+from .rounding import EPSILON, Amplitudes, allowed, turns
 
 Array = NDArray[np.float64]
 
@@ -25,7 +25,7 @@ def compare(cell: Cell) -> Iterator[Result]:
     states, system = cell.states, cell.scene.system
     got = cell.answer("energy", cell.engine.energy(states.theta, states.omega), (len(states), 2))
     expected = np.stack(energy(system, states.theta, states.omega), axis=-1)
-    scale = energy_amplitudes(system.tree(), cell.amplitude, states.omega)
+    scale = energy_amplitudes(system.tree(), cell.amplitude, states.omega) * turns(states.theta)[:, None]
     found = worst(quotient(got - expected, EPSILON * scale))
     bound = allowed(system.n)
     state, part = found.index

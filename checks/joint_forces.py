@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..models.result import Result
 from .cell import Cell, quotient, worst
 from .facts import FORCE_STATES
-from .rounding import EPSILON, allowed
+from .rounding import EPSILON, allowed, turns
 
 Array = NDArray[np.float64]
 
@@ -26,7 +26,7 @@ def compare(cell: Cell) -> Iterator[Result]:
     expected = cell.facts.forces
     got = cell.answer("joint forces", cell.engine.joint_forces(theta, omega, alpha), expected.shape)
     error = np.linalg.norm(got - expected, axis=-1)
-    scale = cell.amplitude.forces(alpha, omega)
+    scale = cell.amplitude.forces(alpha, omega) * turns(theta)[:, None]
     found = worst(quotient(error, EPSILON * scale))
     bound = allowed(cell.scene.system.n, cell.info.accuracy)
     largest = np.linalg.norm(expected, axis=-1).max(axis=-1)

@@ -21,7 +21,7 @@ from ..reference import literal_accelerations, mass_matrix
 from ..reference.motion import Mechanism
 from ..reference.variation import variation
 from .cell import Cell, Worst, quotient, worst
-from .rounding import EPSILON, Amplitudes, allowed, amplitude_transform, amplitudes
+from .rounding import EPSILON, Amplitudes, allowed, amplitude_transform, amplitudes, turns
 
 Array = NDArray[np.float64]
 Accelerations = Callable[[Mechanism, Array, Array], Array]
@@ -140,7 +140,8 @@ def _answer(
 def rounding(system: Mechanism, theta: Array, omega: Array, alpha: Array, amplitude: Amplitudes) -> Array:
     """How far accelerations are from the exact ones by a backward error of one ε [rad/s²], (B, n)."""
     spread = np.abs(np.linalg.inv(mass_matrix(system, theta)) @ amplitude_transform(amplitude))
-    return np.asarray(EPSILON * (spread @ amplitude.rows(alpha, omega)[..., None])[..., 0])
+    backward = amplitude.rows(alpha, omega) * turns(theta)[:, None]
+    return np.asarray(EPSILON * (spread @ backward[..., None])[..., 0])
 
 
 def _same(alpha: Array) -> Array:

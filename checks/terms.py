@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..models.result import Result
+from ..models.states import States
 from ..reference import coriolis_matrix, gravity_vector, mass_matrix
 from .cell import Cell, quotient, worst
-from .rounding import EPSILON, allowed
+from .rounding import EPSILON, allowed, turns
 
 Array = NDArray[np.float64]
 
@@ -29,24 +30,25 @@ def compare(cell: Cell) -> Iterator[Result]:
     n = cell.scene.system.n
     chosen = slice(0, max(1, min(len(cell.states), ROWS // (2 * n + 2))))
     # The named states are special on purpose (many zeros); start from the other end, where the random ones are.
-    theta, omega = cell.states.theta[::-1][chosen], cell.states.omega[::-1][chosen]
-    labels = cell.states.labels[::-1][chosen]
+    states = cell.states
+    states = States(states.labels[::-1][chosen], states.theta[::-1][chosen], states.omega[::-1][chosen])
+    theta, omega = states.theta, states.omega
     entries = cell.amplitude.entries()
-    yield _result(cell, "M", columns(cell, theta, "alpha") - mass_matrix(cell.scene.system, theta), entries, labels)
+    yield _result(cell, "M", columns(cell, theta, "alpha") - mass_matrix(cell.scene.system, theta), entries, states)
     if cell.scene.system.gravity:
         rest = np.zeros_like(theta)
         error = cell.torques(theta, rest, rest, gravity=True) - gravity_vector(cell.scene.system, theta)
-        yield _result(cell, "G", error, cell.amplitude.absolute_rows(cell.amplitude.weights), labels)
+        yield _result(cell, "G", error, cell.amplitude.absolute_rows(cell.amplitude.weights), states)
     else:
         yield cell.result(f"{NAME} G", "skipped", reason="the scene has no gravity")
     if cell.states.omega.any():
         coriolis = coriolis_matrix(cell.scene.system, theta)
         entries = cell.amplitude.absolute_rows(cell.amplitude.velocity_terms(np.eye(cell.scene.system.n))).T
-        yield _result(cell, "C", columns(cell, theta, "omega") - coriolis, entries, labels)
+        yield _result(cell, "C", columns(cell, theta, "omega") - coriolis, entries, states)
         error = cell.torques(theta, omega, np.zeros_like(theta), gravity=False)
         error -= (coriolis @ (omega**2)[..., None])[..., 0]
         scale = cell.amplitude.absolute_rows(cell.amplitude.velocity_terms(omega))
-        yield _result(cell, "velocity", error, scale, labels)
+        yield _result(cell, "velocity", error, scale, states)
     else:
         for term in ("C", "velocity"):
             yield cell.result(f"{NAME} {term}", "skipped", reason="every state of the scene is at rest")
@@ -71,14 +73,15 @@ SAYS = {
 }
 
 
-def _result(cell: Cell, term: str, error: Array, scale: Array, labels: tuple[str, ...]) -> Result:
-    found = worst(quotient(error, EPSILON * np.broadcast_to(scale, error.shape)))
+def _result(cell: Cell, term: str, error: Array, scale: Array, states: States) -> Result:
+    raised = turns(states.theta).reshape(-1, *[1] * (error.ndim - 1))
+    found = worst(quotient(error, EPSILON * raised * scale))
     bound = allowed(cell.scene.system.n)
     entry = f"{term}[{','.join(str(i + 1) for i in found.index[1:])}]"
     agrees = found.value <= bound
     reason = f"{SAYS[term]}: worst at {entry}"
     if not agrees:
-        size, label = float(np.abs(error[found.index])), labels[found.index[0]]
+        size, label = float(np.abs(error[found.index])), states.labels[found.index[0]]
         reason = f"{SAYS[term]}: {entry} is off by {size:.3g} in state {label!r}"
     return cell.result(
         f"{NAME} {term}",
@@ -87,5 +90,5 @@ def _result(cell: Cell, term: str, error: Array, scale: Array, labels: tuple[str
         allowed=bound,
         unit="ε",
         reason=reason,
-        details={"entry": entry, "state": labels[found.index[0]], "states": len(labels)},
+        details={"entry": entry, "state": states.labels[found.index[0]], "states": len(states)},
     )

@@ -141,3 +141,24 @@ def test_a_product_of_rates_that_is_not_there_is_found_behind_all_that_cancels(m
 
     cell.engine.inverse_dynamics = wrong
     assert set(differing(cell)) == {"terms velocity"}
+
+
+LEGS = NLegPendulum((1.0, 0.3, 0.5), (1.0, 2.0, 0.7))
+MANY_TURNS = Scene("many turns", LEGS, (501.1, -377.7, 90.9), (0.3, -2.1, 0.9))
+
+
+@pytest.mark.parametrize("engine", TREES)
+def test_differences_of_angles_of_many_turns_are_rounded(make_cell, engine):
+    assert differing(make_cell(engine, MANY_TURNS, random_states=3)) == {}
+
+
+def test_without_that_they_are_taken_for_a_difference(make_cell, monkeypatch):
+    monkeypatch.setattr(terms, "turns", lambda theta: np.ones(len(theta)))
+    assert "terms G" in differing(make_cell("pinocchio-aba", MANY_TURNS, random_states=3))
+
+
+def test_angles_whose_differences_are_exact_raise_no_bound():
+    exact = np.array([0.0, np.pi, 7.5, 2.0**12 - 2.0**-40])
+    rounded = np.array([3.1, 31.1, 2.0**12 + 0.1])
+    np.testing.assert_array_equal(rounding.turns(exact[:, None]), 1)
+    np.testing.assert_array_equal(rounding.turns(rounded[:, None]), [1, *rounded[1:] / np.pi])
