@@ -54,4 +54,4 @@ def energy_amplitudes(tree: PlanarTree, amplitude: Amplitudes, omega: Array) -> 
     for link in tree.links:
         reach.append(0.0 if link.parent == SUPPORT else reach[link.parent] + math.hypot(*link.hinge))
         potential += link.mass * tree.gravity * (reach[-1] + math.hypot(*link.com))
-    return np.stack([kinetic, np.full_like(kinetic, potential)], axis=-1)
+    return np.stack([kinetic, np.full_like(kinetic, potential)], axis=-1) + amplitude.underflow(omega)

@@ -12,7 +12,7 @@ from ..models import Scene
 from ..models.states import States
 from ..reference import literal_accelerations
 from ..reference.truth import true_accelerations, true_joint_forces
-from .rounding import EPSILON, amplitudes, condition
+from .rounding import EPSILON, SMALLEST, amplitudes, condition
 
 Array = NDArray[np.float64]
 
@@ -72,4 +72,5 @@ def forward_error(facts: SceneFacts, accelerations: Array) -> Array:
     """Largest error over largest acceleration, in ε, at each state (norm-wise); (B,) from (B, n)."""
     error = np.abs(facts.error(accelerations)).max(axis=-1)
     size = np.abs(facts.high).max(axis=-1)
-    return np.asarray(np.divide(error, size * EPSILON, out=np.where(error > 0, np.inf, 0.0), where=size > 0))
+    scale = np.maximum(size * EPSILON, SMALLEST * EPSILON)  # below it no number is known better
+    return np.asarray(np.divide(error, scale, out=np.where(error > 0, np.inf, 0.0), where=size > 0))

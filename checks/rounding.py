@@ -27,6 +27,13 @@ force about hinge i and inertias likewise (ω × Iω), the rows are
 An engine that takes all moments about the centre of mass of the whole tree has longer arms, and lengths that are known
 less well than to their own ε: the products of two lengths, in W and in β, are then joined by those of one length and
 the other's error, in units of ε.
+
+All this is of numbers whose rounding is relative. A product or quotient below the smallest normal number is off by up
+to half of the smallest positive one, η = ε × the smallest normal number, and this is multiplied by what the term is
+still to be multiplied by. In which order an engine takes the factors it keeps to itself; whatever is left of them is at
+most (1 + m)(1 + A)²(1 + g + swing), with m all mass, A the longest arm, swing the largest sum of an acceleration and a
+squared rate. In the solution the factors L of M = LᵀDL come in besides: eliminated from the tips, a pivot D_j is at
+least link j's own inertia about its hinge, w_j, and L_ji² ≤ W_ii / w_j.
 """
 
 from __future__ import annotations
@@ -46,6 +53,7 @@ from .levers import Levers, absolute_levers, relative_levers, relative_to_absolu
 Array = NDArray[np.float64]
 
 EPSILON = 2.0**-52
+SMALLEST = 2.0**-1022  # normal number
 
 # Roundings that a term passes on its way through one link: sine and cosine (1 each) and their error's effect (1), a
 # rotation and a shift of a spatial vector or inertia (6), its product with the inertia (3), its addition (1), and as
@@ -76,7 +84,8 @@ class Amplitudes:
 
     ``to_absolute``: S, with θ = S q, shape (n, n); ``carried``: 1 where a link (row) hangs below a link (column) or is
     it; ``levers``: the lengths that enter; ``errors``: what they are off by, in units of ε, where that is more than
-    themselves; ``mass`` [kg] and ``inertia`` [kg m²] of the links, (n,); ``gravity`` [m/s²].
+    themselves; ``mass`` [kg], ``inertia`` [kg m²] and ``pivots``, the inertia about its own hinge, of each link, (n,);
+    ``gravity`` [m/s²].
     """
 
     to_absolute: Array
@@ -85,18 +94,20 @@ class Amplitudes:
     errors: Levers | None
     mass: Array
     inertia: Array
+    pivots: Array
     gravity: float
 
     def rows(self, alpha: Array, omega: Array) -> Array:
         """Σ|terms| of each row of the equations of motion, in these coordinates, (B, n) from (B, n)."""
-        return np.asarray(np.abs(self.own(alpha)) @ self.products + self.velocity_terms(omega) + self.weights)
+        solution = np.abs(self.own(alpha)) @ self.products + self._growth * self.underflow(omega, alpha)
+        return np.asarray(solution + self.velocity_terms(omega) + self.weights)
 
     @cached_property
     def products(self) -> Array:
         """sqrt(W_ii W_jj), what meets in each entry of the mass matrix and its factors, (n, n)."""
         arm = self.levers.arm
         root = np.sqrt(arm**2 @ self.mass + self.inertia @ self.to_absolute**2)
-        found = np.outer(root, root)
+        found = np.outer(root, root) + self._lost
         for one, other in self._pairs[1:]:
             found += (one.arm * self.mass) @ other.arm.T
         return found
@@ -105,12 +116,12 @@ class Amplitudes:
     def weights(self) -> Array:
         """The gravity terms with every sine one, (n,)."""
         arms = np.sum([levers.arm for levers in self._each], axis=0)
-        return np.asarray(arms @ (self.mass * self.gravity))
+        return np.asarray(arms @ (self.mass * self.gravity) + self._lost * (1 + self.gravity))
 
     def velocity_terms(self, omega: Array) -> Array:
         """β without gravity, (B, n)."""
         moment = self.felt(omega) ** 2 * self.inertia
-        rows = np.zeros_like(omega)
+        rows = self.underflow(omega) + np.zeros_like(omega)
         for one, other in self._pairs:
             rows += (self._rush(omega, one) * self.mass) @ other.arm.T
             moment += self._moment(omega, one, other) * self.mass
@@ -120,7 +131,12 @@ class Amplitudes:
         """Σ|terms| of the force at each link's hinge, (B, n) [N]: mass × acceleration of all that hangs there."""
         pull = np.abs(self.own(alpha))
         swing = np.sum([pull @ levers.arm + self._rush(omega, levers) for levers in self._each], axis=0)
-        return np.asarray((self.mass * (self.gravity + swing)) @ self.carried)
+        return np.asarray((self.mass * (self.gravity + swing)) @ self.carried + self.underflow(omega, alpha))
+
+    def underflow(self, omega: Array, alpha: Array | None = None) -> Array:
+        """What the loss of digits below the smallest normal number adds, over ε, (B, 1): to each row, force, energy."""
+        swing = self.felt(omega) ** 2 + (0 if alpha is None else self.felt(alpha))
+        return self._lost * (1 + self.gravity + swing.max(axis=-1, keepdims=True))
 
     def own(self, absolute: Array) -> Array:
         """Accelerations (or rates) in these coordinates."""
@@ -145,6 +161,17 @@ class Amplitudes:
     @cached_property
     def _from_absolute(self) -> Array:
         return np.asarray(np.linalg.inv(self.to_absolute), dtype=np.float64)
+
+    @cached_property
+    def _lost(self) -> float:
+        longest = max(float(levers.arm.max()) for levers in self._each)
+        return SMALLEST * float(1 + self.mass.sum()) * (1 + longest) ** 2
+
+    @cached_property
+    def _growth(self) -> float:
+        """The largest entry of L; a pivot below ε of its row's diagonal entry would be rounding itself."""
+        diagonal = np.diag(self.products)
+        return float(np.sqrt(diagonal.max() / np.maximum(self.pivots, EPSILON * diagonal).min()))
 
     @property
     def _each(self) -> tuple[Levers, ...]:
@@ -186,6 +213,7 @@ def amplitudes(system: Mechanism, coordinates: str, moments: str = "hinge") -> A
         errors=errors,
         mass=np.array([link.mass for link in tree.links]),
         inertia=np.array([link.inertia for link in tree.links]),
+        pivots=np.array([link.mass * np.hypot(*link.com) ** 2 + link.inertia for link in tree.links]),
         gravity=tree.gravity,
     )
 

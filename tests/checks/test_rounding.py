@@ -162,3 +162,29 @@ def test_angles_whose_differences_are_exact_raise_no_bound():
     rounded = np.array([3.1, 31.1, 2.0**12 + 0.1])
     np.testing.assert_array_equal(rounding.turns(exact[:, None]), 1)
     np.testing.assert_array_equal(rounding.turns(rounded[:, None]), [1, *rounded[1:] / np.pi])
+
+
+def slow(rate):
+    """Two legs without gravity of which one moves so slowly that squared rates lose digits, or all of them."""
+    return Scene("slow", NLegPendulum((1.0, 0.8), (1.0, 0.5), 0.0), (0.3, 1.4), (0.0, rate), random=0)
+
+
+@pytest.mark.parametrize("rate", [1e-150, 1e-155, 4.36e-156, 1e-158, 1e-160, 1e-162, 1e-300])
+@pytest.mark.parametrize("engine", TREES)
+def test_products_below_the_smallest_normal_number(make_cell, engine, rate):
+    assert differing(make_cell(engine, slow(rate), random_states=0)) == {}
+
+
+def test_a_product_that_is_not_lost_is_compared(make_cell):
+    cell = make_cell("pinocchio-aba", slow(1e-150), random_states=0)
+    right = cell.engine.accelerations
+    cell.engine.accelerations = lambda theta, omega: right(theta, omega) * (1 + 1e-6)
+    assert "accelerations" in differing(cell)
+
+
+@pytest.mark.parametrize("scale", [1e-30, 1e30])
+@pytest.mark.parametrize("engine", ["pinocchio-aba", "pinocchio-crba", "exudyn-tree"])
+def test_what_is_lost_is_multiplied_by_masses_and_lengths(make_cell, engine, scale):
+    legs = NLegPendulum((scale, 0.8 * scale, 0.7 * scale), (1e30, 0.5e30, 1e28), 0.0)
+    scene = Scene("heavy", legs, (0.3, 1.4, 2.0), (1e-161, 3e-161, -2e-161), random=0)
+    assert differing(make_cell(engine, scene, random_states=0)) == {}
