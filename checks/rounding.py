@@ -136,7 +136,7 @@ class Amplitudes:
     def underflow(self, omega: Array, alpha: Array | None = None) -> Array:
         """What the loss of digits below the smallest normal number adds, over ε, (B, 1): to each row, force, energy."""
         swing = self.felt(omega) ** 2 + (0 if alpha is None else self.felt(alpha))
-        return self._lost * (1 + self.gravity + swing.max(axis=-1, keepdims=True))
+        return np.asarray(self._lost * (1 + self.gravity + swing.max(axis=-1, keepdims=True)))
 
     def own(self, absolute: Array) -> Array:
         """Accelerations (or rates) in these coordinates."""

@@ -4,6 +4,8 @@
   built by ``MjSpec``, body by body; where both ways are open they give the same accelerations to the last bit.
 * The compiler takes no body whose inertia is below 1e-15 kg m², though the equations need none: where a link has less
   the compiler lifts it, and the exact number is put into the compiled model.
+* It also takes a centre of mass within 1e-6 m of the hinge for one at the hinge (``body_sameframe``), and does without
+  the exact one, which the compiled model holds all the same; it is told otherwise.
 * ``mj_step`` and the batch module announce a NaN on standard error and in a file MUJOCO_LOG.TXT, the first time that
   an ``MjData`` meets one. Its warning counters are therefore set before it starts. ``mujoco.batch`` keeps its own
   ``MjData``, which cannot be quietened; at two hundred states it saves no more than what making it costs.
@@ -47,6 +49,7 @@ class Mujoco:
         for body, link in zip(self._bodies, tree.links, strict=True):
             if link.inertia < LEAST_INERTIA:
                 self._model.body_inertia[body] = link.inertia
+        _keep_centres(self._model)
         # The energies are asked for when they are wanted.
         self._model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_ENERGY)
         self._data = _quiet_data(self._model)
@@ -190,6 +193,16 @@ def model_from_spec(tree: PlanarTree) -> Any:
         body.add_joint(name=hinge_name, type=mujoco.mjtJoint.mjJNT_HINGE, axis=[0.0, -1.0, 0.0])
         bodies.append(body)
     return spec.compile()
+
+
+def _keep_centres(model: Any) -> None:
+    """Each centre of mass where the model says it is, however near the hinge."""
+    taken_for_hinge = model.body_sameframe == int(mujoco.mjtSameFrame.mjSAMEFRAME_BODY)
+    mended = taken_for_hinge & model.body_ipos.any(axis=1)
+    model.body_sameframe[mended] = int(mujoco.mjtSameFrame.mjSAMEFRAME_BODYROT)
+    # A lone such body is "simple": its inertia is that of the posture in which it was compiled.
+    model.body_simple[mended] = 0
+    model.dof_simplenum[mended[model.dof_bodyid]] = 0
 
 
 @contextmanager

@@ -78,6 +78,22 @@ def test_forces_for_given_accelerations(engine, system, gravity, any_tree, virtu
         assert np.abs(row - expected).max() <= 10 * mechanism.n * EPS * size.max()
 
 
+@pytest.mark.parametrize("lengths", [(5e-7,), (5e-7, 1e-7, 1e-3), (1e-3, 2e-6, 1e-7)])
+def test_mujoco_keeps_centres_of_mass_that_are_near_the_hinge(lengths, virtual_work):
+    chain = RodChain(lengths, density=1e15)
+    theta, omega, _ = states(11, chain.n, rows=10)
+    adapter = load_engine("mujoco", chain)
+    found = adapter.inverse_dynamics(theta, omega, 0 * theta)
+    swinging = adapter.accelerations(theta, omega)
+    for row, alpha, t, w in zip(found, swinging, theta, omega, strict=True):
+        truth = virtual_work(chain.tree(), t, w)
+        size = np.abs(truth.velocity_terms) + np.abs(truth.weight_terms)
+        # Far from the tree's centre of mass roundings are of all the weight and length there is.
+        assert np.abs(row - truth.velocity_terms - truth.weight_terms).max() <= 100 * EPS * size.max()
+        allowed = 100 * EPS * np.linalg.cond(truth.mass_matrix)
+        assert np.abs(alpha - truth.accelerations).max() <= allowed * np.abs(truth.accelerations).max()
+
+
 def test_forces_and_accelerations_are_inverse_to_each_other(engine, any_tree):
     able(engine, "inverse_dynamics")
     mechanism = any_tree(7, 5)
