@@ -72,9 +72,9 @@ def _draw(body: ElementTree.Element, length: float, bob: tuple[float, float] | N
         body,
         "geom",
         unseen_by_physics,
-        type="capsule",
-        fromto=f"0 0 0 0 0 {-length!r}",
-        size=repr(length / 40),
+        type="capsule",  # not by its ends: MuJoCo refuses those nearer than 1e-7 m to each other
+        pos=point((length / 2, 0.0)),
+        size=f"{length / 40!r} {length / 2!r}",
         rgba="0.45 0.5 0.6 1",
     )
     if bob is not None:

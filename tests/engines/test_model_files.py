@@ -5,7 +5,7 @@ import numpy as np
 import pinocchio
 import pytest
 
-from furiko.models import catalogue, find_scene
+from furiko.models import NLegPendulum, catalogue, find_scene, to_mjcf
 from furiko.models.write_files import FOLDER
 
 
@@ -35,6 +35,13 @@ def test_urdf_loads_in_mujoco_and_pinocchio(name):
     model = pinocchio.buildModelFromUrdf(path)
     assert model.nq == model.nv == system.n
     assert [inertia.mass for inertia in model.inertias][1:] == list(system.masses)
+
+
+@pytest.mark.parametrize("length", [1e-7, 1e-12, 1e-30])
+def test_mjcf_of_short_links_loads_in_mujoco(length):
+    system = NLegPendulum((1.0, length), (1.0, 1.0))
+    model = mujoco.MjModel.from_xml_string(to_mjcf(system))
+    np.testing.assert_array_equal(model.body_ipos[1:, 2], [-1.0, -length])
 
 
 @pytest.mark.parametrize("name", catalogue())
