@@ -8,10 +8,13 @@
   so that three forward differences, with steps of a quarter turn, three quarters and a whole one, give its derivative
   exactly: see :data:`STEPS`.
 * Linear solver: Eigen's sparse LU; the dense ones cost a hundred times as much at a hundred links.
+* It holds the mechanism in units that fit it, and each state in a unit of time that fits that: see :mod:`.units`.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import exudyn
@@ -30,6 +33,7 @@ from ..models import PlanarTree, System
 from ..models.tree import SUPPORT
 from .exudyn_settings import Current, Initial, quiet_settings, run
 from .protocol import Array, ModelFields
+from .units import in_units, units_of
 
 _SOLVER = exudyn.LinearSolverType.EigenSparse
 
@@ -44,12 +48,15 @@ class ExudynRedundant:
     """The mechanism as bodies and joints."""
 
     def __init__(self, system: System) -> None:
-        self._links = _Links(system.tree())
+        self._units = units_of(system.tree())
+        self._gravity = system.tree().gravity
+        tree = in_units(system.tree(), self._units)
+        self._links = _Links(tree)
         self._mbs = exudyn.SystemContainer().AddSystem()
         self._bodies: list[Any] = []
         self._loads: list[Any] = []
         self._joints: list[Any] = []
-        self._build(system.tree())
+        self._build(tree)
         self._settings = quiet_settings(_SOLVER)
 
     def _build(self, tree: PlanarTree) -> None:
@@ -88,21 +95,21 @@ class ExudynRedundant:
             centres[row] = -_along_across(on_body["localPosition"])
             # Both are measured from a centre of mass; the parent's comes before its children's.
             hinges[row] = _along_across(on_carrier["localPosition"]) + (centres[parent] if parent != SUPPORT else 0.0)
-        size = mbs.systemData
+        size, units = mbs.systemData, self._units
         return ModelFields(
             dofs=size.ODE2Size() - size.AEsize(),
             parents=tuple(parents),
-            hinges=hinges,
-            centres=centres,
-            masses=np.array([body["mass"] for body in bodies]),
-            inertias=np.array([body["inertia"] for body in bodies]),
-            gravity=self._gravity(),
+            hinges=hinges * units.length,
+            centres=centres * units.length,
+            masses=np.array([body["mass"] for body in bodies]) * units.mass,
+            inertias=np.array([body["inertia"] for body in bodies]) * units.inertia,
+            gravity=self._load_on_a_unit_of_mass() * units.acceleration,
             armature=np.zeros(len(bodies)),  # a revolute joint has neither
             damping=np.zeros(len(bodies)),
         )
 
-    def _gravity(self) -> Array:
-        """The load on a unit of mass, the same for every body or else there is no one gravity to speak of."""
+    def _load_on_a_unit_of_mass(self) -> Array:
+        """The same for every body, or else there is no one gravity to speak of."""
         loads = np.array([self._mbs.GetLoad(load)["loadVector"] for load in self._loads])
         x, y, z = loads[0] if (loads == loads[0]).all() else np.full(3, np.nan)
         return np.array([x, -z, y])
@@ -129,7 +136,7 @@ class ExudynRedundant:
                 for kind in (outputs.KineticEnergy, outputs.Position)
             )
             energies[row] = kinetic.sum(), -(mass * (loads * centre).sum(axis=1)).sum()
-        return energies
+        return energies * self._units.energy
 
     def trajectory(self, theta: Array, omega: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
         (angles,), (rates,) = self._run(theta, omega, integrator, step, steps, all_states=False)
@@ -145,43 +152,73 @@ class ExudynRedundant:
             [mbs.GetMarkerOutput(marker, position, Current) for marker in mbs.GetObject(joint)["markerNumbers"]]
             for joint in self._joints
         ]
-        return float(np.linalg.norm(np.subtract(*np.swapaxes(ends, 0, 1)), axis=-1).max())
+        return float(np.linalg.norm(np.subtract(*np.swapaxes(ends, 0, 1)), axis=-1).max()) * self._units.length
 
     def _run(
         self, theta: Array, omega: Array, integrator: str, step: float, steps: int, *, all_states: bool
     ) -> tuple[Array, Array]:
-        """Started from the accelerations of :meth:`_solve`: those that the solver would compute are off by 1e-6."""
-        (accelerations,), _ = self._solve(theta[None], omega[None])
+        """Started from the accelerations of :meth:`_solve_one`: those that the solver would compute are off by 1e-6."""
+        units = self._units.fitting(self._gravity, omega, step)
         data = self._mbs.systemData
-        ((position,), (rate,)) = self._links.states(theta[None], omega[None])
-        data.SetODE2Coordinates(position, Initial)
-        data.SetODE2Coordinates_t(rate, Initial)
-        coordinates, speeds = run(
-            self._mbs, _SOLVER, integrator, step, steps, accelerations=accelerations, all_states=all_states
-        )
-        return coordinates[:, 2::3], speeds[:, 2::3]
+        with self._in_time(units.time):
+            ((position,), (rate,)) = self._links.states(theta[None], units.time * omega[None])
+            accelerations, _ = self._solve_one(position, rate)
+            data.SetODE2Coordinates(position, Initial)
+            data.SetODE2Coordinates_t(rate, Initial)
+            coordinates, speeds = run(
+                self._mbs,
+                _SOLVER,
+                integrator,
+                step / units.time,
+                steps,
+                accelerations=accelerations,
+                all_states=all_states,
+            )
+        return coordinates[:, 2::3], units.in_seconds(speeds[:, 2::3])
 
     def _solve(self, theta: Array, omega: Array) -> tuple[Array, Array]:
         """Accelerations of all coordinates (B, 3n) and the joints' multipliers (B, n, 2)."""
+        accelerations = np.zeros((len(theta), 3 * theta.shape[1]))
+        forces = np.zeros((*theta.shape, 2))
+        for row in range(len(theta)):
+            units = self._units.fitting(self._gravity, omega[row])
+            ((position,), (rate,)) = self._links.states(theta[row, None], units.time * omega[row, None])
+            with self._in_time(units.time):
+                found, multipliers = self._solve_one(position, rate)
+            accelerations[row] = units.in_seconds(found, power=2)
+            forces[row] = multipliers * units.force
+        return accelerations, forces
+
+    def _solve_one(self, position: Array, rate: Array) -> tuple[Array, Array]:
+        """Accelerations (3n,) and multipliers (n, 2) in the unit of time that the loads are in."""
         mbs, data, settings = self._mbs, self._mbs.systemData, self._settings
         differencing = settings.timeIntegration.newton.numericalDifferentiation
         solver = exudyn.MainSolverImplicitSecondOrder()
-        accelerations = np.zeros((len(theta), 3 * theta.shape[1]))
-        forces = np.zeros((*theta.shape, 2))
-        positions, rates = self._links.states(theta, omega)
+        accelerations, forces = np.zeros(len(position)), np.zeros((len(position) // 3, 2))
+        data.SetODE2Coordinates(position, Initial)
+        data.SetODE2Coordinates_t(rate, Initial)
         # A step is relativeEpsilon times the coordinate, or times minimumCoordinateSize where that is more.
-        sizes = np.maximum(np.abs(theta).max(axis=1, initial=0.0), 1.0)
-        for row, (position, rate, size) in enumerate(zip(positions, rates, sizes, strict=True)):
-            data.SetODE2Coordinates(position, Initial)
-            data.SetODE2Coordinates_t(rate, Initial)
-            differencing.minimumCoordinateSize = size
-            for weight, step in zip(WEIGHTS, STEPS, strict=True):
-                differencing.relativeEpsilon = step / size
-                solver.InitializeSolver(mbs, settings)
-                accelerations[row] += weight * data.GetODE2Coordinates_tt()
-                forces[row] += weight * data.GetAECoordinates().reshape(-1, 2)
-                solver.FinalizeSolver(mbs, settings)
+        size = differencing.minimumCoordinateSize = max(float(np.abs(position[2::3]).max(initial=0.0)), 1.0)
+        for weight, step in zip(WEIGHTS, STEPS, strict=True):
+            differencing.relativeEpsilon = step / size
+            solver.InitializeSolver(mbs, settings)
+            accelerations += weight * data.GetODE2Coordinates_tt()
+            forces += weight * data.GetAECoordinates().reshape(-1, 2)
+            solver.FinalizeSolver(mbs, settings)
         return accelerations, forces
+
+    @contextmanager
+    def _in_time(self, unit: float) -> Iterator[None]:
+        """With the loads as they are in this unit of time [s]."""
+        mbs = self._mbs
+        kept = [mbs.GetLoad(load)["loadVector"] for load in self._loads] if self._gravity and unit != 1 else []
+        for load, vector in zip(self._loads, kept, strict=False):
+            mbs.SetLoadParameter(load, "loadVector", [g * unit * unit for g in vector])
+        try:
+            yield
+        finally:
+            for load, vector in zip(self._loads, kept, strict=False):
+                mbs.SetLoadParameter(load, "loadVector", vector)
 
 
 class _Links:

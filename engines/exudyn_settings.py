@@ -53,8 +53,9 @@ def run(
     integration.automaticStepSize = False
     integration.adaptiveStep = False
     integration.newton.relativeTolerance = 1e-12
-    integration.newton.absoluteTolerance = 1e-13
     data = mbs.systemData
+    # Of numbers near one, see :mod:`.units`; a residual has a rounding for every equation, less is not to be had.
+    integration.newton.absoluteTolerance = 1e-13 * data.ODE2Size()
     if accelerations is not None:
         integration.generalizedAlpha.computeInitialAccelerations = False
         data.SetODE2Coordinates_tt(accelerations, Initial)

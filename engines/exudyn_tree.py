@@ -6,10 +6,13 @@
 * Linear solver: Eigen's dense LU. Exudyn's own (the default) inverts the matrix, which costs a factor of thirty in
   accuracy at a hundred links, and time.
 * The potential energy is counted from the reference configuration (all angles zero), not from the support.
+* It holds the mechanism in units that fit it, see :mod:`.units`; in a motion the unit of time fits, too.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import exudyn
@@ -20,6 +23,7 @@ from ..models import System
 from .coordinates import RelativeCoordinates
 from .exudyn_settings import Current, Initial, quiet_settings, run, run_adaptive
 from .protocol import Array, ModelFields
+from .units import in_units, units_of
 
 _SOLVER = exudyn.LinearSolverType.EigenDense
 
@@ -28,7 +32,9 @@ class ExudynTree:
     """The mechanism as one kinematic tree."""
 
     def __init__(self, system: System) -> None:
-        tree = system.tree()
+        self._units = units_of(system.tree())
+        self._gravity = system.tree().gravity
+        tree = in_units(system.tree(), self._units)
         links, n = tree.links, tree.n
         self._mbs = exudyn.SystemContainer().AddSystem()
         self._node = self._mbs.AddNode(
@@ -64,16 +70,17 @@ class ExudynTree:
         n = self._mbs.systemData.ODE2Size()
         x, y, z = held["gravity"]
         damping = held["jointDControlVector"]
+        units = self._units
         return ModelFields(
             dofs=n,
             parents=tuple(held["linkParents"]),
-            hinges=_along_across(held["jointOffsets"]),
-            centres=_along_across(held["linkCOMs"]),
-            masses=np.array(held["linkMasses"]),
-            inertias=np.array([inertia[2, 2] for inertia in _items(held["linkInertiasCOM"])]),
-            gravity=np.array([x, -z, y]),
+            hinges=_along_across(held["jointOffsets"]) * units.length,
+            centres=_along_across(held["linkCOMs"]) * units.length,
+            masses=np.array(held["linkMasses"]) * units.mass,
+            inertias=np.array([inertia[2, 2] for inertia in _items(held["linkInertiasCOM"])]) * units.inertia,
+            gravity=np.array([x, -z, y]) * units.acceleration,
             armature=np.zeros(n),  # Exudyn has no such thing
-            damping=np.array(damping) if len(damping) else np.zeros(n),
+            damping=(np.array(damping) if len(damping) else np.zeros(n)) * (units.energy * units.time),
         )
 
     def accelerations(self, theta: Array, omega: Array) -> Array:
@@ -89,10 +96,7 @@ class ExudynTree:
     def inverse_dynamics(self, theta: Array, omega: Array, alpha: Array, *, gravity: bool = True) -> Array:
         forces = np.empty_like(theta)
         solver = exudyn.MainSolverImplicitSecondOrder()
-        kept = self._mbs.GetObjectParameter(self._tree, "gravity")
-        if not gravity:
-            self._mbs.SetObjectParameter(self._tree, "gravity", [0.0, 0.0, 0.0])
-        try:
+        with self._in_time(1.0 if gravity else 0.0):
             for row, (q, v, a) in enumerate(self._relative(theta, omega, alpha)):
                 self._start_at(q, v)
                 solver.InitializeSolver(self._mbs, self._at_rest)
@@ -100,16 +104,14 @@ class ExudynTree:
                 solver.ComputeODE2RHS(self._mbs)
                 forces[row] = solver.GetSystemMassMatrix() @ a - solver.GetSystemResidual()
                 solver.FinalizeSolver(self._mbs, self._at_rest)
-        finally:
-            self._mbs.SetObjectParameter(self._tree, "gravity", kept)
-        return self._coordinates.absolute_forces(forces)
+        return self._coordinates.absolute_forces(forces) * self._units.energy
 
     def energy(self, theta: Array, omega: Array) -> Array:
         # Swung out level to the one side and to the other, any mass is as high above the support as it is below.
         level = np.repeat([[np.pi / 2], [-np.pi / 2]], theta.shape[1], axis=1)
         energies = self._energies(theta, omega)
         energies[:, 1] -= self._energies(level, np.zeros_like(level))[:, 1].mean()
-        return energies
+        return energies * self._units.energy
 
     def trajectory(self, theta: Array, omega: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
         (angles,), (rates,) = self._run(theta, omega, integrator, step, steps, all_states=False)
@@ -128,9 +130,11 @@ class ExudynTree:
     def _run(
         self, theta: Array, omega: Array, integrator: str, step: float, steps: int, *, all_states: bool
     ) -> tuple[Array, Array]:
-        self._start_at(*(row[0] for row in map(self._coordinates.relative, (theta[None], omega[None]))))
-        angles, rates = run(self._mbs, _SOLVER, integrator, step, steps, all_states=all_states)
-        return self._coordinates.absolute(angles), self._coordinates.absolute(rates)
+        units = self._units.fitting(self._gravity, omega, step)
+        self._start_at(*(row[0] for row in map(self._coordinates.relative, (theta[None], units.time * omega[None]))))
+        with self._in_time(units.time):
+            angles, rates = run(self._mbs, _SOLVER, integrator, step / units.time, steps, all_states=all_states)
+        return self._coordinates.absolute(angles), units.in_seconds(self._coordinates.absolute(rates))
 
     def _energies(self, theta: Array, omega: Array) -> Array:
         data, outputs = self._mbs.systemData, exudyn.OutputVariableType
@@ -143,6 +147,16 @@ class ExudynTree:
                 for kind in (outputs.KineticEnergy, outputs.PotentialEnergy)
             ]
         return energies
+
+    @contextmanager
+    def _in_time(self, unit: float) -> Iterator[None]:
+        """With gravity as it is in this unit of time [s]: none at all in zero seconds."""
+        kept = self._mbs.GetObjectParameter(self._tree, "gravity")
+        self._mbs.SetObjectParameter(self._tree, "gravity", [g * unit * unit for g in kept])
+        try:
+            yield
+        finally:
+            self._mbs.SetObjectParameter(self._tree, "gravity", kept)
 
     def _start_at(self, q: Array, v: Array) -> None:
         self._mbs.systemData.SetODE2Coordinates(q, Initial)

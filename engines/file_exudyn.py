@@ -33,10 +33,10 @@ class _Driven(ExudynTree):
     """A tree whose hinges have springs and dampers."""
 
     def drive(self, mechanism: Mechanism) -> None:
-        hinges = mechanism.hinges
+        hinges, torque = mechanism.hinges, self._units.energy
         for parameter, values in (
-            ("jointPControlVector", [hinge.stiffness for hinge in hinges]),
-            ("jointDControlVector", [hinge.damping for hinge in hinges]),
+            ("jointPControlVector", [hinge.stiffness / torque for hinge in hinges]),
+            ("jointDControlVector", [hinge.damping / (torque * self._units.time) for hinge in hinges]),
             ("jointPositionOffsetVector", [hinge.rest for hinge in hinges]),
             ("jointVelocityOffsetVector", [0.0] * len(hinges)),
         ):

@@ -50,17 +50,18 @@ def tampered(name):
         adapter._model.armature = np.array([0, 0.25, 0])
         adapter._model.damping = np.array([0, 0.5, 0])
     elif name == "exudyn-tree":
-        masses = adapter._mbs.GetObjectParameter(adapter._tree, "linkMasses")
+        masses, units = adapter._mbs.GetObjectParameter(adapter._tree, "linkMasses"), adapter._units
         adapter._mbs.SetObjectParameter(adapter._tree, "linkMasses", masses * [1, 2, 1])
-        adapter._mbs.SetObjectParameter(adapter._tree, "gravity", [0, -1.62, 0])
-        adapter._mbs.SetObjectParameter(adapter._tree, "jointDControlVector", [0, 0.5, 0])
+        adapter._mbs.SetObjectParameter(adapter._tree, "gravity", [0, -1.62 / units.acceleration, 0])
+        adapter._mbs.SetObjectParameter(adapter._tree, "jointDControlVector", [0, 0.5 / units.energy, 0])
         adapter._mbs.SetObjectParameter(adapter._tree, "jointPControlVector", [0, 0, 0])
         adapter._mbs.SetObjectParameter(adapter._tree, "jointPositionOffsetVector", [0, 0, 0])
         adapter._mbs.SetObjectParameter(adapter._tree, "jointVelocityOffsetVector", [0, 0, 0])
     else:
-        adapter._mbs.SetObjectParameter(adapter._bodies[1], "mass", 1.4)
+        units = adapter._units
+        adapter._mbs.SetObjectParameter(adapter._bodies[1], "mass", 1.4 / units.mass)
         for load in adapter._loads:
-            adapter._mbs.SetLoadParameter(load, "loadVector", [0, -1.62, 0])
+            adapter._mbs.SetLoadParameter(load, "loadVector", [0, -1.62 / units.acceleration, 0])
     return loaded
 
 
