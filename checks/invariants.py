@@ -30,7 +30,7 @@ from ..reference.variation import fastest_rate, lyapunov_time
 from .cell import Cell
 from .energy import energy_amplitudes
 from .rounding import EPSILON, allowed, amplitudes
-from .step_map import acceleration_error
+from .step_rounding import acceleration_error
 
 Array = NDArray[np.float64]
 

@@ -5,11 +5,9 @@ states the engine takes one step, and so does every scheme of :mod:`furiko.refer
 engine's makers give theirs. The one that fits is named. An order that is measured passes any error of that order; this
 does not: a wrong scheme misses by a power of step × fastest rate, 1e-9 and more, the right one by 1e-15.
 
-How far rounding takes them apart is bounded, not chosen. Every acceleration the engine evaluates has a backward error
-of at most that which :mod:`.rounding` allows, hence a forward error of |M⁻¹| times it; an implicit scheme's iterations
-leave a residual of their tolerance on top. A scheme hands these on to the rates times the step, to the angles times
-its square; that later stages start from earlier ones' errors multiplies them by at most exp(stages × step × fastest
-rate). In maximal coordinates the constraints come on top: see :func:`_constraints`.
+How far rounding takes them apart is bounded, not chosen: see :mod:`.step_rounding`. A scheme hands the accelerations'
+errors on to the rates times the step, to the angles times its square; that later stages start from earlier ones'
+errors multiplies them by at most exp(stages × step × fastest rate).
 
 The step is an eighth over the fastest rate at which links turn or nearby states part
 (:func:`furiko.reference.variation.fastest_rate`).
@@ -27,12 +25,13 @@ from numpy.typing import NDArray
 
 from ..engines import Integrator
 from ..models.result import Result
-from ..reference import literal_accelerations, mass_matrix
+from ..reference import literal_accelerations
 from ..reference.maximal import MaximalCoordinates, generalized_alpha_index_3, trapezoidal_index_2
 from ..reference.schemes import RADIUS, SCHEMES, Scheme, alpha_parameters
 from ..reference.variation import fastest_rate
 from .cell import Cell, quotient, worst
-from .rounding import EPSILON, allowed, amplitude_transform
+from .rounding import EPSILON
+from .step_rounding import acceleration_error, conversion, joints_apart
 
 Array = NDArray[np.float64]
 Wide = NDArray[Any]
@@ -228,49 +227,11 @@ def rounding_bounds(
     rates = h * amplified * acceleration + sums * conversion(cell, size)
     angles = h * rates + sums * conversion(cell, turns)
     if candidate.coordinates == "maximal coordinates":
-        more_angles, more_rates = _constraints(cell, integrator, steps)
-        angles, rates = angles + more_angles, rates + more_rates
+        apart = joints_apart(cell, integrator, steps.theta)
+        # Where positions are held, the rates follow by γ/(βh) times that.
+        beta, gamma, _, _ = map(float, alpha_parameters(RADIUS))
+        angles, rates = angles + apart, rates + gamma / (beta * h) * apart
     return np.stack([angles, rates])[..., None]
-
-
-def acceleration_error(cell: Cell, integrator: Integrator, theta: Array, omega: Array, alpha: Array) -> Array:
-    """Forward error [rad/s²] of the engine's accelerations at each state, (B,): backward error times |M⁻¹|."""
-    amplitude, system = cell.amplitude, cell.scene.system
-    spread = np.abs(np.linalg.inv(mass_matrix(system, theta)) @ amplitude_transform(amplitude))
-    rows = amplitude.rows(alpha, omega)
-    left = integrator.tolerance * np.linalg.norm(rows, axis=-1, keepdims=True)
-    backward = EPSILON * allowed(system.n, cell.info.accuracy) * rows + left
-    return np.asarray((spread @ backward[..., None])[..., 0].max(axis=-1))
-
-
-def conversion(cell: Cell, absolute: Array) -> Array:
-    """Largest sum of magnitudes when absolute values are had from the engine's own coordinates, (B,)."""
-    to_absolute = cell.amplitude.to_absolute
-    own = absolute @ np.abs(np.linalg.inv(to_absolute)).T
-    return np.asarray((own @ np.abs(to_absolute).T).max(axis=-1))
-
-
-def _constraints(cell: Cell, integrator: Integrator, steps: Steps) -> tuple[Array, Array]:
-    """What the constraints' own rounding adds to angles and rates, (B,) each.
-
-    Positions of the size of the whole mechanism are known to ε, so that C(q₁) = 0 holds no better than that, and no
-    better than the iterations' tolerance times the forces. Moving the hinges by c moves the angles by P c, P from M
-    and G; where positions are held, the rates follow by γ/(βh) times that.
-    """
-    system = cell.scene.system
-    bodies = MaximalCoordinates(system.tree())
-    beta, gamma, _, _ = map(float, alpha_parameters(RADIUS))
-    reach = sum(system.lengths)
-    found = []
-    for theta, omega, alpha in zip(steps.theta, steps.omega, steps.alpha, strict=True):
-        q, _ = bodies.state(theta, omega)
-        k = 3 * system.n
-        answer = np.linalg.inv(bodies.saddle(bodies.jacobian(q)))[2:k:3, k:]
-        rows = cell.amplitude.rows(alpha[None], omega[None])
-        gap = allowed(system.n) * EPSILON * reach + integrator.tolerance * float(np.linalg.norm(rows))
-        found.append(float(np.abs(answer).sum(-1).max()) * gap)
-    angles = np.array(found)
-    return angles, gamma / (beta * steps.h) * angles
 
 
 def _reason(integrator: Integrator, fits: list[Fit]) -> str:

@@ -11,6 +11,9 @@ time is C h^p + O(h^(p+1)). Four runs, at h, h/2, h/4 and h/8, give three things
 
 In a chaotic motion errors grow until the expansion in h means nothing. The comparison therefore ends at the last of
 the truth's times at which the coarse run is still near the fine one.
+
+Rounding (:mod:`.step_rounding`) comes on top, in each of the finest run's steps, and what it does to a step grows until
+the end as any small difference does: how much, two runs from states beside the first tell.
 """
 
 from __future__ import annotations
@@ -25,9 +28,12 @@ from numpy.typing import NDArray
 
 from ..engines import Integrator
 from ..models.result import Result
+from ..reference import literal_accelerations
 from ..reference.endpoints import PARTS, lookup
+from ..reference.schemes import SCHEMES
 from .cell import Cell, EngineFault
 from .rounding import EPSILON
+from .step_rounding import acceleration_error, conversion, joints_apart
 
 Array = NDArray[np.float64]
 
@@ -45,6 +51,9 @@ MOST_STEPS = 1 << 17  # of the finest run; what has not converged by then does n
 FEW_STEPS, FEW_STEPS_FIRST_ORDER = 1 << 10, 1 << 14  # of ten links; no longer time is looked at for more
 
 
+SHIFT = 2.0**-24  # half of double precision's digits: the difference and its own rounding part evenly
+
+
 @dataclass(frozen=True)
 class EndPoint:
     """The true angles [rad] at a time [s], (n,), and how sure they are [rad]."""
@@ -52,6 +61,19 @@ class EndPoint:
     time: float
     theta: Array
     error: float
+
+
+@dataclass(frozen=True)
+class Rounding:
+    """By how much rounding moves ``angles`` [rad] and ``rates`` [rad/s] in a step, and ``accelerations`` [rad/s²]."""
+
+    angles: float
+    rates: float
+    accelerations: float
+
+    def after(self, steps: int, time: float, growth: tuple[float, float]) -> float:
+        """How much of it there can be in the angles at the end [rad]; ``growth`` as :func:`growth` gives it."""
+        return steps * self.angles * growth[0] + (steps * self.rates + time * self.accelerations) * growth[1]
 
 
 @dataclass(frozen=True)
@@ -83,6 +105,14 @@ class Ladder:
         steady = abs(finer - coarser) < ORDER_SETTLED / 4 and abs(finer - round(finer)) < ORDER_SETTLED / 4
         return self.gaps()[0] < NEAR and steady and finer < order - 0.5
 
+    def judges(self, order: int, noise: float) -> bool:
+        """Whether the runs differ by so much more than ``noise`` [rad] that their order can be told.
+
+        Each gap is off by two noises at most. With one of 16 × 2^p between the middle runs, that between the fine ones
+        is at most 16 + 2/2^p + 2, and the order of p comes out too low by log₂(19/16), a quarter, at most.
+        """
+        return self.gaps()[1] > 16 * 2**order * noise
+
     def limit(self, order: int) -> tuple[Array, float]:
         """Angles at step zero, and how far off they may be [rad]."""
         extrapolated = [b[0] + (b[0] - a[0]) / (2**order - 1) for a, b in pairwise(self.ends[1:])]
@@ -90,7 +120,7 @@ class Ladder:
 
 
 def _order(coarse: float, fine: float) -> float:
-    return math.log2(coarse / fine) if fine > 0 and coarse < math.inf else math.nan
+    return math.log2(coarse / fine) if 0 < fine < math.inf and 0 < coarse < math.inf else math.nan
 
 
 def compare(cell: Cell) -> Iterator[Result]:
@@ -101,20 +131,21 @@ def compare(cell: Cell) -> Iterator[Result]:
     truth = lookup(scene.system, scene.theta, scene.omega, scene.duration)
     error = truth.error + EPSILON * np.abs(truth.theta).max(-1)
     points = tuple(map(EndPoint, [scene.duration * part for part in PARTS], truth.theta, error.tolist()))
+    passed = np.array([scene.theta, *truth.theta]), np.array([scene.omega, *truth.omega])
     for integrator in cell.info.integrators:
-        yield _compare(cell, integrator, points)
+        yield _compare(cell, integrator, points, rounding(cell, integrator, *passed))
 
 
-def _compare(cell: Cell, integrator: Integrator, points: tuple[EndPoint, ...]) -> Result:
-    name = f"{NAME} {integrator.name}"
-    point, ladder = settled(cell, integrator, points)
-    limit, uncertainty = ladder.limit(integrator.order)
-    growth = rounding_growth(cell, integrator, ladder)
-    noise = EPSILON * math.sqrt(8 * ladder.steps) * growth * max(1.0, float(np.abs(point.theta).max()))
-    bound = uncertainty + noise + point.error
+def _compare(cell: Cell, integrator: Integrator, points: tuple[EndPoint, ...], rounded: Rounding) -> Result:
+    name, p = f"{NAME} {integrator.name}", integrator.order
+    point, ladder = settled(cell, integrator, points, rounded)
+    limit, uncertainty = ladder.limit(p)
+    grown = growth(cell, integrator, ladder)
+    noise = rounded.after(8 * ladder.steps, point.time, grown)
+    bound = uncertainty + noise * (2**p + 1) / (2**p - 1) + point.error  # of the two runs that are extrapolated
     missed = float(np.abs(limit - point.theta).max())
     coarser, order = ladder.orders()
-    fits = order > integrator.order - 0.5 or ladder.gaps()[1] <= 64 * noise
+    fits = order > p - 0.5 or not ladder.judges(p, noise)
     agrees = missed <= bound and fits
     return cell.result(
         name,
@@ -122,22 +153,43 @@ def _compare(cell: Cell, integrator: Integrator, points: tuple[EndPoint, ...]) -
         measured=missed,
         allowed=bound,
         unit="rad",
-        reason=_reason(integrator, order, missed, bound, fits, ladder.settled(integrator.order)),
+        reason=_reason(integrator, order, missed, bound, fits, ladder.settled(p)),
         details={
             "integrator": integrator.name,
-            "nominal order": integrator.order,
+            "nominal order": p,
             "measured order": None if math.isnan(order) else order,
             "measured order, coarser runs": None if math.isnan(coarser) else coarser,
             "time": point.time,
             "steps": [ladder.step / 2**k for k in range(4)],
             "errors": [_finite(float(np.abs(end[0] - point.theta).max())) for end in ladder.ends],
             "extrapolated error": missed,
-            "growth of rounding": growth,
+            "rounding": noise,
+            "growth of rounding": grown[0],
         },
     )
 
 
-def settled(cell: Cell, integrator: Integrator, points: tuple[EndPoint, ...]) -> tuple[EndPoint, Ladder]:
+def rounding(cell: Cell, integrator: Integrator, theta: Array, omega: Array) -> Rounding:
+    """The worst of what it is in each of the states (B, n) that the motion passes."""
+    schemes = [scheme for scheme in SCHEMES if scheme.order == integrator.order]
+    reach = max((scheme.reach for scheme in schemes), default=1.0)
+    stages = max((scheme.stages for scheme in schemes), default=1)
+    sums = EPSILON * (stages + 2)  # additions of a term for each stage, and the changes of coordinates
+    alpha = literal_accelerations(cell.scene.system, theta, omega)
+    angles = sums * conversion(cell, np.abs(theta)).max()
+    if cell.info.coordinates == "maximal":
+        # A joint that is apart in one step and not in the next has moved angles and rates there and back again.
+        angles += joints_apart(cell, integrator, theta).max()
+    return Rounding(
+        float(angles),
+        float(sums * conversion(cell, np.abs(omega)).max()),
+        float(reach * acceleration_error(cell, integrator, theta, omega, alpha).max()),
+    )
+
+
+def settled(
+    cell: Cell, integrator: Integrator, points: tuple[EndPoint, ...], rounded: Rounding
+) -> tuple[EndPoint, Ladder]:
     """The longest time within the horizon, and steps small enough that the measured orders have settled.
 
     Longer and longer times, each from the steps that the one before needed, as far as few enough will do. How far that
@@ -146,7 +198,7 @@ def settled(cell: Cell, integrator: Integrator, points: tuple[EndPoint, ...]) ->
     best: tuple[EndPoint, Ladder] | None = None
     steps, most = FIRST_STEPS, MOST_STEPS
     for point in points:
-        ladder = refine(cell, integrator, point, steps, most)
+        ladder = refine(cell, integrator, point, rounded, steps, most)
         if best is not None and not ladder.settled(integrator.order):
             break
         best = point, ladder
@@ -165,13 +217,13 @@ def few_steps(integrator: Integrator, n: int) -> int:
     return round((FEW_STEPS_FIRST_ORDER if integrator.order == 1 else FEW_STEPS) * min(1.0, 10 / n))
 
 
-def refine(cell: Cell, integrator: Integrator, point: EndPoint, steps: int, most: int) -> Ladder:
+def refine(cell: Cell, integrator: Integrator, point: EndPoint, rounded: Rounding, steps: int, most: int) -> Ladder:
     """Halve the steps until the measured orders are near the nominal one, rounding is, or the finest has ``most``."""
     ends = [run(cell, integrator, point.time, steps << k) for k in range(4)]
     while True:
         ladder = Ladder(point.time / steps, steps, tuple(ends))
-        rounding = 2e3 * EPSILON * steps
-        if ladder.settled(integrator.order) or ladder.gaps()[1] < rounding or 16 * steps > most:
+        noise = rounded.after(8 * steps, point.time, (1.0, point.time))
+        if ladder.settled(integrator.order) or not ladder.judges(integrator.order, noise) or 16 * steps > most:
             return ladder
         if ladder.astray(integrator.order):
             return ladder
@@ -179,16 +231,26 @@ def refine(cell: Cell, integrator: Integrator, point: EndPoint, steps: int, most
         ends = [*ends[1:], run(cell, integrator, point.time, steps << 3)]
 
 
-def run(cell: Cell, integrator: Integrator, duration: float, steps: int, shift: float = 0.0) -> Array:
-    """The end of one run from the scene's state, its angles moved by ``shift``; infinite where it blows up."""
+def run(
+    cell: Cell,
+    integrator: Integrator,
+    duration: float,
+    steps: int,
+    turned: Array | float = 0.0,
+    sped: Array | float = 0.0,
+) -> Array:
+    """The end of one run from the scene's state, its angles ``turned`` and its rates ``sped`` by so much.
+
+    Infinite where it blows up: too coarse a step makes a large error, and is not yet a fault.
+    """
     assert cell.scene.theta is not None
     assert cell.scene.omega is not None
-    theta, omega = np.array(cell.scene.theta) + shift, np.array(cell.scene.omega)
+    theta, omega = np.array(cell.scene.theta) + turned, np.array(cell.scene.omega) + sped
     try:
         with np.errstate(all="ignore"):
             return cell.trajectory(theta, omega, integrator, duration / steps, steps)
     except EngineFault:
-        return np.full((2, theta.size), np.inf)  # too coarse a step: a large error, not yet a fault
+        return np.full((2, theta.size), np.inf)
 
 
 def _finite(value: float) -> float | None:
@@ -200,11 +262,17 @@ def _apart(a: Array, b: Array) -> float:
     return float(np.abs(a - b).max()) if np.isfinite(a).all() and np.isfinite(b).all() else math.inf
 
 
-def rounding_growth(cell: Cell, integrator: Integrator, ladder: Ladder) -> float:
-    """How much larger a small difference at the start has become at the end: the engine's own two runs tell."""
-    shift = 2.0**-24  # half of double precision's digits: the difference and its own rounding part evenly
-    moved = run(cell, integrator, ladder.step * ladder.steps, 2 * ladder.steps, shift)
-    return max(1.0, float(np.abs(moved - ladder.ends[1]).max()) / shift)
+def growth(cell: Cell, integrator: Integrator, ladder: Ladder) -> tuple[float, float]:
+    """Angles at the end [rad] per angle [rad] and per rate [rad/s] at the start: the engine's own runs tell.
+
+    In directions that no symmetry makes special, as turning all angles alike would be. At least what free links do.
+    """
+    time, steps = ladder.step * ladder.steps, 2 * ladder.steps
+    signs = np.random.Generator(np.random.PCG64(1)).choice([-1.0, 1.0], cell.scene.system.n)
+    by_angle = run(cell, integrator, time, steps, turned=SHIFT * signs)
+    by_rate = run(cell, integrator, time, steps, sped=SHIFT / time * signs)
+    angle, rate = (float(np.abs(moved[0] - ladder.ends[1][0]).max()) / SHIFT for moved in (by_angle, by_rate))
+    return max(1.0, angle), max(1.0, rate) * time
 
 
 def _reason(integrator: Integrator, order: float, missed: float, bound: float, fits: bool, settled: bool) -> str:

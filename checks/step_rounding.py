@@ -1,0 +1,59 @@
+"""What rounding does to angles and rates in one step of an engine's integrator: bounds from :mod:`.rounding`'s.
+
+Every acceleration the engine evaluates has a backward error of at most that which :mod:`.rounding` allows, hence a
+forward error of |M⁻¹| times it. An implicit scheme's iterations leave a residual of their tolerance on top, and in
+maximal coordinates the joints are held together no better than that.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..engines import Integrator
+from ..engines.units import units_of
+from ..reference import mass_matrix
+from ..reference.maximal import MaximalCoordinates
+from .cell import Cell
+from .rounding import EPSILON, allowed, amplitude_transform
+
+Array = NDArray[np.float64]
+
+
+def acceleration_error(cell: Cell, integrator: Integrator, theta: Array, omega: Array, alpha: Array) -> Array:
+    """Forward error [rad/s²] of the engine's accelerations at each state, (B,): backward error times |M⁻¹|."""
+    amplitude, system = cell.amplitude, cell.scene.system
+    spread = np.abs(np.linalg.inv(mass_matrix(system, theta)) @ amplitude_transform(amplitude))
+    rows = amplitude.rows(alpha, omega)
+    backward = EPSILON * allowed(system.n, cell.info.accuracy) * rows
+    if integrator.tolerance:
+        # The residual is a norm over all rows, hence of any row; what Exudyn calls one is the largest link's torque.
+        units = units_of(system.tree())
+        torque = [system.n * units.fitting(system.gravity, rates).energy for rates in omega]
+        left = np.maximum(np.linalg.norm(rows, axis=-1), torque)
+        backward += integrator.tolerance * left[:, None]
+    return np.asarray((spread @ backward[..., None])[..., 0].max(axis=-1))
+
+
+def conversion(cell: Cell, absolute: Array) -> Array:
+    """Largest sum of magnitudes when absolute values are had from the engine's own coordinates, (B,)."""
+    to_absolute = cell.amplitude.to_absolute
+    own = absolute @ np.abs(np.linalg.inv(to_absolute)).T
+    return np.asarray((own @ np.abs(to_absolute).T).max(axis=-1))
+
+
+def joints_apart(cell: Cell, integrator: Integrator, theta: Array) -> Array:
+    """How far the joints' own rounding moves the angles [rad] in maximal coordinates, (B,).
+
+    Positions of the size of the whole mechanism are known to ε, and held to the iterations' tolerance of that size.
+    Moving the hinges by c moves the angles by P c, P from M and the constraints' Jacobian.
+    """
+    system = cell.scene.system
+    bodies = MaximalCoordinates(system.tree())
+    gap = (allowed(system.n) * EPSILON + integrator.tolerance) * sum(system.lengths)
+    found, k = [], 3 * system.n
+    for angles in theta:
+        q, _ = bodies.state(angles, np.zeros_like(angles))
+        answer = np.linalg.inv(bodies.saddle(bodies.jacobian(q)))[2:k:3, k:]
+        found.append(float(np.abs(answer).sum(-1).max()) * gap)
+    return np.array(found)
