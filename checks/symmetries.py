@@ -15,6 +15,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from ..engines import cannot
 from ..models import NLegPendulum, RodChain
 from ..models.result import Result
 from ..reference import literal_accelerations, mass_matrix
@@ -70,23 +71,30 @@ def compare(cell: Cell) -> Iterator[Result]:
         asked = cell.engine if other == system else cell.engine.of(other)
         return cell.answer("accelerations", asked.accelerations(angles, rates), angles.shape)
 
-    found = excesses(system, theta, omega, engine, cell.amplitude_of, cell.info.accuracy)
+    images = _images(system, theta, omega)
+    refused = {name: why for name, image in images.items() if (why := cannot(cell.info, image.after))}
+    taken = {name: image for name, image in images.items() if name not in refused}
+    found = excesses(taken, theta, omega, engine, cell.amplitude_of, cell.info.accuracy)
     theory = _theory(system, theta.tobytes(), omega.tobytes())
     for symmetry in SYMMETRIES:
-        if symmetry.name in found:
+        if symmetry.name in refused:
+            yield cell.result(f"{NAME} {symmetry.name}", "skipped", reason=f"the image: {refused[symmetry.name]}")
+        elif symmetry.name in found:
             yield _result(cell, symmetry, found[symmetry.name], theory[symmetry.name].value)
 
 
+def _images(system: Mechanism, theta: Array, omega: Array) -> dict[str, Image]:
+    found = {symmetry.name: symmetry.image(system, theta, omega) for symmetry in SYMMETRIES}
+    return {name: image for name, image in found.items() if image is not None}
+
+
 def excesses(
-    system: Mechanism, theta: Array, omega: Array, ask: Accelerations, amplitude: AmplitudeOf, accuracy: float
+    images: dict[str, Image], theta: Array, omega: Array, ask: Accelerations, amplitude: AmplitudeOf, accuracy: float
 ) -> dict[str, Worst]:
     """For each symmetry: the difference of the two answers over what rounding explains of it, where it is worst."""
     answers: dict[Mechanism, tuple[Array, Array]] = {}
     found = {}
-    for symmetry in SYMMETRIES:
-        image = symmetry.image(system, theta, omega)
-        if image is None:
-            continue
+    for name, image in images.items():
         if image.before not in answers:
             answers[image.before] = _answer(image.before, theta, omega, ask, amplitude, accuracy)
         first, bound = answers[image.before]
@@ -94,7 +102,7 @@ def excesses(
         bound = bound + np.abs(error)
         if image.moved:
             bound = bound + image.moved * np.abs(variation(image.before, theta, omega).by_theta).sum(-1)
-        found[symmetry.name] = worst(quotient(first - second, bound))
+        found[name] = worst(quotient(first - second, bound))
     return found
 
 
@@ -106,7 +114,8 @@ def _theory(system: Mechanism, theta: bytes, omega: bytes) -> dict[str, Worst]:
     def absolute(other: Mechanism) -> Amplitudes:
         return amplitudes(other, "absolute")
 
-    return excesses(system, angles, rates, literal_accelerations, absolute, EPSILON)
+    images = _images(system, angles, rates)
+    return excesses(images, angles, rates, literal_accelerations, absolute, EPSILON)
 
 
 def _result(cell: Cell, symmetry: Symmetry, found: Worst, theory: float) -> Result:

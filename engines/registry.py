@@ -19,6 +19,8 @@ _PINOCCHIO: dict[str, Any] = {
     "coordinates": "relative",
     "missing": {"trajectory": "Pinocchio computes dynamics; it has no integrator of its own"},
     "largest_n": 300,
+    "least_mass": 2.0**-52,
+    "least_reason": "it divides by 2.2e-16 (machine epsilon) in the place of any lesser mass where it adds inertias",
     "largest_n_reason": "its data hold second derivatives of the kinematics, which grow with n³: 1.8 GB at 300 links",
 }
 _EXUDYN: dict[str, Any] = {

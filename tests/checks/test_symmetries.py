@@ -5,7 +5,7 @@ import pytest
 from motion_zoo import Damped, Fake, FirstLegHeavier, Geared, GravityLeft, Pushed, Wound
 
 from furiko.checks import symmetries
-from furiko.models import NLegPendulum, RodChain, find_scene
+from furiko.models import NLegPendulum, RodChain, Scene, find_scene
 from furiko.models.states import random_states
 
 
@@ -49,6 +49,14 @@ def test_an_unequal_split_breaks_the_split_leg(make_cell):
 
     found = {result.check: result.outcome for result in symmetries.compare(make_cell(Uneven, "n-leg-3"))}
     assert found["symmetry split leg"] == "differs"
+
+
+def test_an_image_that_the_engine_cannot_take_is_skipped(make_cell):
+    scene = Scene("least", NLegPendulum((1.0, 1.0, 0.5), (1.0, 1.0, 2.0**-52)))  # which half a leg has not
+    found = {result.check: result for result in symmetries.compare(make_cell("pinocchio-aba", scene))}
+    assert found["symmetry split leg"].outcome == "skipped"
+    assert "not 1.1e-16 (link 3)" in found["symmetry split leg"].reason
+    assert {result.outcome for result in found.values()} == {"skipped", "agrees"}
 
 
 def test_a_theory_without_a_symmetry_is_told(make_cell, monkeypatch):

@@ -78,6 +78,15 @@ def test_what_mujoco_cannot_weigh():
         load_engine("mujoco", RodChain((1.0, 1e-5)))
 
 
+@pytest.mark.parametrize("name", ["pinocchio-aba", "pinocchio-aba-mjcf", "pinocchio-crba"])
+def test_what_pinocchio_cannot_weigh(name):
+    light = NLegPendulum((1.0, 1.0), (1.0, 1e-16))
+    assert "2.22045e-16 kg, not 1e-16 (link 2): it divides" in cannot(engine_info(name), light)
+    # The least that it takes, and there it compiles what it was asked for.
+    least = NLegPendulum((1.0, 0.5), (1.0, 2.0**-52))
+    np.testing.assert_array_equal(load_engine(name, least).fields().centres[:, 0], least.lengths)
+
+
 OWN_ENGINE = """
 from furiko.engines import EngineInfo
 class Still:
