@@ -16,6 +16,7 @@
 from __future__ import annotations
 
 import ctypes
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from functools import partial
@@ -42,6 +43,8 @@ class Mujoco:
 
     def __init__(self, system: System) -> None:
         tree = system.tree()
+        # The compiler's own MjData cannot be quietened, and warns of inertias that are mended afterwards.
+        mujoco.set_mju_user_warning(lambda message: None)
         deep = tree.depth > DEEPEST or any(0 < link.inertia < LEAST_INERTIA for link in tree.links)
         self._model = model_from_spec(tree) if deep else mujoco.MjModel.from_xml_string(to_mjcf(system))
         self._bodies = np.array([self._model.body(name).id for name in tree.names("link")])
@@ -192,7 +195,9 @@ def model_from_spec(tree: PlanarTree) -> Any:
         )
         body.add_joint(name=hinge_name, type=mujoco.mjtJoint.mjJNT_HINGE, axis=[0.0, -1.0, 0.0])
         bodies.append(body)
-    return spec.compile()
+    with warnings.catch_warnings():  # as which the compiler's come out of here
+        warnings.simplefilter("ignore")
+        return spec.compile()
 
 
 def _keep_centres(model: Any) -> None:

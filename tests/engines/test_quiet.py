@@ -19,6 +19,9 @@ for system in RodChain((1.0, 0.8, 0.6)), NLegPendulum((1.0, 0.8), (1.0, 0.3)):
     engine.energy(state, state)
     "inverse_dynamics" in missing or engine.inverse_dynamics(state, state, state)
     "joint_forces" in missing or engine.joint_forces(state, state, state)
+    if sys.argv[1] == "mujoco":
+        for system in NLegPendulum((1e-12, 1e-12), (1e14, 1e14)), RodChain((1e-7, 1e-7), 6e6):
+            load_engine(sys.argv[1], system)
     for scheme in engine.info.integrators:
         engine.trajectory(state[0], state[0], scheme.name, 1e-3, 20)
         engine.trajectory(state[0], 1e5 * state[0], scheme.name, 1.0, 20)
