@@ -1,9 +1,9 @@
 """Invariants along trajectories, which need no truth: energy, angular momentum without gravity, and the way back.
 
-From one moving state each integrator runs over the same time in a number of steps, twice as many, and four times. What
-a run leaves of an invariant is a scheme's error, C h^p + O(h^(p+1)) for order p, or there is friction or a drive in the
-model. Richardson's extrapolation to step zero tells which: it must be zero within its own uncertainty, which the two
-extrapolations from neighbouring runs give, and what rounding leaves.
+From one moving state each integrator runs over the same time four times, each in twice as many steps as before. What a
+run leaves of an invariant is a scheme's error, C h^p + O(h^(p+1)) for order p, or there is friction or a drive in the
+model. Extrapolation to step zero (:mod:`.extrapolation`) tells which: what it gives must be zero within its own
+uncertainty and what rounding leaves.
 
 * Energy: by the engine's own account of it, where it has one.
 * Angular momentum about the support, for the mechanism without gravity: Σ_j (M ω)_j of the documents' mass matrix. No
@@ -29,6 +29,7 @@ from ..reference.motion import Mechanism
 from ..reference.variation import fastest_rate, lyapunov_time
 from .cell import Cell
 from .energy import energy_amplitudes
+from .extrapolation import amplified, at_step_zero
 from .rounding import EPSILON, allowed, amplitudes
 from .step_rounding import acceleration_error
 
@@ -37,8 +38,9 @@ Array = NDArray[np.float64]
 NAME = "invariant"
 NEEDS = "trajectory"
 
-STEPS = 32  # of the coarsest run
-SHORT = 1 / 8  # step × fastest rate, in the coarsest run
+STEPS = 16  # of the coarsest run
+SHORT = 1 / 4  # step × fastest rate, in the coarsest run
+RUNS = 4
 LARGEST_N = 32  # links; beyond, engines need seconds for it
 
 
@@ -82,13 +84,13 @@ def compare(cell: Cell) -> Iterator[Result]:
 
 
 def begin(cell: Cell, system: Mechanism, engine: AnyShape, theta: Array, omega: Array) -> Start:
-    """Choose the step: an eighth over the fastest rate at which links turn or states near this one part."""
+    """Choose the step: a quarter over the fastest rate at which links turn or states near this one part."""
     fastest = max(float(fastest_rate(system, theta, omega)), float(np.abs(omega).max()))
     step = 2.0 ** math.floor(math.log2(SHORT / fastest)) if fastest > 0 else SHORT
     time, alpha = step * STEPS, literal_accelerations(system, theta, omega)
     rates = float(np.abs(omega).max() + time * np.abs(alpha).max())
     off = {
-        integrator.name: EPSILON * 4 * STEPS * rates
+        integrator.name: EPSILON * (STEPS << (RUNS - 1)) * rates
         + time * float(acceleration_error(cell, integrator, theta[None], omega[None], alpha[None])[0])
         for integrator in cell.info.integrators
     }
@@ -108,12 +110,13 @@ class Invariant:
 
 def _compare(cell: Cell, integrator: Integrator, start: Start, invariant: Invariant) -> Result:
     name, unit = f"{NAME} {invariant.name} {integrator.name}", invariant.unit
-    runs = [np.atleast_1d(invariant.left(start, integrator, STEPS << k)) for k in range(3)]
+    runs = [np.atleast_1d(invariant.left(start, integrator, STEPS << k)) for k in range(RUNS)]
     if not np.isfinite(runs).all():
         reason = f"{integrator.name} comes to grief at a step of {start.step:.3g} s or a part of it"
         return cell.result(name, "skipped", reason=reason)
-    limit, uncertainty = extrapolated(runs, integrator.order)
-    bound = uncertainty + invariant.noise(start, integrator)
+    at_zero, uncertainty = at_step_zero(runs, integrator.order)
+    limit = float(np.abs(at_zero).max())
+    bound = uncertainty + amplified(integrator.order) * invariant.noise(start, integrator)
     agrees = limit <= bound
     return cell.result(
         name,
@@ -125,7 +128,7 @@ def _compare(cell: Cell, integrator: Integrator, start: Start, invariant: Invari
         details={
             "Lyapunov time": _lyapunov_time(cell.scene),
             "integrator": integrator.name,
-            "steps": [start.step / 2**k for k in range(3)],
+            "steps": [start.step / 2**k for k in range(RUNS)],
             "left": [float(np.abs(run).max()) for run in runs],
         },
     )
@@ -140,16 +143,11 @@ def _lyapunov_time(scene: Scene) -> float | None:
     return found if math.isfinite(found) else None
 
 
-def extrapolated(runs: list[Array], order: int) -> tuple[float, float]:
-    """Magnitude at step zero, from runs at h, h/2 and h/4, and how far off it may be."""
-    a, b, c = runs
-    before, last = b + (b - a) / (2**order - 1), c + (c - b) / (2**order - 1)
-    return float(np.abs(last).max()), float(np.abs(last - before).max())
-
-
 def energy_left(start: Start, integrator: Integrator, steps: int) -> Array:
     """Energy at the end less that at the start [J]."""
     theta, omega = start.run(integrator, steps, start.theta, start.omega)
+    if not (np.isfinite(theta).all() and np.isfinite(omega).all()):
+        return np.array([np.nan])
     return np.array([_energy(start, theta, omega) - _energy(start, start.theta, start.omega)])
 
 

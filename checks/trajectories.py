@@ -5,8 +5,7 @@ time is C h^p + O(h^(p+1)). Four runs, at h, h/2, h/4 and h/8, give three things
 
 * the order that their differences show, which needs no truth: log₂ |y(h) - y(h/2)| / |y(h/2) - y(h/4)|, and the same
   of the finer three. The finer decides; that the coarser is near it shows that the expansion holds;
-* where they converge to, by Richardson's extrapolation, and how sure that is: of three extrapolated values the last is
-  at least three times nearer to the limit than the last two are to each other, whatever p ≥ 1 is;
+* where they converge to, and how sure that is (:mod:`.extrapolation`);
 * whether the truth lies there. If it does, the engine integrates the same mechanism.
 
 In a chaotic motion errors grow until the expansion in h means nothing. The comparison therefore ends at the last of
@@ -32,6 +31,7 @@ from ..reference import literal_accelerations
 from ..reference.endpoints import PARTS, lookup
 from ..reference.schemes import SCHEMES
 from .cell import Cell, EngineFault
+from .extrapolation import amplified, at_step_zero, follows
 from .rounding import EPSILON
 from .step_rounding import acceleration_error, conversion, joints_apart
 
@@ -97,7 +97,8 @@ class Ladder:
     def settled(self, order: int) -> bool:
         """Whether the expansion in h holds: near enough, and of the expected order or, its first term small, above."""
         coarser, finer = self.orders()
-        return self.gaps()[1] < NEAR and finer > order - ORDER_SETTLED and coarser > order - 2 * ORDER_SETTLED
+        fits = finer > order - ORDER_SETTLED and coarser > order - 2 * ORDER_SETTLED
+        return self.gaps()[1] < NEAR and fits and follows([end[0] for end in self.ends], order)
 
     def astray(self, order: int) -> bool:
         """Whether the expansion holds with a lower order than expected: no finer step will raise it again."""
@@ -115,8 +116,7 @@ class Ladder:
 
     def limit(self, order: int) -> tuple[Array, float]:
         """Angles at step zero, and how far off they may be [rad]."""
-        extrapolated = [b[0] + (b[0] - a[0]) / (2**order - 1) for a, b in pairwise(self.ends[1:])]
-        return extrapolated[1], float(np.abs(extrapolated[1] - extrapolated[0]).max())
+        return at_step_zero([end[0] for end in self.ends], order)
 
 
 def _order(coarse: float, fine: float) -> float:
@@ -142,7 +142,7 @@ def _compare(cell: Cell, integrator: Integrator, points: tuple[EndPoint, ...], r
     limit, uncertainty = ladder.limit(p)
     grown = growth(cell, integrator, ladder)
     noise = rounded.after(8 * ladder.steps, point.time, grown)
-    bound = uncertainty + noise * (2**p + 1) / (2**p - 1) + point.error  # of the two runs that are extrapolated
+    bound = uncertainty + amplified(p) * noise + point.error
     missed = float(np.abs(limit - point.theta).max())
     coarser, order = ladder.orders()
     fits = order > p - 0.5 or not ladder.judges(p, noise)
@@ -207,8 +207,8 @@ def settled(
         if 8 * steps > most:
             break
     assert best is not None
-    if not math.isfinite(best[1].gaps()[2]):
-        raise EngineFault(f"{integrator.name}: no run came to its end, with up to {8 * best[1].steps} steps")
+    if not all(map(math.isfinite, best[1].gaps())):
+        raise EngineFault(f"{integrator.name}: not every run came to its end, with {best[1].steps} steps and more")
     return best
 
 
@@ -223,7 +223,8 @@ def refine(cell: Cell, integrator: Integrator, point: EndPoint, rounded: Roundin
     while True:
         ladder = Ladder(point.time / steps, steps, tuple(ends))
         noise = rounded.after(8 * steps, point.time, (1.0, point.time))
-        if ladder.settled(integrator.order) or not ladder.judges(integrator.order, noise) or 16 * steps > most:
+        hidden = math.isfinite(ladder.gaps()[0]) and not ladder.judges(integrator.order, noise)
+        if ladder.settled(integrator.order) or hidden or 16 * steps > most:
             return ladder
         if ladder.astray(integrator.order):
             return ladder

@@ -1,5 +1,7 @@
 """Invariants along trajectories pass engines that are right and fail those with friction or a drive."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from motion_zoo import Damped, Fake, Geared, Pushed
@@ -35,18 +37,19 @@ def test_a_fault_of_1e_7_changes_what_it_should(make_cell, fake, differs):
     assert {check for check, outcome in found.items() if outcome == "differs"} == differs
 
 
-def test_extrapolation_of_a_known_series():
-    runs = [np.array([3.0 * h**2 + 5.0 * h**3]) for h in (0.1, 0.05, 0.025)]
-    limit, uncertainty = invariants.extrapolated(runs, 2)
-    # 3h² falls out; of 5h³ the extrapolation leaves -5h³/6 at the finer of its two steps' double.
-    assert limit < uncertainty < 5 * 0.1**3
-    moved, uncertainty = invariants.extrapolated([run + 0.01 for run in runs], 2)
-    assert moved > uncertainty
-
-
 def test_coming_to_grief_is_skipped_and_said(make_cell):
     class Lost(Fake):
         def trajectory(self, theta, omega, integrator, step, steps):
             return np.full_like(theta, np.nan), np.full_like(theta, np.nan)
 
-    assert set(outcomes(make_cell(Lost, "two-legs")).values()) == {"skipped"}
+    class LostWithEnergy(Lost):
+        @classmethod
+        def about(cls):
+            return replace(super().about(), missing={})
+
+        def energy(self, theta, omega):
+            assert np.isfinite(theta).all()
+            return np.zeros((1, 2))
+
+    for engine in (Lost, LostWithEnergy):
+        assert set(outcomes(make_cell(engine, "two-legs")).values()) == {"skipped"}
