@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -13,6 +13,7 @@ from ..engines import AnyShape, EngineInfo, Integrator
 from ..models import Scene
 from ..models.result import Outcome, Result
 from ..models.states import States
+from ..reference import mass_matrix
 from ..reference.motion import Mechanism
 from .facts import SceneFacts
 from .finding import Finding
@@ -42,7 +43,16 @@ class Cell:
 
     def amplitude_of(self, system: Mechanism) -> Amplitudes:
         """The same for another mechanism in this engine."""
-        return amplitudes(system, self.info.coordinates, self.info.moments)
+        info = self.info
+        return amplitudes(
+            system, info.coordinates, moments=info.moments, placed=info.placed, interchanges=info.interchanges
+        )
+
+    def solvable(self) -> Cell:
+        """This cell in those states in which a solution for accelerations has digits that are sure."""
+        theta = self.states.theta
+        kept = self.amplitude.solvable(mass_matrix(self.scene.system, theta), self.info.accuracy)
+        return self if kept.all() else replace(self, states=self.states.only(kept), facts=self.facts.only(kept))
 
     @cached_property
     def findings(self) -> list[Finding]:

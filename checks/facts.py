@@ -48,6 +48,12 @@ class SceneFacts:
         with np.load(io.BytesIO(content), allow_pickle=False) as arrays:
             return cls(**{field.name: arrays[field.name] for field in fields(cls)})
 
+    def only(self, chosen: NDArray[np.bool_]) -> SceneFacts:
+        """Those of some of the states."""
+        rows = {field.name: getattr(self, field.name) for field in fields(self)}
+        last = chosen[-FORCE_STATES:]
+        return SceneFacts(**{name: row[last if name == "forces" else chosen] for name, row in rows.items()})
+
     def error(self, accelerations: Array) -> Array:
         """``accelerations`` less the true ones, to double precision's relative accuracy."""
         return (accelerations - self.high) - self.low

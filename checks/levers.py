@@ -55,12 +55,30 @@ def tree_levers(tree: PlanarTree) -> tuple[Levers, Levers]:
     together = carries[roots].T @ carries[roots]  # 1 where two links are of one tree
     weights = together * [link.mass for link in tree.links]
     way = ways(tree)[:, n:]
+    to_hinge, to_centre = from_support(tree)
     mean = (way * np.vstack([weights, weights])).sum(axis=-1) / np.tile(weights.sum(axis=-1), 2)
-    to_hinge, to_centre = (part.sum(axis=0) for part in _parts(tree))
-    held = carries[roots].T @ [np.hypot(*tree.links[root].hinge) for root in roots]  # from the support to the first
     about = Levers(carries * (mean[n:] + mean[:n, None]), carries * mean[:n, None])
-    placed = (to_hinge + held)[:, None]
-    return about, Levers(carries * (to_centre + held + placed), carries * placed)
+    placed = to_hinge[:, None]
+    return about, Levers(carries * (to_centre + placed), carries * placed)
+
+
+def world_errors(tree: PlanarTree) -> Levers:
+    """By how much hinges' places on their links err where a reader has them as differences of places in the world.
+
+    Each is then known to ε times the way from the support. On the way from hinge i to link k there are up to n of them,
+    none further from the support than hinge k. A link's own centre of mass is not concerned.
+    """
+    carries = relative_to_absolute(tree).T - np.eye(tree.n)
+    off = carries * from_support(tree)[0]
+    return Levers(off, off)
+
+
+def from_support(tree: PlanarTree) -> tuple[Array, Array]:
+    """Lengths of the ways from the support to each hinge and each centre of mass, (n,) each."""
+    roots = list(tree.roots())
+    held = relative_to_absolute(tree)[:, roots] @ [np.hypot(*tree.links[root].hinge) for root in roots]
+    to_hinge, to_centre = _parts(tree)
+    return to_hinge.sum(axis=0) + held, to_centre.sum(axis=0) + held
 
 
 def ways(tree: PlanarTree) -> Array:

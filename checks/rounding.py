@@ -48,7 +48,7 @@ from ..models import PlanarTree
 from ..models.states import QUANTUM, quantised
 from ..reference import mass_matrix
 from ..reference.motion import Mechanism
-from .levers import Levers, absolute_levers, relative_levers, relative_to_absolute, tree_levers
+from .levers import Levers, absolute_levers, relative_levers, relative_to_absolute, tree_levers, world_errors
 
 Array = NDArray[np.float64]
 
@@ -84,23 +84,49 @@ class Amplitudes:
 
     ``to_absolute``: S, with θ = S q, shape (n, n); ``carried``: 1 where a link (row) hangs below a link (column) or is
     it; ``levers``: the lengths that enter; ``errors``: what they are off by, in units of ε, where that is more than
-    themselves; ``mass`` [kg], ``inertia`` [kg m²] and ``pivots``, the inertia about its own hinge, of each link, (n,);
-    ``gravity`` [m/s²].
+    themselves; ``interchanges``: whether rows are interchanged in the solution; ``mass`` [kg], ``inertia`` [kg m²] and
+    ``pivots``, the inertia about its own hinge, of each link, (n,); ``gravity`` [m/s²].
     """
 
     to_absolute: Array
     carried: Array
     levers: Levers
     errors: Levers | None
+    interchanges: bool
     mass: Array
     inertia: Array
     pivots: Array
     gravity: float
 
-    def rows(self, alpha: Array, omega: Array) -> Array:
-        """Σ|terms| of each row of the equations of motion, in these coordinates, (B, n) from (B, n)."""
-        solution = np.abs(self.own(alpha)) @ self.products + self._growth * self.underflow(omega, alpha)
-        return np.asarray(solution + self.velocity_terms(omega) + self.weights)
+    def rows(self, alpha: Array, omega: Array, mass: Array | None = None) -> Array:
+        """Σ|terms| of each row of the equations of motion, in these coordinates, (B, n) from (B, n).
+
+        ``mass``: the absolute mass matrix at each state, (B, n, n), without which no interchange is reckoned with.
+        """
+        factors = self.products if mass is None else self.factors(mass)
+        solution = (factors @ np.abs(self.own(alpha))[..., None])[..., 0]
+        lost = self._growth * self.underflow(omega, alpha)
+        return np.asarray(solution + lost + self.velocity_terms(omega) + self.weights)
+
+    def factors(self, mass: Array) -> Array:
+        """What meets in each entry of the mass matrix and its factors at each state, (B, n, n) or alike for all."""
+        return self.products + interchanged(self._own_matrix(mass)) if self.interchanges else self.products
+
+    def solvable(self, mass: Array, accuracy: float) -> NDArray[np.bool_]:
+        """Whether each mass matrix (B, n, n) is further from singular than rounding, (B,).
+
+        Scaled by sqrt(W_ii) on both sides, so that rows of small and of large links count alike, it is off by a matrix
+        whose norm is at most its largest sum of a row. Where its own smallest eigenvalue is above that, factorisations
+        come to their end (Higham, theorem 10.7) and the bound of their backward error holds; elsewhere neither does.
+        """
+        root = np.sqrt(np.diag(self.products))
+        scale = np.outer(root, root)
+        off = EPSILON * allowed(len(root), accuracy) * (self.factors(mass) / scale).sum(axis=-1).max(axis=-1)
+        least = self._own_matrix(mass) / scale - np.multiply.outer(np.broadcast_to(off, len(mass)), np.eye(len(root)))
+        return np.array([_positive_definite(matrix) for matrix in least], dtype=np.bool_)
+
+    def _own_matrix(self, mass: Array) -> Array:
+        return np.asarray(self.to_absolute.T @ mass @ self.to_absolute)
 
     @cached_property
     def products(self) -> Array:
@@ -197,20 +223,58 @@ class Amplitudes:
         return np.asarray((rates @ one.throw) * (rates @ other.arm))
 
 
-def amplitudes(system: Mechanism, coordinates: str, moments: str = "hinge") -> Amplitudes:
+def interchanged(matrix: Array) -> Array:
+    """|L||U| of Gaussian elimination with partial pivoting, rows where they were, (B, n, n).
+
+    Its backward error is so much (Higham, theorem 9.3). Rows are interchanged by the size of their entries, so that a
+    row of small entries may be added to one of large ones, and share in its rounding.
+    """
+    upper, lower = matrix.copy(), np.zeros_like(matrix)
+    count, n = matrix.shape[:2]
+    states, order = np.arange(count), np.tile(np.arange(n), (count, 1))
+    for k in range(n):
+        pivot = np.abs(upper[:, k:, k]).argmax(axis=1) + k
+        for rows in (upper, lower, order):
+            kept = rows[states, k].copy()
+            rows[states, k], rows[states, pivot] = rows[states, pivot], kept
+        below, by = upper[:, k + 1 :, k], upper[:, k, None, k]
+        lower[:, k + 1 :, k] = np.divide(below, by, out=np.zeros_like(below), where=by != 0)
+        upper[:, k + 1 :, k:] -= lower[:, k + 1 :, k, None] * upper[:, k, None, k:]
+    found = np.empty_like(matrix)
+    np.put_along_axis(found, order[..., None], np.abs(lower + np.eye(n)) @ np.abs(np.triu(upper)), axis=1)
+    return found
+
+
+def _positive_definite(matrix: Array) -> bool:
+    try:
+        np.linalg.cholesky(matrix)
+    except np.linalg.LinAlgError:
+        return False
+    return True
+
+
+def amplitudes(
+    system: Mechanism,
+    coordinates: str,
+    *,
+    moments: str = "hinge",
+    placed: str = "parent",
+    interchanges: bool = False,
+) -> Amplitudes:
     """Of the system's terms in ``relative`` coordinates, or in absolute angles for any other word.
 
-    ``moments``: the point about which moments are taken in relative coordinates, ``tree`` for the tree's centre of
-    mass, or each link's own hinge for any other word.
+    The rest as :class:`EngineInfo` has it: ``moments`` about each link's ``hinge`` or the ``tree``'s centre of mass,
+    links ``placed`` on the ``parent`` or in the ``world``, rows with ``interchanges`` or without.
     """
     tree = system.tree()
     carried = relative_to_absolute(tree)
-    levers, errors = _levers(tree, coordinates, moments)
+    levers, errors = _levers(tree, coordinates, moments, placed)
     return Amplitudes(
         to_absolute=carried if coordinates == "relative" else np.eye(tree.n),
         carried=carried,
         levers=levers,
         errors=errors,
+        interchanges=interchanges,
         mass=np.array([link.mass for link in tree.links]),
         inertia=np.array([link.inertia for link in tree.links]),
         pivots=np.array([link.mass * np.hypot(*link.com) ** 2 + link.inertia for link in tree.links]),
@@ -218,10 +282,12 @@ def amplitudes(system: Mechanism, coordinates: str, moments: str = "hinge") -> A
     )
 
 
-def _levers(tree: PlanarTree, coordinates: str, moments: str) -> tuple[Levers, Levers | None]:
+def _levers(tree: PlanarTree, coordinates: str, moments: str, placed: str) -> tuple[Levers, Levers | None]:
     if coordinates != "relative":
         return absolute_levers(tree), None
-    return tree_levers(tree) if moments == "tree" else (relative_levers(tree), None)
+    if moments == "tree":
+        return tree_levers(tree)
+    return relative_levers(tree), world_errors(tree) if placed == "world" else None
 
 
 def condition(system: Mechanism, theta: Array, amplitude: Amplitudes, alpha: Array, omega: Array) -> Array:

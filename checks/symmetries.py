@@ -21,6 +21,7 @@ from ..models.result import Result
 from ..reference import literal_accelerations, mass_matrix
 from ..reference.motion import Mechanism
 from ..reference.variation import variation
+from .accelerations import SINGULAR
 from .cell import Cell, Worst, quotient, worst
 from .rounding import EPSILON, Amplitudes, allowed, amplitude_transform, amplitudes, turns
 
@@ -64,8 +65,12 @@ class Symmetry:
 
 def compare(cell: Cell) -> Iterator[Result]:
     """One result for each symmetry that the mechanism has."""
+    cell = cell.solvable()
     system = cell.scene.system
     theta, omega = cell.states.theta[-STATES:], cell.states.omega[-STATES:]
+    if not len(theta):
+        yield cell.result(NAME, "skipped", reason=f"in every state {SINGULAR}")
+        return
 
     def engine(other: Mechanism, angles: Array, rates: Array) -> Array:
         asked = cell.engine if other == system else cell.engine.of(other)
@@ -148,8 +153,9 @@ def _answer(
 
 def rounding(system: Mechanism, theta: Array, omega: Array, alpha: Array, amplitude: Amplitudes) -> Array:
     """How far accelerations are from the exact ones by a backward error of one ε [rad/s²], (B, n)."""
-    spread = np.abs(np.linalg.inv(mass_matrix(system, theta)) @ amplitude_transform(amplitude))
-    backward = amplitude.rows(alpha, omega) * turns(theta)[:, None]
+    mass = mass_matrix(system, theta)
+    spread = np.abs(np.linalg.inv(mass) @ amplitude_transform(amplitude))
+    backward = amplitude.rows(alpha, omega, mass) * turns(theta)[:, None]
     return np.asarray(EPSILON * (spread @ backward[..., None])[..., 0])
 
 

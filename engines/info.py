@@ -31,6 +31,8 @@ class EngineInfo:
     ``adapter``: where its class is, ``module:Class``; ``module``: what it imports; ``package``: what to pip install.
     ``coordinates``: those in which it forms and solves the equations, hence where its rounding arises; ``moments``: the
     point about which it takes moments then, each link's own hinge or the centre of mass of the whole tree.
+    ``placed``: whether its reader has each link's place on its parent as it stands, or as a difference of two in the
+    world. ``interchanges``: whether it solves for accelerations with rows interchanged, however large each one is.
     ``adaptive``: its schemes that choose their own steps from a tolerance. ``missing``: for each quantity it cannot
     give, the sentence that says why. ``accuracy``: relative accuracy of one operation, and ``accuracy_reason`` where
     that is more than double precision's rounding. ``largest_n`` links it takes, and a mass of ``least_mass`` [kg] or
@@ -56,3 +58,5 @@ class EngineInfo:
     accuracy: float = 2.0**-52
     accuracy_reason: str = ""
     moments: Literal["hinge", "tree"] = "hinge"
+    placed: Literal["parent", "world"] = "parent"
+    interchanges: bool = False

@@ -58,6 +58,7 @@ ENGINES: dict[str, EngineInfo] = {
             name="pinocchio-aba-mjcf",
             formulation="articulated-body algorithm; model from MJCF",
             adapter="furiko.engines.pinocchio:PinocchioAbaMjcf",
+            placed="world",
             **_PINOCCHIO,
         ),
         EngineInfo(
@@ -71,6 +72,7 @@ ENGINES: dict[str, EngineInfo] = {
             formulation="kinematic tree in minimal coordinates, mass matrix and LU",
             adapter="furiko.engines.exudyn_tree:ExudynTree",
             coordinates="relative",
+            interchanges=True,
             integrators=(
                 Integrator("RK44", 4),
                 Integrator("RK67", 6),

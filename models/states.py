@@ -30,6 +30,11 @@ class States:
     def __len__(self) -> int:
         return len(self.labels)
 
+    def only(self, chosen: NDArray[np.bool_]) -> States:
+        """Some of them."""
+        labels = tuple(label for label, taken in zip(self.labels, chosen, strict=True) if taken)
+        return States(labels, self.theta[chosen], self.omega[chosen])
+
 
 def states(scene: Scene, random: int | None = None) -> States:
     """The scene's given state, its named ones, then its random ones (``random`` of them instead of the scene's)."""

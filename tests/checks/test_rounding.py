@@ -188,3 +188,58 @@ def test_what_is_lost_is_multiplied_by_masses_and_lengths(make_cell, engine, sca
     legs = NLegPendulum((scale, 0.8 * scale, 0.7 * scale), (1e30, 0.5e30, 1e28), 0.0)
     scene = Scene("heavy", legs, (0.3, 1.4, 2.0), (1e-161, 3e-161, -2e-161), random=0)
     assert differing(make_cell(engine, scene, random_states=0)) == {}
+
+
+def without(cell, **fields):
+    """The same cell, as if the engine's info did not say what it does."""
+    return replace(cell, info=replace(cell.info, **fields))
+
+
+# Legs of which some are 1e5 times shorter: eliminating a long one's row with a short one's as its pivot leaves the
+# rounding of large entries in a row of small ones.
+UNLIKE_LEGS = Scene("unlike", NLegPendulum((0.4, 7e-5, 1.5e-3, 2.5e-6), (15.0, 5e-7, 0.8, 0.2)), random=40)
+
+
+def test_rows_that_are_interchanged_share_their_rounding(make_cell):
+    cell = make_cell("exudyn-tree", UNLIKE_LEGS, random_states=40)
+    assert differing(cell) == {}
+    assert "accelerations" in differing(without(cell, interchanges=False))
+
+
+def test_factors_with_rows_interchanged():
+    # The second row is the pivot's: L = [[1, 0], [2^-4, 1]], U = [[1, 1], [0, 1 - 2^-4]] of the rows turned round.
+    matrix = np.array([[2.0**-4, 1.0], [1.0, 1.0]])
+    straight = np.array([[1.0, 2.0**-4], [2.0**-4, 1.0]])
+    found = rounding.interchanged(np.stack([matrix, straight, np.zeros((2, 2))]))
+    np.testing.assert_array_equal(found[0], [[2.0**-4, 1.0], [1.0, 1.0]])
+    np.testing.assert_array_equal(found[1], [[1.0, 2.0**-4], [2.0**-4, 1.0]])
+    np.testing.assert_array_equal(found[2], 0)
+
+
+def test_links_placed_in_the_world(make_cell):
+    tail = Scene("tail", RodChain((1.0, 1e-6, 1e-6), 1e6), random=40)
+    cell = make_cell("pinocchio-aba-mjcf", tail, random_states=40)
+    assert differing(cell) == {}
+    assert "terms M" in differing(without(cell, placed="parent"))
+    assert differing(make_cell("pinocchio-aba", tail, random_states=40)) == {}
+
+
+NEARLY_SINGULAR = RodChain((1e-8, 1e-10, 0.1), 5e3)
+
+
+@pytest.mark.parametrize("engine", ["pinocchio-aba", "pinocchio-crba", "exudyn-tree"])
+def test_no_acceleration_is_asked_for_where_the_mass_matrix_is_singular_but_for_rounding(make_cell, engine):
+    results = found(make_cell(engine, Scene("nearly singular", NEARLY_SINGULAR, random=40), random_states=40))
+    for check in ("accelerations", "symmetry"):
+        assert results[check].outcome == "skipped"
+        assert "singular" in results[check].reason
+    assert {results[f"terms {term}"].outcome for term in "MCG"} == {"agrees"}
+
+
+def test_the_states_in_which_it_is_not_are_compared(make_cell, monkeypatch):
+    cell = make_cell("pinocchio-crba", "n-leg-3", random_states=5)
+    kept = np.arange(len(cell.states)) % 2 == 0
+    monkeypatch.setattr(rounding.Amplitudes, "solvable", lambda self, mass, accuracy: kept)
+    (result,) = accelerations.compare(cell)
+    assert (result.outcome, result.details["states"]) == ("agrees", int(kept.sum()))
+    assert result.details["states left out"] == int((~kept).sum())
