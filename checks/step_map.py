@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 from ..engines import Integrator
 from ..models.result import Result
+from ..models.units import in_units, units_of
 from ..reference import literal_accelerations
 from ..reference.maximal import MaximalCoordinates, generalized_alpha_index_3, trapezoidal_index_2
 from ..reference.schemes import RADIUS, SCHEMES, Scheme, alpha_parameters
@@ -95,7 +96,7 @@ class Textbook:
 
     def __init__(self, cell: Cell, steps: Steps) -> None:
         self._steps = steps
-        self._candidates = candidates(cell)
+        self._candidates = candidates(cell, steps)
         self._ends: dict[str, tuple[Wide, Wide]] = {}
 
     def of_order(self, order: int | None) -> list[Candidate]:
@@ -174,7 +175,7 @@ def fit(got: Array, textbook: Textbook, candidate: Candidate, bounds: Array) -> 
     return Fit(candidate, excess.value, bound, float(off[0].max()))
 
 
-def candidates(cell: Cell) -> list[Candidate]:
+def candidates(cell: Cell, steps: Steps) -> list[Candidate]:
     """Every scheme, in the coordinates that the engine may apply it in."""
     system = cell.scene.system
 
@@ -186,9 +187,11 @@ def candidates(cell: Cell) -> list[Candidate]:
         for scheme in SCHEMES
     ]
     if cell.info.coordinates == "maximal":
-        bodies = MaximalCoordinates(system.tree())
+        units = units_of(system.tree()).fitting(system.gravity, steps.omega)
+        bodies = MaximalCoordinates(in_units(system.tree(), units))
         found += [
-            Candidate(scheme, "maximal coordinates", _one_by_one(bodies, step)) for scheme, step in MAXIMAL_SCHEMES
+            Candidate(scheme, "maximal coordinates", _one_by_one(bodies, step, units.time))
+            for scheme, step in MAXIMAL_SCHEMES
         ]
     return found
 
@@ -207,10 +210,14 @@ MAXIMAL_SCHEMES: tuple[tuple[Scheme, _Step], ...] = tuple(
 )
 
 
-def _one_by_one(bodies: MaximalCoordinates, step: _Step) -> Callable[[Wide, Wide, float], tuple[Wide, Wide]]:
+def _one_by_one(
+    bodies: MaximalCoordinates, step: _Step, second: float
+) -> Callable[[Wide, Wide, float], tuple[Wide, Wide]]:
+    """Steps of ``bodies`` whose unit of time has so many seconds."""
+
     def each(theta: Wide, omega: Wide, h: float) -> tuple[Wide, Wide]:
-        ends = [step(bodies, t, w, np.longdouble(h)) for t, w in zip(theta, omega, strict=True)]
-        return np.stack([end[0] for end in ends]), np.stack([end[1] for end in ends])
+        ends = [step(bodies, t, w * second, np.longdouble(h / second)) for t, w in zip(theta, omega, strict=True)]
+        return np.stack([end[0] for end in ends]), np.stack([end[1] for end in ends]) / second
 
     return each
 

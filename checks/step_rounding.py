@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..engines import Integrator
-from ..engines.units import units_of
+from ..models.units import in_units, units_of
 from ..reference import mass_matrix
 from ..reference.maximal import MaximalCoordinates
 from .cell import Cell
@@ -49,8 +49,9 @@ def joints_apart(cell: Cell, integrator: Integrator, theta: Array) -> Array:
     Moving the hinges by c moves the angles by P c, P from M and the constraints' Jacobian.
     """
     system = cell.scene.system
-    bodies = MaximalCoordinates(system.tree())
-    gap = (allowed(system.n) * EPSILON + integrator.tolerance) * sum(system.lengths)
+    units = units_of(system.tree())  # or a matrix of kilograms and metres may have no inverse in double precision
+    bodies = MaximalCoordinates(in_units(system.tree(), units))
+    gap = (allowed(system.n) * EPSILON + integrator.tolerance) * sum(system.lengths) / units.length
     found, k = [], 3 * system.n
     for angles in theta:
         q, _ = bodies.state(angles, np.zeros_like(angles))

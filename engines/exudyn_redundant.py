@@ -8,7 +8,7 @@
   so that three forward differences, with steps of a quarter turn, three quarters and a whole one, give its derivative
   exactly: see :data:`STEPS`.
 * Linear solver: Eigen's sparse LU; the dense ones cost a hundred times as much at a hundred links.
-* It holds the mechanism in units that fit it, and each state in a unit of time that fits that: see :mod:`.units`.
+* It holds the mechanism in units that fit it (:mod:`furiko.models.units`), and each state in a unit of time that does.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ from exudyn.itemInterface import (
 
 from ..models import PlanarTree, System
 from ..models.tree import SUPPORT
+from ..models.units import in_units, units_of
 from .exudyn_settings import Current, Initial, quiet_settings, run
 from .protocol import Array, ModelFields
-from .units import in_units, units_of
 
 _SOLVER = exudyn.LinearSolverType.EigenSparse
 

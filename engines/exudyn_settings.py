@@ -54,7 +54,7 @@ def run(
     integration.adaptiveStep = False
     integration.newton.relativeTolerance = 1e-12
     data = mbs.systemData
-    # Of numbers near one, see :mod:`.units`; a residual has a rounding for every equation, less is not to be had.
+    # Of numbers near one (:mod:`furiko.models.units`), with a rounding for every equation: less is not to be had.
     integration.newton.absoluteTolerance = 1e-13 * data.ODE2Size()
     if accelerations is not None:
         integration.generalizedAlpha.computeInitialAccelerations = False

@@ -6,7 +6,7 @@
 * Linear solver: Eigen's dense LU. Exudyn's own (the default) inverts the matrix, which costs a factor of thirty in
   accuracy at a hundred links, and time.
 * The potential energy is counted from the reference configuration (all angles zero), not from the support.
-* It holds the mechanism in units that fit it, see :mod:`.units`; in a motion the unit of time fits, too.
+* It holds the mechanism in units that fit it, see :mod:`furiko.models.units`; in a motion the unit of time fits, too.
 """
 
 from __future__ import annotations
@@ -20,10 +20,10 @@ import numpy as np
 from exudyn.itemInterface import NodeGenericODE2, ObjectKinematicTree
 
 from ..models import System
+from ..models.units import in_units, units_of
 from .coordinates import RelativeCoordinates
 from .exudyn_settings import Current, Initial, quiet_settings, run, run_adaptive
 from .protocol import Array, ModelFields
-from .units import in_units, units_of
 
 _SOLVER = exudyn.LinearSolverType.EigenDense
 

@@ -5,6 +5,7 @@ from motion_zoo import Damped, Fake, LongStep, OtherRungeKutta
 
 from furiko.checks import step_map
 from furiko.engines import ENGINES, Integrator
+from furiko.models import RodChain, Scene
 
 SCHEMES = {
     "Euler": "semi-implicit Euler",
@@ -29,6 +30,13 @@ def test_every_integrator_is_a_textbook_scheme_to_rounding(make_cell, engine, sc
         # The nearest other scheme of the same order misses by far more than rounding, so that the name means something.
         rest = result.details["next best"]
         assert rest is None or rest["error"] > 100 * result.measured
+
+
+@pytest.mark.parametrize("engine", ["exudyn-tree", "exudyn-redundant"])
+@pytest.mark.parametrize("lengths", [(3e-26, 1e-26, 2e-26), (1e20, 4e20, 2e20)])
+def test_a_mechanism_of_any_size_is_stepped_alike(make_cell, engine, lengths):
+    for result in step_map.compare(make_cell(engine, Scene("any size", RodChain(lengths, 1e-15, 0.0)))):
+        assert result.outcome == "agrees", result
 
 
 def only(results):

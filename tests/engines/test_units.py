@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from furiko.engines import ENGINES, load_engine
-from furiko.engines.units import Units, in_units, units_of
 from furiko.models import NLegPendulum, RodChain
+from furiko.models.units import Units, in_units, units_of
 
 # A tenth of a micrometre and a tenth of a microgram, and a year: powers of two, so that the numbers' digits are kept.
 LENGTH, MASS, TIME = 2.0**-23, 2.0**-33, 2.0**25

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..models import PlanarTree
+from .tree import PlanarTree
 
 Array = NDArray[np.float64]
 
