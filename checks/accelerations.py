@@ -13,6 +13,7 @@ from ..reference import mass_matrix
 from .cell import Cell, Worst, quotient, worst
 from .facts import forward_error
 from .rounding import EPSILON, Amplitudes, allowed, turns
+from .saddle import elimination
 
 Array = NDArray[np.float64]
 
@@ -70,8 +71,14 @@ def backward_error(cell: Cell, accelerations: Array, amplitude: Amplitudes) -> A
     error = cell.facts.error(accelerations)
     mass = mass_matrix(cell.scene.system, cell.states.theta)
     residual = (mass @ error[..., None])[..., 0]
-    scale = EPSILON * amplitude.rows(accelerations, cell.states.omega, mass)
-    return quotient(amplitude.residual(residual), scale * turns(cell.states.theta)[:, None])
+    theta, omega = cell.states.theta, cell.states.omega
+    rows = amplitude.rows(accelerations, omega, mass) * turns(theta)[:, None]
+    found = quotient(amplitude.residual(residual), EPSILON * rows)
+    beyond = (found > allowed(cell.scene.system.n, cell.info.accuracy)).any(axis=-1)
+    if cell.info.coordinates == "maximal" and beyond.any():  # seldom, and costs more than all the rest
+        rows[beyond] += elimination(cell.scene.system, theta[beyond], omega[beyond])[0]
+        found = quotient(amplitude.residual(residual), EPSILON * rows)
+    return found
 
 
 def inexact_side(engine: Array, literal: Array) -> str:

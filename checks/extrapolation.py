@@ -40,12 +40,12 @@ def follows(runs: Sequence[Array], order: int) -> bool:
     be at half the step.
     """
     coarser, finer = _differences(_extrapolated(runs, order))
-    return coarser <= 2 ** (order + 4) * finer
+    return coarser <= 2.0 ** (order + 4) * finer
 
 
 def amplified(order: int) -> float:
     """How often E₃ has in it what is in each of its two runs, rounding above all, at worst."""
-    return (2**order + 1) / (2**order - 1)
+    return (2.0**order + 1) / (2.0**order - 1)
 
 
 def _extrapolated(runs: Sequence[Array], order: int) -> list[Array]:

@@ -30,7 +30,7 @@ from ..reference.variation import fastest_rate, lyapunov_time
 from .cell import Cell
 from .energy import energy_amplitudes
 from .extrapolation import amplified, at_step_zero
-from .rounding import EPSILON, allowed, amplitudes
+from .rounding import EPSILON, Amplitudes, allowed
 from .step_rounding import acceleration_error
 
 Array = NDArray[np.float64]
@@ -46,7 +46,7 @@ LARGEST_N = 32  # links; beyond, engines need seconds for it
 
 @dataclass(frozen=True)
 class Start:
-    """A moving state (n,) of a mechanism in an engine, and the coarsest step [s].
+    """A moving state (n,) of a mechanism in an engine, the magnitudes of its terms there, and the coarsest step [s].
 
     ``growth``: how much a small difference can have grown over the run: exp(time × fastest rate). ``off``: error of
     the rates [rad/s] that each integrator's rounding and unfinished iterations may leave at the end of a run, before
@@ -55,6 +55,7 @@ class Start:
 
     system: Mechanism
     engine: AnyShape
+    amplitude: Amplitudes
     theta: Array
     omega: Array
     step: float
@@ -94,7 +95,7 @@ def begin(cell: Cell, system: Mechanism, engine: AnyShape, theta: Array, omega: 
         + time * float(acceleration_error(cell, integrator, theta[None], omega[None], alpha[None])[0])
         for integrator in cell.info.integrators
     }
-    return Start(system, engine, theta, omega, step, math.exp(time * fastest), off)
+    return Start(system, engine, cell.amplitude_of(system), theta, omega, step, math.exp(time * fastest), off)
 
 
 @dataclass(frozen=True)
@@ -159,7 +160,7 @@ def _energy(start: Start, theta: Array, omega: Array) -> float:
 
 def energy_noise(start: Start, integrator: Integrator) -> float:
     """[J]: |M ω| times the rates' error, and the sum's own rounding."""
-    size = energy_amplitudes(start.system.tree(), amplitudes(start.system, "relative"), start.omega[None]).sum()
+    size = energy_amplitudes(start.system.tree(), start.amplitude, start.omega[None]).sum()
     off = start.growth * start.off[integrator.name]
     return float(off * np.abs(_stretched(start) @ np.abs(start.omega)).sum() + EPSILON * allowed(start.system.n) * size)
 

@@ -15,7 +15,7 @@ from ..models.units import in_units, units_of
 from ..reference import mass_matrix
 from ..reference.maximal import MaximalCoordinates
 from .cell import Cell
-from .rounding import EPSILON, allowed, amplitude_transform
+from .rounding import EPSILON, allowed, amplitude_transform, turns
 
 Array = NDArray[np.float64]
 
@@ -23,8 +23,9 @@ Array = NDArray[np.float64]
 def acceleration_error(cell: Cell, integrator: Integrator, theta: Array, omega: Array, alpha: Array) -> Array:
     """Forward error [rad/s²] of the engine's accelerations at each state, (B,): backward error times |M⁻¹|."""
     amplitude, system = cell.amplitude, cell.scene.system
-    spread = np.abs(np.linalg.inv(mass_matrix(system, theta)) @ amplitude_transform(amplitude))
-    rows = amplitude.rows(alpha, omega)
+    mass = mass_matrix(system, theta)
+    spread = np.abs(np.linalg.inv(mass) @ amplitude_transform(amplitude))
+    rows = amplitude.rows(alpha, omega, mass) * turns(theta)[:, None]
     backward = EPSILON * allowed(system.n, cell.info.accuracy) * rows
     if integrator.tolerance:
         # The residual is a norm over all rows, hence of any row; what Exudyn calls one is the largest link's torque.

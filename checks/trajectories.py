@@ -112,7 +112,7 @@ class Ladder:
         Each gap is off by two noises at most. With one of 16 × 2^p between the middle runs, that between the fine ones
         is at most 16 + 2/2^p + 2, and the order of p comes out too low by log₂(19/16), a quarter, at most.
         """
-        return self.gaps()[1] > 16 * 2**order * noise
+        return self.gaps()[1] > 16 * 2.0**order * noise
 
     def limit(self, order: int) -> tuple[Array, float]:
         """Angles at step zero, and how far off they may be [rad]."""
