@@ -48,6 +48,7 @@ class Cell:
             system, info.coordinates, moments=info.moments, placed=info.placed, interchanges=info.interchanges
         )
 
+    @cached_property
     def solvable(self) -> Cell:
         """This cell in those states in which a solution for accelerations has digits that are sure."""
         theta = self.states.theta

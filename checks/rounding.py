@@ -39,7 +39,7 @@ least link j's own inertia about its hinge, w_j, and L_ji² ≤ W_ii / w_j.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -123,6 +123,8 @@ class Amplitudes:
         scale = np.outer(root, root)
         off = EPSILON * allowed(len(root), accuracy) * (self.factors(mass) / scale).sum(axis=-1).max(axis=-1)
         least = self._own_matrix(mass) / scale - np.multiply.outer(np.broadcast_to(off, len(mass)), np.eye(len(root)))
+        if _positive_definite(least):  # all of them, as nearly always
+            return np.ones(len(least), dtype=np.bool_)
         return np.array([_positive_definite(matrix) for matrix in least], dtype=np.bool_)
 
     def _own_matrix(self, mass: Array) -> Array:
@@ -253,6 +255,7 @@ def _positive_definite(matrix: Array) -> bool:
     return True
 
 
+@lru_cache(maxsize=32)  # a worker looks at one scene, and its images, with several engines
 def amplitudes(
     system: Mechanism,
     coordinates: str,

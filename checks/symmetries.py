@@ -65,7 +65,7 @@ class Symmetry:
 
 def compare(cell: Cell) -> Iterator[Result]:
     """One result for each symmetry that the mechanism has."""
-    cell = cell.solvable()
+    cell = cell.solvable
     system = cell.scene.system
     theta, omega = cell.states.theta[-STATES:], cell.states.omega[-STATES:]
     if not len(theta):

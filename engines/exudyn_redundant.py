@@ -180,13 +180,15 @@ class ExudynRedundant:
         """Accelerations of all coordinates (B, 3n) and the joints' multipliers (B, n, 2)."""
         accelerations = np.zeros((len(theta), 3 * theta.shape[1]))
         forces = np.zeros((*theta.shape, 2))
-        for row in range(len(theta)):
-            units = self._units.fitting(self._gravity, omega[row])
-            ((position,), (rate,)) = self._links.states(theta[row, None], units.time * omega[row, None])
+        fitting = [self._units.fitting(self._gravity, rates) for rates in omega]
+        seconds = np.array([units.time for units in fitting])
+        positions, rates = self._links.states(theta, omega * seconds[:, None])
+        for units in set(fitting):  # together, because loads are set one by one
             with self._in_time(units.time):
-                found, multipliers = self._solve_one(position, rate)
-            accelerations[row] = units.in_seconds(found, power=2)
-            forces[row] = multipliers * units.force
+                for row in np.flatnonzero(seconds == units.time):
+                    found, multipliers = self._solve_one(positions[row], rates[row])
+                    accelerations[row] = units.in_seconds(found, power=2)
+                    forces[row] = multipliers * units.force
         return accelerations, forces
 
     def _solve_one(self, position: Array, rate: Array) -> tuple[Array, Array]:

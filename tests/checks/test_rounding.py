@@ -124,7 +124,15 @@ def test_a_heavy_short_link_at_the_end_of_a_light_long_one(make_cell, engine):
     assert differing(make_cell(engine, HEAVY_AT_THE_END, random_states=40)) == {}
 
 
-def test_mujoco_places_links_in_the_world(make_cell, monkeypatch):
+@pytest.fixture
+def fresh_amplitudes():
+    """None kept from before where their making is changed, and none from then on."""
+    rounding.amplitudes.cache_clear()
+    yield
+    rounding.amplitudes.cache_clear()
+
+
+def test_mujoco_places_links_in_the_world(make_cell, monkeypatch, fresh_amplitudes):
     monkeypatch.setattr(rounding, "tree_levers", lambda tree: (levers.tree_levers(tree)[0], None))
     assert "terms M" in differing(make_cell("mujoco", HEAVY_AT_THE_END, random_states=40))
 
