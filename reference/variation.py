@@ -119,7 +119,8 @@ def growth(flow: Floats, step: float, rate: float) -> Growth:
     """Growth of small differences from the first state on, from the Φ of each step (K, 2n, 2n).
 
     The size of a difference is that of (δθ, δω / ``rate``). The product of the Φ is kept from overflowing by taking
-    out its size, step by step; its largest singular value is how much the most sensitive difference has grown.
+    out its size, step by step; its largest singular value is how much the most sensitive difference has grown. Infinite
+    from where the path is no longer one.
     """
     n = flow.shape[-1] // 2
     unit = np.concatenate([np.ones(n), np.full(n, rate)])
@@ -129,6 +130,9 @@ def growth(flow: Floats, step: float, rate: float) -> Growth:
     for k, phi in enumerate(scaled):
         product = phi @ product
         size = float(np.abs(product).max())
+        if not np.isfinite(size):  # the path has blown up
+            logarithm[k + 1 :] = np.inf
+            break
         product /= size
         taken_out += np.log(size)
         logarithm[k + 1] = taken_out + np.log(np.linalg.norm(product, 2))
@@ -170,7 +174,8 @@ def _growth_in(system: Mechanism, theta: Floats, omega: Floats, duration: float,
     def accelerations(angles: Floats, rates: Floats) -> Floats:
         return motion.literal_accelerations(system, angles, rates)
 
-    for k in range(2 * steps):  # half steps, which the tangent flow needs
-        angles, rates = states[k]
-        states[k + 1] = schemes.BUTCHER_6.step(accelerations, angles, rates, step / 2)
-    return growth(tangent_flow(system, states[:, 0], states[:, 1], step), step, rate)
+    with np.errstate(over="ignore", invalid="ignore"):  # steps too long for what comes on the way are halved
+        for k in range(2 * steps):  # half steps, which the tangent flow needs
+            angles, rates = states[k]
+            states[k + 1] = schemes.BUTCHER_6.step(accelerations, angles, rates, step / 2)
+        return growth(tangent_flow(system, states[:, 0], states[:, 1], step), step, rate)

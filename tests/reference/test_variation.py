@@ -6,8 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from furiko.models import NLegPendulum, RodChain
+from furiko.models.states import natural_rate
 from furiko.reference import literal_accelerations, mass_matrix
 from furiko.reference.schemes import BUTCHER_6
+from furiko.reference.taylor import simulate
 from furiko.reference.variation import fastest_rate, growth, growth_along, lyapunov_time, tangent_flow, variation
 
 lengths = st.floats(0.2, 3.0)
@@ -111,3 +113,21 @@ def test_growth_of_the_chaotic_double_pendulum():
     # Measured before by another program: 1e9 in ten seconds (one digit).
     found = growth_along(NLegPendulum([1, 1], [1, 1]), np.array([2.0, 2.5]), np.zeros(2), 10.0)
     assert 8 < found.logarithm[-1] / np.log(10) < 10
+
+
+def test_growth_where_the_first_steps_are_too_long():
+    """A heavy bob falls past the upright first rod and spins it, much faster than anything turned at the start.
+
+    Against the differences of trajectories by furiko's Taylor series, which share no step with the tangent flow.
+    """
+    system, shift = NLegPendulum((0.838977468010664, 1.618437030735014), (1.13323050337828, 29.6509026957595)), 1e-8
+    start, duration = np.array([2.971357001499368, 0.08137284095834563, 0.0, 0.0]), 0.6765867456017933
+    ends = []
+    for moved in [*(start + shift * np.eye(4)), *(start - shift * np.eye(4))]:
+        found = simulate(system, moved[:2], moved[2:], [0.0, duration])
+        ends.append(np.concatenate([found.theta[-1], found.omega[-1]]))
+    flow = ((np.array(ends[:4]) - ends[4:]) / (2 * shift)).T
+    unit = np.repeat([1.0, natural_rate(system)], 2)
+    expected = np.log(np.linalg.norm(flow * (unit / unit[:, None]), 2))
+    found = growth_along(system, start[:2], start[2:], duration)
+    assert found.logarithm[-1] == pytest.approx(expected, abs=0.05)  # what it settles to
