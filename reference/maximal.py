@@ -152,7 +152,7 @@ def _newton(
     x: Array = guess
     before = np.inf
     for _ in range(ITERATIONS):
-        change = np.linalg.solve(derivative(x), residual(x).astype(np.float64))
+        change = _solve(derivative(x), residual(x).astype(np.float64))
         x = x - change
         size = float(np.abs(change).max())
         # Positions are known to 1e-19, and so accelerations to 1e-19 / h²: the changes then no longer become smaller.
@@ -160,6 +160,20 @@ def _newton(
             return x
         before = size
     raise ArithmeticError("the implicit step's equations were not solved: the step is too long")
+
+
+def _solve(saddle: NDArray[np.float64], right: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Solved with masses, and inertias about a joint, scaled to one, and rows of the Jacobian then to length one.
+
+    Or links of very unlike masses and lengths leave no digits to a change, and Newton's method no end.
+    """
+    k = 3 * len(saddle) // 5
+    inertia, jacobian = np.diag(saddle)[:k].copy(), saddle[k:, :k]
+    inertia[2::3] += inertia[::3] * np.abs(jacobian[:, 2::3]).max(axis=0) ** 2
+    scale = np.empty(len(saddle))
+    scale[:k] = inertia**-0.5
+    scale[k:] = 1 / np.linalg.norm(jacobian * scale[:k], axis=1)
+    return np.asarray(scale * np.linalg.solve(scale[:, None] * saddle * scale, scale * right))
 
 
 def _entry(block: Array, sign: int, lever: Any) -> None:

@@ -5,7 +5,7 @@ from motion_zoo import Damped, Fake, LongStep, OtherRungeKutta
 
 from furiko.checks import step_map
 from furiko.engines import ENGINES, Integrator
-from furiko.models import NLegPendulum, Scene
+from furiko.models import NLegPendulum, RodChain, Scene
 
 SCHEMES = {
     "Euler": "semi-implicit Euler",
@@ -37,6 +37,13 @@ def test_every_integrator_is_a_textbook_scheme_to_rounding(make_cell, engine, sc
 def test_a_mechanism_of_any_size_is_stepped_alike(make_cell, engine, length, mass):
     system = NLegPendulum((length, 2 * length, 0.7 * length), (mass, 3 * mass, 2 * mass))
     for result in step_map.compare(make_cell(engine, Scene("any size", system))):
+        assert result.outcome == "agrees", result
+
+
+def test_links_of_very_unlike_lengths_are_stepped_too(make_cell):
+    lengths = (0.0094, 0.002, 0.21, 0.185, 0.05, 3e-4, 3.5e-4, 0.005, 0.0056, 0.011, 0.026, 0.008)
+    cell = make_cell("exudyn-redundant", Scene("unlike", RodChain(lengths, 26.0, 4e-5)))
+    for result in step_map.compare(cell):
         assert result.outcome == "agrees", result
 
 
