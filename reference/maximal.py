@@ -141,14 +141,21 @@ def _step(
         return system.saddle(system.jacobian(state(x[:k])[0]))
 
     guess = np.concatenate([a, np.zeros(2 * system.n, Wide)])
-    positions, rates = state(_newton(residual, derivative, guess)[:k])
+    least = 1e-16 * float(np.abs(q).max() / (h * h))  # moves positions by a part of 1e-16, far less than engines' do
+    positions, rates = state(_newton(residual, derivative, guess, least)[:k])
     return positions[2::3], rates[2::3]
 
 
 def _newton(
-    residual: Callable[[Array], Array], derivative: Callable[[Array], NDArray[np.float64]], guess: Array
+    residual: Callable[[Array], Array],
+    derivative: Callable[[Array], NDArray[np.float64]],
+    guess: Array,
+    least: float = 0.0,
 ) -> Array:
-    """Where the residual vanishes: simplified Newton iterations until they gain nothing. Raises ArithmeticError."""
+    """Where the residual vanishes: simplified Newton iterations until they gain nothing.
+
+    Raises ArithmeticError where that is with changes of more than nine digits, and of more than ``least``.
+    """
     x: Array = guess
     before = np.inf
     for _ in range(ITERATIONS):
@@ -156,7 +163,7 @@ def _newton(
         x = x - change
         size = float(np.abs(change).max())
         # Positions are known to 1e-19, and so accelerations to 1e-19 / h²: the changes then no longer become smaller.
-        if size == 0 or (size <= 1e-9 * float(np.abs(x).max()) and size >= before / 2):
+        if size == 0 or (size <= max(least, 1e-9 * float(np.abs(x).max())) and size >= before / 2):
             return x
         before = size
     raise ArithmeticError("the implicit step's equations were not solved: the step is too long")
