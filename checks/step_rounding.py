@@ -21,18 +21,35 @@ Array = NDArray[np.float64]
 
 
 def acceleration_error(cell: Cell, integrator: Integrator, theta: Array, omega: Array, alpha: Array) -> Array:
+    """Forward error [rad/s²] of the accelerations that a step is made of at each state, (B,)."""
+    return rounding_error(cell, theta, omega, alpha) + iterations_error(cell, integrator, theta, omega, alpha)
+
+
+def rounding_error(cell: Cell, theta: Array, omega: Array, alpha: Array) -> Array:
     """Forward error [rad/s²] of the engine's accelerations at each state, (B,): backward error times |M⁻¹|."""
-    amplitude, system = cell.amplitude, cell.scene.system
-    mass = mass_matrix(system, theta)
-    spread = np.abs(np.linalg.inv(mass) @ amplitude_transform(amplitude))
-    rows = amplitude.rows(alpha, omega, mass) * turns(theta)[:, None]
-    backward = EPSILON * allowed(system.n, cell.info.accuracy) * rows
-    if integrator.tolerance:
-        # The residual is a norm over all rows, hence of any row; what Exudyn calls one is the largest link's torque.
-        units = units_of(system.tree())
-        torque = [system.n * units.fitting(system.gravity, rates).energy for rates in omega]
-        left = np.maximum(np.linalg.norm(rows, axis=-1), torque)
-        backward += integrator.tolerance * left[:, None]
+    backward = EPSILON * allowed(cell.scene.system.n, cell.info.accuracy) * _rows(cell, theta, omega, alpha)
+    return _answer(cell, theta, backward)
+
+
+def iterations_error(cell: Cell, integrator: Integrator, theta: Array, omega: Array, alpha: Array) -> Array:
+    """What an implicit scheme's iterations leave of accelerations where they end [rad/s²], (B,); 0 for others."""
+    if not integrator.tolerance:
+        return np.zeros(len(theta))
+    # The residual is a norm over all rows, hence of any row; what Exudyn calls one is the largest link's torque.
+    system = cell.scene.system
+    units = units_of(system.tree())
+    torque = [system.n * units.fitting(system.gravity, rates).energy for rates in omega]
+    left = np.maximum(np.linalg.norm(_rows(cell, theta, omega, alpha), axis=-1), torque)
+    return _answer(cell, theta, integrator.tolerance * left[:, None] + np.zeros_like(theta))
+
+
+def _rows(cell: Cell, theta: Array, omega: Array, alpha: Array) -> Array:
+    return np.asarray(cell.amplitude.rows(alpha, omega, mass_matrix(cell.scene.system, theta)) * turns(theta)[:, None])
+
+
+def _answer(cell: Cell, theta: Array, backward: Array) -> Array:
+    """The largest acceleration that these torques in the engine's own coordinates may make, (B,)."""
+    spread = np.abs(np.linalg.inv(mass_matrix(cell.scene.system, theta)) @ amplitude_transform(cell.amplitude))
     return np.asarray((spread @ backward[..., None])[..., 0].max(axis=-1))
 
 
