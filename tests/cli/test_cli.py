@@ -130,6 +130,8 @@ def test_interrupted_it_leaves_a_stream_that_says_so(tmp_path):
         stderr=subprocess.PIPE,
         text=True,
         env=os.environ | {"PYTHONPATH": str(TESTS)},
+        # What runs in the background may have been told to pass over interrupts, and hands that on.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),  # noqa: PLW1509 (no threads)
     )
     stream = tmp_path / "furiko-report" / "report.jsonl"
     deadline = time.monotonic() + 60
