@@ -178,6 +178,11 @@ class Amplitudes:
         """Generalised forces of absolute angles as those of these coordinates."""
         return np.asarray(absolute @ self.to_absolute)
 
+    def answers(self, mass: Array, rows: Array) -> Array:
+        """|M⁻¹ S⁻ᵀ| times magnitudes in rows of these coordinates: accelerations that they may make, (B, n)."""
+        spread = np.abs(np.linalg.inv(mass) @ self._from_absolute.T)
+        return np.asarray((spread @ rows[..., None])[..., 0])
+
     def entries(self) -> Array:
         """Magnitudes that meet in each entry of the absolute mass matrix, (n, n)."""
         return np.asarray(self.absolute_rows(self.absolute_rows(self.products).T).T)
@@ -298,13 +303,6 @@ def condition(system: Mechanism, theta: Array, amplitude: Amplitudes, alpha: Arr
 
     A backward error η leaves accelerations off by at most η·cond of the largest one.
     """
-    inverse = np.linalg.inv(mass_matrix(system, theta))
-    spread = np.abs(inverse @ amplitude_transform(amplitude))
-    reach = (spread @ amplitude.rows(alpha, omega)[..., None])[..., 0].max(axis=-1)
+    reach = amplitude.answers(mass_matrix(system, theta), amplitude.rows(alpha, omega)).max(axis=-1)
     largest = np.abs(alpha).max(axis=-1)
     return np.asarray(np.divide(reach, largest, out=np.full_like(reach, np.inf), where=largest > 0))
-
-
-def amplitude_transform(amplitude: Amplitudes) -> Array:
-    """S⁻ᵀ: a residual in own coordinates as one in absolute angles."""
-    return np.asarray(np.linalg.inv(amplitude.to_absolute).T)

@@ -15,7 +15,7 @@ from ..models.units import in_units, units_of
 from ..reference import mass_matrix
 from ..reference.maximal import MaximalCoordinates
 from .cell import Cell
-from .rounding import EPSILON, allowed, amplitude_transform, turns
+from .rounding import EPSILON, allowed, turns
 
 Array = NDArray[np.float64]
 
@@ -49,8 +49,7 @@ def _rows(cell: Cell, theta: Array, omega: Array, alpha: Array) -> Array:
 
 def _answer(cell: Cell, theta: Array, backward: Array) -> Array:
     """The largest acceleration that these torques in the engine's own coordinates may make, (B,)."""
-    spread = np.abs(np.linalg.inv(mass_matrix(cell.scene.system, theta)) @ amplitude_transform(cell.amplitude))
-    return np.asarray((spread @ backward[..., None])[..., 0].max(axis=-1))
+    return np.asarray(cell.amplitude.answers(mass_matrix(cell.scene.system, theta), backward).max(axis=-1))
 
 
 def conversion(cell: Cell, absolute: Array) -> Array:

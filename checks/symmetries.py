@@ -23,7 +23,7 @@ from ..reference.motion import Mechanism
 from ..reference.variation import variation
 from .accelerations import SINGULAR
 from .cell import Cell, Worst, quotient, worst
-from .rounding import EPSILON, Amplitudes, allowed, amplitude_transform, amplitudes, turns
+from .rounding import EPSILON, Amplitudes, allowed, amplitudes, turns
 
 Array = NDArray[np.float64]
 Accelerations = Callable[[Mechanism, Array, Array], Array]
@@ -154,9 +154,7 @@ def _answer(
 def rounding(system: Mechanism, theta: Array, omega: Array, alpha: Array, amplitude: Amplitudes) -> Array:
     """How far accelerations are from the exact ones by a backward error of one ε [rad/s²], (B, n)."""
     mass = mass_matrix(system, theta)
-    spread = np.abs(np.linalg.inv(mass) @ amplitude_transform(amplitude))
-    backward = amplitude.rows(alpha, omega, mass) * turns(theta)[:, None]
-    return np.asarray(EPSILON * (spread @ backward[..., None])[..., 0])
+    return EPSILON * amplitude.answers(mass, amplitude.rows(alpha, omega, mass) * turns(theta)[:, None])
 
 
 def _same(alpha: Array) -> Array:
