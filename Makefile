@@ -15,8 +15,7 @@ test: $(VENV)/.test  ## run the tests
 lint: $(VENV)/.test  ## ruff and mypy --strict
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	rm -rf build/lint && $(BIN)/pip install --quiet --no-deps --target build/lint .
-	cd build/lint && ../../$(BIN)/mypy --config-file ../../pyproject.toml
+	$(BIN)/mypy
 
 models:  ## write the catalogue's model files and the stream's schema again
 	$(BIN)/python -m furiko.models.write_files
