@@ -18,8 +18,8 @@ lint: $(VENV)/.test  ## ruff and mypy --strict
 	$(BIN)/mypy
 
 models:  ## write the catalogue's model files and the stream's schema again
-	$(BIN)/python -m furiko.models.write_files
-	$(BIN)/python -m furiko.reports.schema
+	$(BIN)/python -m furiko.models.writers.catalogue_files
+	$(BIN)/python -m furiko.records.schema
 
 clean:
 	rm -rf $(VENV) build dist furiko.egg-info

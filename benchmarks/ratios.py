@@ -68,14 +68,14 @@ class Accelerations:
 
     def track_batch(self, _mechanism: str, n: int) -> float:
         """1024 states a call, one thread."""
-        from furiko.reference.kernels import accelerations
+        from furiko.reference.kernels.forward_dynamics import accelerations
 
         theta, omega = states(n, 1024)
         return ratio(lambda: accelerations(self.system, theta, omega, threads=1), dense(n, 1024))
 
     def track_one(self, _mechanism: str, n: int) -> float:
         """One state a call, the kernel prepared."""
-        from furiko.reference.kernels import kernel_of
+        from furiko.reference.kernels.forward_dynamics import kernel_of
 
         theta, omega = (row[0] for row in states(n, 1))
         kernel = kernel_of(self.system)
@@ -83,7 +83,7 @@ class Accelerations:
 
     def track_plain(self, _mechanism: str, n: int) -> float:
         """64 states a call in plain numpy, which a quick check uses."""
-        from furiko.reference.kernels import plain_accelerations
+        from furiko.reference.kernels.forward_dynamics import plain_accelerations
 
         theta, omega = states(n, 64)
         return ratio(lambda: plain_accelerations(self.system, theta, omega), dense(n, 64))
@@ -97,7 +97,7 @@ class Accelerations:
 
     def track_enclosed(self, _mechanism: str, n: int) -> float:
         """One state, proved in ball arithmetic."""
-        from furiko.reference.newton_euler import proven_accelerations
+        from furiko.reference.truth.newton_euler import proven_accelerations
 
         theta, omega = states(n, 1)
         return ratio(lambda: proven_accelerations(self.system, theta, omega), dense(n))
@@ -133,8 +133,8 @@ class Motions:
 
     def track_taylor(self, name: str) -> float:
         """One motion at the default tolerance."""
-        from furiko.models.benchmarks import BENCHMARKS
-        from furiko.reference.taylor import simulate
+        from furiko.models.benchmark_scenes import BENCHMARKS
+        from furiko.reference.integration.taylor import simulate
 
         scene = BENCHMARKS[name]
         times = [0.0, scene.duration]

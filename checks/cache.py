@@ -19,10 +19,10 @@ from pathlib import Path
 import msgspec
 
 from ..models import Scene
-from ..models.result import Result
+from ..records.check import Result
 from .plan import Task
 
-SOURCES = ("models", "reference", "engines", "checks")
+SOURCES = ("models", "records", "reference", "engines", "diagnosis", "checks")
 _results = msgspec.json.Decoder(list[Result])
 
 

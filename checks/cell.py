@@ -9,15 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..diagnosis.finding import Finding
 from ..engines import AnyShape, EngineInfo, Integrator
 from ..models import Scene
-from ..models.result import Outcome, Result
 from ..models.states import States
+from ..records.check import Outcome, Result
 from ..reference import mass_matrix
-from ..reference.motion import Mechanism
+from ..reference.documents.equations_of_motion import Mechanism
+from ..reference.rounding.bounds import Amplitudes, amplitudes
 from .facts import SceneFacts
-from .finding import Finding
-from .rounding import Amplitudes, amplitudes
 
 Array = NDArray[np.float64]
 
@@ -58,7 +58,7 @@ class Cell:
     @cached_property
     def findings(self) -> list[Finding]:
         """Why this engine differs, by what it was measured to do; none where it cannot be measured either."""
-        from .explain import explain
+        from ..diagnosis.explain import explain
 
         try:
             return explain(self.engine, self.scene.system, who=self.info.name, accuracy=self.info.accuracy)

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from ..models import Scene
 from ..models.states import States
 from ..reference import literal_accelerations
-from ..reference.truth import true_accelerations, true_joint_forces
-from .rounding import EPSILON, SMALLEST, amplitudes, condition
+from ..reference.rounding.bounds import EPSILON, SMALLEST, amplitudes, condition
+from ..reference.truth.enclosures import true_accelerations, true_joint_forces
 
 Array = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from ..engines import EngineInfo, cannot, engine_info, engine_names, engine_version
 from ..models import InvalidInput, Scene, find_scenes
 from ..models.errors import nearest
-from ..models.result import Outcome, Result
+from ..records.check import Outcome, Result
 
 # Every check, in the order in which a cell runs them: its name, and what of the engine it needs.
 CHECKS = {

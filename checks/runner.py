@@ -16,11 +16,11 @@ from itertools import chain
 from multiprocessing.connection import Connection, wait
 
 from ..engines import engine_version
-from ..models.result import Result
+from ..records.check import Result
 from .cache import Cache
-from .messages import Begun, CellJob, Done, Facts, FactsJob, Failed
 from .plan import Plan, Task
-from .spawn import Workshop, death, end, give
+from .workers.messages import Begun, CellJob, Done, Facts, FactsJob, Failed
+from .workers.processes import Workshop, death, end, give
 
 TIMEOUT = 60.0  # [s] for one check; the slowest sound one seen takes a few
 HANGS = 2  # after so many time-outs an engine is given up: each costs the whole time-out

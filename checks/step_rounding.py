@@ -1,8 +1,9 @@
-"""What rounding does to angles and rates in one step of an engine's integrator: bounds from :mod:`.rounding`'s.
+"""What rounding does to angles and rates in one step of an engine's integrator: bounds from
+:mod:`furiko.reference.rounding.bounds`'.
 
-Every acceleration the engine evaluates has a backward error of at most that which :mod:`.rounding` allows, hence a
-forward error of |M⁻¹| times it. An implicit scheme's iterations leave a residual of their tolerance on top, and in
-maximal coordinates the joints are held together no better than that.
+Every acceleration the engine evaluates has a backward error of at most that which
+:mod:`furiko.reference.rounding.bounds` allows, hence a forward error of |M⁻¹| times it. An implicit scheme's iterations
+leave a residual of their tolerance on top, and in maximal coordinates the joints are held together no better than that.
 """
 
 from __future__ import annotations
@@ -13,9 +14,9 @@ from numpy.typing import NDArray
 from ..engines import Integrator
 from ..models.units import in_units, units_of
 from ..reference import mass_matrix
-from ..reference.maximal import MaximalCoordinates
+from ..reference.maximal_coordinates import MaximalCoordinates
+from ..reference.rounding.bounds import EPSILON, allowed, turns
 from .cell import Cell
-from .rounding import EPSILON, allowed, turns
 
 Array = NDArray[np.float64]
 

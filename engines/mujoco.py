@@ -27,7 +27,7 @@ import mujoco
 import numpy as np
 
 from ..models import PlanarTree, System, to_mjcf
-from ..models.mjcf import DEEPEST, LEAST_INERTIA
+from ..models.writers.mjcf import DEEPEST, LEAST_INERTIA
 from .coordinates import RelativeCoordinates
 from .protocol import Array, BareCall, ModelFields
 

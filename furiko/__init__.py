@@ -9,37 +9,37 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .checks.diagnose import diagnose
-    from .derivations.audit import audit
-    from .derivations.diagnosis import Diagnosis
-    from .derivations.grade import grade
+    from .derivations.audit.audit import audit
+    from .derivations.grading.grade import grade
+    from .derivations.grading.result import Diagnosis
+    from .diagnosis.diagnose import diagnose
     from .engines import engine_names, load_engine
     from .models import EngineMissing, InvalidInput, NLegPendulum, RodChain, to_mjcf, to_urdf
     from .reference.energies import energy
-    from .reference.kernels import accelerations
-    from .reference.taylor import simulate
+    from .reference.integration.taylor import simulate
+    from .reference.kernels.forward_dynamics import accelerations
     from .reports import Report, read_stream
     from .run import check
 
 __version__ = "0.1.0"
 
 _HOMES = {
-    "Diagnosis": "derivations.diagnosis",
+    "Diagnosis": "derivations.grading.result",
     "EngineMissing": "models",
     "InvalidInput": "models",
     "NLegPendulum": "models",
     "Report": "reports",
     "RodChain": "models",
-    "accelerations": "reference.kernels",
-    "audit": "derivations.audit",
+    "accelerations": "reference.kernels.forward_dynamics",
+    "audit": "derivations.audit.audit",
     "check": "run",
-    "diagnose": "checks.diagnose",
+    "diagnose": "diagnosis.diagnose",
     "energy": "reference.energies",
     "engine_names": "engines",
-    "grade": "derivations.grade",
+    "grade": "derivations.grading.grade",
     "load_engine": "engines",
     "read_stream": "reports",
-    "simulate": "reference.taylor",
+    "simulate": "reference.integration.taylor",
     "to_mjcf": "models",
     "to_urdf": "models",
 }

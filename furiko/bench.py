@@ -14,8 +14,8 @@ from pathlib import Path
 from . import __version__
 from .engines import engine_info, engine_names, engine_version
 from .models import EngineMissing, InvalidInput, Scene, find_scene
-from .models.bench import Bench, Motion, Skip, Speed, Target
-from .models.benchmarks import BENCHMARKS
+from .models.benchmark_scenes import BENCHMARKS
+from .records.bench import Bench, Motion, Skip, Speed, Target
 from .run import PACKAGES, machine, version_of
 
 SKIP_SCENES = ("double-pendulum", "rods-5")
@@ -50,7 +50,7 @@ def bench(
     begun = time.monotonic()
     started = datetime.now(UTC).isoformat(timespec="seconds")
     chosen = [] if skips or targets else [_scene(name) for name in (BENCHMARKS if scenes is None else scenes)]
-    from .checks.methods import ENGINES
+    from .studies.bench.methods import ENGINES
 
     names = _engines(engines)
     moving = names if engines is not None else [name for name in names if name in ENGINES]
@@ -59,11 +59,11 @@ def bench(
     skipped: list[Skip] = []
     reached: list[Target] = []
     if skips:
-        from .checks.skips import skips as prove
+        from .studies.bench.skips import skips as prove
 
         skipped = list(prove(list(scenes or SKIP_SCENES), names, watch))
     if targets:
-        from .checks.targets import targets as measure
+        from .studies.bench.targets import targets as measure
 
         reached = list(measure(watch))
     if not (skips or targets):
@@ -88,7 +88,7 @@ def bench(
 
 
 def _motions(scenes: Sequence[Scene], engines: Sequence[str], budget: float, watch: Watch) -> Iterator[Motion]:
-    from .checks.work_precision import work_precision
+    from .studies.bench.work_precision import work_precision
 
     weights = [scene.system.n**0.3 for scene in scenes]  # more links, longer runs
     for scene, weight in zip(scenes, weights, strict=True):
@@ -96,7 +96,7 @@ def _motions(scenes: Sequence[Scene], engines: Sequence[str], budget: float, wat
 
 
 def _speeds(engines: Sequence[str], budget: float, watch: Watch) -> Iterator[Speed]:
-    from .checks.acceleration_speed import SIZES, speeds
+    from .studies.bench.acceleration_speed import SIZES, speeds
 
     cases = [(kind, n) for kind, sizes in SIZES.items() for n in sizes]
     for kind, n in cases:
@@ -135,7 +135,7 @@ def write(folder: Path, found: Bench) -> Path:
     """Write ``bench.json`` and ``bench.html``; returns the page's path. Raises :class:`InvalidInput`."""
     import msgspec
 
-    from .reports.bench_page import to_html
+    from .reports.pages.bench_page import to_html
 
     try:
         folder.mkdir(parents=True, exist_ok=True)

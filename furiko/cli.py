@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from .checks.plan import Plan
-    from .models.result import Result
+    from .records.check import Result
     from .stress import Progress
 
 AGREES, DIFFERS, BAD_INPUT, ENGINE_FAILED, INTERRUPTED = 0, 1, 2, 3, 130
@@ -60,7 +60,7 @@ def check(
     as_json: bool,
 ) -> int:
     """Hold engines against the documents' equations, in the catalogue's scenes or your own."""
-    from .checks.spawn import workshop
+    from .checks.workers.processes import workshop
 
     with workshop(ahead=jobs or os.cpu_count() or 1) as place:
         from .run import check as run_check
@@ -82,7 +82,7 @@ def check(
     if as_json:
         print_json({"header": report.header, "results": report.results, "footer": report.footer})
     else:
-        from .reports.terminal import print_report
+        from .reports.terminal.check import print_report
 
         print_report(report, path=out / "report.html")
     if before is not None:
@@ -217,7 +217,7 @@ def bench(
     if as_json:
         print_json(found)
     else:
-        from .reports.bench_terminal import print_bench
+        from .reports.terminal.bench import print_bench
 
         print_bench(found, page)
     wrong = any(not skip.same for skip in found.skips) or any(target.met is False for target in found.targets)
@@ -271,7 +271,7 @@ def stress(
     if as_json:
         print_json(found)
     else:
-        from .reports.stress_terminal import print_stress
+        from .reports.terminal.stress import print_stress
 
         print_stress(found, out / "stress.html")
     return DIFFERS if found["kernels"]["broken"] else AGREES
@@ -295,7 +295,7 @@ def diff(before: Path, after: Path) -> int:
 @json_option
 def diagnose(model: Path, against: str | None, as_json: bool) -> int:
     """Say what each engine makes of an MJCF or URDF file, whether they agree, and why not."""
-    from .checks.diagnose import diagnose as diagnose_file
+    from .diagnosis.diagnose import diagnose as diagnose_file
 
     found = diagnose_file(model, against, apart=True)
     if as_json:
@@ -309,7 +309,7 @@ def diagnose(model: Path, against: str | None, as_json: bool) -> int:
 @json_option
 def audit(as_json: bool) -> int:
     """Hold each of the documents' 57 equations, as printed, against first principles."""
-    from .derivations.audit import audit as audit_documents
+    from .derivations.audit.audit import audit as audit_documents
 
     found = audit_documents()
     if as_json:
@@ -338,12 +338,12 @@ def grade(
     if (file is None) == (function is None):
         raise click.UsageError("give a FILE or --callable MODULE:FUNCTION")
     if function is None:
-        from .derivations.grade import grade as grade_file
+        from .derivations.grading.grade import grade as grade_file
 
         assert file is not None
         diagnosis = grade_file(file)
     else:
-        from .derivations.grade_callable import grade_callable
+        from .derivations.grading.grade_callable import grade_callable
 
         if system is None or links is None:
             raise click.UsageError("--callable needs --system and --links")
@@ -359,7 +359,7 @@ def grade(
 @click.option("--out", type=click.Path(path_type=Path), default=Path("furiko-lesson.html"), show_default=True)
 def lesson(out: Path) -> int:
     """Write a page for a class: thirty mistakes, a question first, where each bites. English and Japanese."""
-    from .derivations.lesson import write_lesson
+    from .derivations.lesson.lesson import write_lesson
 
     click.echo(f"Lesson: {write_lesson(out)}")
     return AGREES

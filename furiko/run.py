@@ -17,10 +17,10 @@ from . import __version__
 from .checks.cache import Cache, user_cache
 from .checks.plan import Plan, make_plan
 from .checks.runner import TIMEOUT, run
-from .checks.spawn import Workshop, workshop
+from .checks.workers.processes import Workshop, workshop
 from .engines import engine_version
 from .models import Scene, catalogue
-from .models.result import OUTCOMES, EngineEntry, Footer, Header, Result, SceneEntry
+from .records.check import OUTCOMES, EngineEntry, Footer, Header, Result, SceneEntry
 from .reports import Report, StreamWriter, open_report, prepare_reports, write_reports
 
 PACKAGES = ("numpy", "scipy", "mujoco", "pin", "exudyn", "python-flint", "heyoka", "numba")

@@ -14,14 +14,14 @@ from pathlib import Path
 from typing import Any
 
 from . import __version__
-from .checks.stress import FAMILIES, Results, Search, key, make_searches
-from .checks.stress import run as run_cases
-from .checks.stress_accelerations import DOCUMENT, KERNELS, OWN
-from .checks.stress_axes import AXES, Ladder, find_axes, pairs
 from .engines import EngineInfo, engine_info, engine_names, engine_version
 from .models import EngineMissing, InvalidInput
-from .models.result import EngineEntry, Header
+from .records.check import EngineEntry, Header
 from .reports.journal import Journal
+from .studies.stress.accelerations import DOCUMENT, KERNELS, OWN
+from .studies.stress.axes import AXES, Ladder, find_axes, pairs
+from .studies.stress.searches import FAMILIES, Results, Search, key, make_searches
+from .studies.stress.searches import run as run_cases
 
 STREAM = "stress.jsonl"
 BUDGET = 60.0  # [s]
@@ -91,11 +91,11 @@ def summarise(
     searches: Sequence[Search], results: Results, header: Header, seed: int, folder: Path | None
 ) -> dict[str, Any]:
     """The summary, and its pages in the folder."""
-    from .checks.stress_summary import summary
+    from .studies.stress.summary import summary
 
     found = summary(searches, results, seed=seed)
     if folder is not None:
-        from .reports.stress_page import write_pages
+        from .reports.pages.stress_page import write_pages
 
         write_pages(folder, found, header)
     return found

@@ -1,11 +1,11 @@
 """What is simulated: the mechanisms, the scenes they stand in, and the model files written from them."""
 
 from .errors import EngineMissing, InvalidInput
-from .mjcf import to_mjcf
 from .scene import Scene, catalogue, find_scene, find_scenes
 from .systems import NLegPendulum, RodChain, System
 from .tree import Link, PlanarTree
-from .urdf import to_urdf
+from .writers.mjcf import to_mjcf
+from .writers.urdf import to_urdf
 
 __all__ = [
     "EngineMissing",

@@ -1,7 +1,7 @@
 """The theory: both documents' equations, and the truth that is proved or computed from them. Knows no engine."""
 
-from .equation import Equation, Slip
-from .motion import (
+from .documents.equation import Equation, Slip
+from .documents.equations_of_motion import (
     centre_accelerations,
     coriolis_matrix,
     energy,
@@ -10,10 +10,10 @@ from .motion import (
     literal_accelerations,
     mass_matrix,
 )
-from .shiki import EQUATIONS as SHIKI
-from .shiki import SLIPS as _SHIKI_SLIPS
-from .takeno import EQUATIONS as TAKENO
-from .takeno import SLIPS as _TAKENO_SLIPS
+from .documents.shiki import EQUATIONS as SHIKI
+from .documents.shiki import SLIPS as _SHIKI_SLIPS
+from .documents.takeno import EQUATIONS as TAKENO
+from .documents.takeno import SLIPS as _TAKENO_SLIPS
 
 EQUATIONS = SHIKI + TAKENO  # all 57, in the documents' order
 MISPRINTS = tuple(equation for equation in EQUATIONS if equation.printed)

@@ -8,7 +8,8 @@ energy m (u² + uv + v²)/6 and, under the tension g (m_j/2 + Σ_{i>j} m_i) of (
 both is Bernoulli's ω_k = (j₀,k/2) √(g/L).
 
 **Large motions.** All n start from rest in one curve, given by its slope φ(s): rod j at φ((j - ½) L/n). The motion is
-that of :mod:`.taylor`; where the chain goes on to its tip and how fast is what may or may not converge with n.
+that of :mod:`.integration.taylor`; where the chain goes on to its tip and how fast is what may or may not converge with
+n.
 """
 
 from __future__ import annotations
@@ -23,8 +24,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..models import InvalidInput, RodChain
-from .exact import hanging_chain_rates
-from .motion import energy
+from .documents.equations_of_motion import energy
+from .truth.closed_forms import hanging_chain_rates
 
 Array = NDArray[np.float64]
 Links = Literal["rods", "point masses"]
@@ -122,7 +123,7 @@ MOST_POINTS = 100  # of a curve that is drawn
 
 def move(system: RodChain, theta: Any, omega: Any, times: Sequence[float] | Array, tolerance: float = 1e-12) -> Motion:
     """The motion from a state at ``times[0]``."""
-    from .taylor import simulate
+    from .integration.taylor import simulate
 
     n = system.n
     begun = time.perf_counter()
@@ -169,7 +170,7 @@ def largest_step(n: int, duration: float = 1.0, most: float = 0.5) -> float:
 
 
 def _keeps(n: int, step: float, duration: float, most: float) -> bool:
-    from .kernels import kernel_of
+    from .kernels.forward_dynamics import kernel_of
 
     system = chain(n)
     kernel = kernel_of(system)

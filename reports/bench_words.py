@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..models.bench import Speed
+from ..records.bench import Speed
 
 MET = {True: "✓", False: "✗", None: "–"}
 SAME = {True: "the same {}", False: "NOT the same ({})"}

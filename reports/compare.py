@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
 
-from ..models.result import Result
+from ..records.check import Result
 from .report import Report
 from .words import count, figure, one_line
 

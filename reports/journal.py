@@ -13,7 +13,7 @@ from pathlib import Path
 from types import TracebackType
 
 from ..models.errors import InvalidInput
-from ..models.result import Header, Result
+from ..records.check import Header, Result
 from .report import Report
 from .stream import StreamWriter, read_stream
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from xml.etree import ElementTree as XML
 
-from ..models.result import Outcome, Result
+from ..records.check import Outcome, Result
 from .report import Report, against
 from .words import last_line, one_line, printable
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from ..models.result import Result
+from ..records.check import Result
 from .report import Cell, Report
 from .words import GLYPHS, LEGEND, figure, last_line, one_line
 

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from ..models.result import OUTCOMES, EngineEntry, Footer, Header, Outcome, Result, SceneEntry
+from ..records.check import OUTCOMES, EngineEntry, Footer, Header, Outcome, Result, SceneEntry
 from .words import count, few, figure, last_line
 
 # What a cell of several checks says: the worst of them, where that something differs outweighs that something

@@ -19,7 +19,7 @@ from typing import Any, BinaryIO
 import msgspec
 
 from ..models.errors import InvalidInput
-from ..models.result import FORMAT, Footer, Header, Outcome, Record, Result
+from ..records.check import FORMAT, Footer, Header, Outcome, Record, Result
 from .report import Report
 
 STREAM = "report.jsonl"

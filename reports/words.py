@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ..models.result import Outcome
+from ..records.check import Outcome
 
 # A glyph beside the word, so that no outcome is told by colour alone.
 GLYPHS: dict[Outcome, str] = {"agrees": "✓", "differs": "✗", "skipped": "–", "error": "!"}

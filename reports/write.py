@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 from ..models.errors import InvalidInput
-from ..models.result import Header
+from ..records.check import Header
 from .report import Report
 from .stream import STREAM, StreamWriter
 
@@ -31,7 +31,7 @@ def open_report(directory: str | Path, header: Header) -> StreamWriter:
 
 def prepare_reports() -> None:
     """Load what :func:`write_reports` will need, while something else computes."""
-    from .html import load_templates
+    from .pages.check_page import load_templates
 
     load_templates()
 
@@ -41,9 +41,9 @@ def write_reports(directory: str | Path, report: Report) -> tuple[Path, ...]:
 
     Each is there whole or not at all. Raises :class:`InvalidInput` with the path of one that cannot be written.
     """
-    from .html import to_html
     from .junit import to_junit
     from .markdown import to_markdown
+    from .pages.check_page import to_html
 
     folder = Path(directory)
     return tuple(

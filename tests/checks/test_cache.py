@@ -10,7 +10,7 @@ import furiko
 from furiko.checks import cache as module
 from furiko.checks.cache import Cache
 from furiko.checks.plan import make_plan
-from furiko.models.result import Result
+from furiko.records.check import Result
 
 RESULT = Result(scene="rods-2", engine="mujoco", check="accelerations", outcome="agrees", measured=1.5, unit="ε")
 

@@ -12,17 +12,17 @@ import furiko
 from furiko.checks.cache import Cache
 from furiko.checks.plan import PROFILES, make_plan
 from furiko.checks.runner import run
-from furiko.checks.spawn import workshop
+from furiko.checks.workers.processes import workshop
 
 CHECKS = PROFILES["quick"].checks
 
 
 def check(*engines, scenes=("rods-2",), **options):
-    return furiko.check(scenes, [f"zoo:{engine}" for engine in engines], **options)
+    return furiko.check(scenes, [f"fake_engines:{engine}" for engine in engines], **options)
 
 
 def by_check(report, engine):
-    return {result.check: result for result in report.results if result.engine == f"zoo:{engine}"}
+    return {result.check: result for result in report.results if result.engine == f"fake_engines:{engine}"}
 
 
 def test_a_crash_costs_its_own_check_alone():
@@ -79,7 +79,7 @@ def test_no_worker_outlives_its_run():
     workers = [
         pid
         for pid in set(os.listdir("/proc")) - before
-        if pid.isdigit() and b"furiko.checks.worker" in _command_line(pid) and _parent(pid) == os.getpid()
+        if pid.isdigit() and b"furiko.checks.workers.worker" in _command_line(pid) and _parent(pid) == os.getpid()
     ]
     assert workers == []
 

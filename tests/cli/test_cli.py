@@ -50,13 +50,13 @@ def test_smoke_agrees_and_writes_its_reports(tmp_path):
 
 
 def test_a_difference_is_status_1(tmp_path):
-    done = run("check", "rods-2", "-e", "zoo:SignFlipped", "--profile", "smoke", cwd=tmp_path)
+    done = run("check", "rods-2", "-e", "fake_engines:SignFlipped", "--profile", "smoke", cwd=tmp_path)
     assert done.returncode == 1
     assert "differs" in done.stdout
 
 
 def test_a_failing_engine_is_status_3(tmp_path):
-    done = run("check", "rods-2", "-e", "zoo:Nan", "--profile", "smoke", cwd=tmp_path)
+    done = run("check", "rods-2", "-e", "fake_engines:Nan", "--profile", "smoke", cwd=tmp_path)
     assert done.returncode == 3
     assert "NaN" in done.stdout
 
@@ -124,7 +124,7 @@ def test_a_full_disk_is_one_clear_line_and_no_whole_report(tmp_path):
 
 def test_interrupted_it_leaves_a_stream_that_says_so(tmp_path):
     process = subprocess.Popen(
-        [sys.executable, "-m", "furiko", "check", "rods-2", "-e", "zoo:Hanging", "-e", "mujoco"],
+        [sys.executable, "-m", "furiko", "check", "rods-2", "-e", "fake_engines:Hanging", "-e", "mujoco"],
         cwd=tmp_path,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
@@ -160,7 +160,7 @@ def test_export_writes_what_the_library_writes(tmp_path):
 
 
 def test_a_baseline_shows_what_got_worse(tmp_path):
-    run("check", "rods-2", "-e", "zoo:Right", "--profile", "smoke", "--out", "before", cwd=tmp_path)
+    run("check", "rods-2", "-e", "fake_engines:Right", "--profile", "smoke", "--out", "before", cwd=tmp_path)
     stream = tmp_path / "before" / "report.jsonl"
     (tmp_path / "after").mkdir()
     text = stream.read_text().replace('"outcome":"agrees"', '"outcome":"differs"')

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from furiko.models import NLegPendulum, RodChain
-from furiko.reference import literal_accelerations, motion
+from furiko.reference import literal_accelerations
 from furiko.reference.arithmetic import (
     arithmetic_of,
     balls,
@@ -20,7 +20,8 @@ from furiko.reference.arithmetic import (
     sum_after,
     sympy_arithmetic,
 )
-from furiko.reference.truth import precision, true_accelerations
+from furiko.reference.documents import equations_of_motion as motion
+from furiko.reference.truth.enclosures import precision, true_accelerations
 
 STAR = NLegPendulum((1.0, 0.8, 0.6), (1.0, 0.5, 2.0))
 CHAIN = RodChain((1.0, 0.8, 0.6), 1.3)

@@ -6,7 +6,7 @@ import pytest
 from furiko.models import RodChain
 from furiko.reference import gravity_vector, mass_matrix
 from furiko.reference.chain import bow, chain, largest_step, matrices, move, order, small_swings, swing_errors
-from furiko.reference.motion import energy
+from furiko.reference.documents.equations_of_motion import energy
 
 
 @pytest.mark.parametrize("n", [1, 2, 3, 12, 60])

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from furiko.models import InvalidInput, NLegPendulum, RodChain
-from furiko.reference import truth
 from furiko.reference.energies import energies, energy
+from furiko.reference.truth import enclosures as truth
 
 
 @pytest.mark.parametrize("system", [RodChain((1.0, 0.3, 2.0), 0.7), NLegPendulum((1.0, 0.3, 2.0), (0.1, 4.0, 2.0))])

@@ -4,7 +4,7 @@ import random
 
 import pytest
 
-from furiko.models.result import EngineEntry, Footer, Header, Result, SceneEntry
+from furiko.records.check import EngineEntry, Footer, Header, Result, SceneEntry
 from furiko.reports.report import Report
 
 ENGINES = {

@@ -6,7 +6,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as some
 
 from furiko.models import InvalidInput
-from furiko.models.result import Header, Result
+from furiko.records.check import Header, Result
 from furiko.reports import read_stream
 from furiko.reports.journal import Journal
 

@@ -4,7 +4,7 @@ import itertools
 
 import pytest
 
-from furiko.models.result import Footer
+from furiko.records.check import Footer
 from furiko.reports.report import Report, share
 
 

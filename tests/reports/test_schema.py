@@ -5,14 +5,14 @@ import json
 import jsonschema
 import pytest
 
+from furiko.records.schema import FILE, schema
 from furiko.reports import StreamWriter
-from furiko.reports.schema import FILE, schema
 
 VALIDATOR = jsonschema.Draft202012Validator(json.loads(FILE.read_text(encoding="utf-8")))
 
 
 def test_the_file_is_what_the_records_generate():
-    assert FILE.read_text(encoding="utf-8") == schema(), "run: python -m furiko.reports.schema"
+    assert FILE.read_text(encoding="utf-8") == schema(), "run: python -m furiko.records.schema"
 
 
 def test_it_is_a_schema():

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from furiko.models.errors import InvalidInput
-from furiko.models.result import OUTCOMES, Result
+from furiko.records.check import OUTCOMES, Result
 from furiko.reports import StreamWriter, read_stream
 from furiko.reports.stream import LARGEST_LINE, LONGEST_REASON
 

@@ -1,0 +1,1 @@
+"""One comparison of one quantity a file."""

@@ -1,0 +1,115 @@
+"""Accelerations: the engine's forward dynamics against the proven solution of the document's equations of motion."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...records.check import Result
+from ...reference import mass_matrix
+from ...reference.rounding.bounds import EPSILON, Amplitudes, allowed, turns
+from ...reference.rounding.maximal_elimination import elimination
+from ..cell import Cell, Worst, quotient, worst
+from ..facts import forward_error
+
+Array = NDArray[np.float64]
+
+NAME = "accelerations"
+NEEDS = "accelerations"
+SINGULAR = "the mass matrix is singular but for rounding: no digit of an acceleration is sure"
+
+
+def compare(cell: Cell) -> Iterator[Result]:
+    """Backward error in the engine's own coordinates decides; the forward error is shown beside the document's own.
+
+    The true M applied to (engine's acceleration less the true one) is the residual of the engine's in the true
+    equations, without the cancellation that computing it term by term would suffer.
+    """
+    cell, asked = cell.solvable, len(cell.states)
+    facts, system = cell.facts, cell.scene.system
+    if not len(cell.states):
+        yield cell.result(NAME, "skipped", reason=f"in every state {SINGULAR}")
+        return
+    got = cell.accelerations()
+    error = backward_error(cell, got, cell.amplitude)
+    found = worst(error)
+    bound = allowed(system.n, cell.info.accuracy)
+    state, row = found.index
+    forward = forward_error(facts, got)
+    literal = forward_error(facts, facts.literal)
+    moving = np.abs(facts.high).max(axis=-1) > np.abs(facts.high).max() * EPSILON
+    cond = facts.cond_relative if cell.info.coordinates == "relative" else facts.cond_absolute
+    details = {
+        "states": len(cell.states),
+        "states left out": asked - len(cell.states),
+        "worst state": cell.states.labels[state],
+        "worst angle": row + 1,
+        "coordinates": cell.info.coordinates,
+        "forward error": EPSILON * finite_max(forward, moving),
+        "forward error, median": EPSILON * float(np.median(forward[moving])) if moving.any() else 0.0,
+        "forward error of the document's formula": EPSILON * finite_max(literal, moving),
+        "condition, absolute angles": finite_max(facts.cond_absolute, moving),
+        "condition, engine's coordinates": finite_max(cond, moving),
+        "inexact side": inexact_side(forward[moving], literal[moving]),
+    }
+    yield cell.result(
+        NAME,
+        "agrees" if found.value <= bound else "differs",
+        measured=found.value,
+        allowed=bound,
+        unit="ε",
+        reason=_reason(found, bound, details),
+        details=details,
+    )
+
+
+def backward_error(cell: Cell, accelerations: Array, amplitude: Amplitudes) -> Array:
+    """Row residuals of ``accelerations`` in the true equations over Σ|terms|, in ε; (B, n).
+
+    What elimination with row interchanges adds to the terms is seldom needed and costs more than all the rest: it is
+    looked at in the states in which the others do not do.
+    """
+    system, theta, omega = cell.scene.system, cell.states.theta, cell.states.omega
+    mass, turned = mass_matrix(system, theta), turns(theta)[:, None]
+    error = cell.facts.error(accelerations)
+    residual = amplitude.residual((mass @ error[..., None])[..., 0])
+    rows = amplitude.rows(accelerations, omega) * turned
+    beyond = (np.abs(residual) > EPSILON * allowed(system.n, cell.info.accuracy) * rows).any(axis=-1)
+    if beyond.any():
+        rows[beyond] = amplitude.rows(accelerations[beyond], omega[beyond], mass[beyond]) * turned[beyond]
+        if cell.info.coordinates == "maximal":
+            rows[beyond] += elimination(system, theta[beyond], omega[beyond])[0]
+    return quotient(residual, EPSILON * rows)
+
+
+def inexact_side(engine: Array, literal: Array) -> str:
+    """Which side of a comparison carries the larger rounding: engine and document, each against the truth."""
+    if not engine.size:
+        return "neither"
+    ours, theirs = float(np.max(literal)), float(np.max(engine))
+    if max(ours, theirs) <= 64 or max(ours, theirs) <= 4 * min(ours, theirs):
+        return "neither"
+    return "engine" if theirs > ours else "document's formula"
+
+
+def finite_max(values: Array, chosen: NDArray[np.bool_]) -> float:
+    """The largest of the chosen values, 0 where there is none."""
+    return float(np.max(values[chosen])) if chosen.any() else 0.0
+
+
+def _reason(found: Worst, bound: float, details: dict[str, Any]) -> str:
+    if found.value > bound:
+        return (
+            f"the acceleration of angle {details['worst angle']} in state {details['worst state']!r} leaves a residual "
+            f"of {found.value:.3g} ε of its equation's terms; rounding explains {bound:.3g} ε"
+        )
+    engine, formula = details["forward error"], details["forward error of the document's formula"]
+    if details["inexact side"] == "neither":
+        return f"both within {max(engine, formula):.1e} of the true accelerations"
+    return (
+        f"the {details['inexact side']} is the inexact side: the engine is within {engine:.1e} of the true "
+        f"accelerations, the document's formula within {formula:.1e}"
+    )

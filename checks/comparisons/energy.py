@@ -1,0 +1,57 @@
+"""Energy: the engine's kinetic and potential energy against the documents'."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...models.tree import SUPPORT, PlanarTree
+from ...records.check import Result
+from ...reference import energy
+from ...reference.rounding.bounds import EPSILON, Amplitudes, allowed, turns
+from ..cell import Cell, quotient, worst
+
+Array = NDArray[np.float64]
+
+NAME = "energy"
+NEEDS = "energy"
+
+
+def compare(cell: Cell) -> Iterator[Result]:
+    """Both parts, over the sum of the magnitudes of their terms."""
+    states, system = cell.states, cell.scene.system
+    got = cell.answer("energy", cell.engine.energy(states.theta, states.omega), (len(states), 2))
+    expected = np.stack(energy(system, states.theta, states.omega), axis=-1)
+    scale = energy_amplitudes(system.tree(), cell.amplitude, states.omega) * turns(states.theta)[:, None]
+    found = worst(quotient(got - expected, EPSILON * scale))
+    bound = allowed(system.n)
+    state, part = found.index
+    agrees = found.value <= bound
+    word = ("kinetic", "potential")[part]
+    yield cell.result(
+        NAME,
+        "agrees" if agrees else "differs",
+        measured=found.value,
+        allowed=bound,
+        unit="ε",
+        reason=f"worst in the {word} energy"
+        if agrees
+        else f"the {word} energy in state {states.labels[state]!r} is {got[state, part]:.9g} J, "
+        f"the documents' {expected[state, part]:.9g} J",
+        details={"part": word, "state": states.labels[state], "states": len(states)},
+    )
+
+
+def energy_amplitudes(tree: PlanarTree, amplitude: Amplitudes, omega: Array) -> Array:
+    """½ Σ |rate_i| sqrt(W_ii W_jj) |rate_j|, and Σ m g × length of the way; (B, 2) [J]."""
+    rates = np.abs(amplitude.own(omega))
+    kinetic = ((rates @ amplitude.products) * rates).sum(axis=-1) / 2
+    reach: list[float] = []
+    potential = 0.0
+    for link in tree.links:
+        reach.append(0.0 if link.parent == SUPPORT else reach[link.parent] + math.hypot(*link.hinge))
+        potential += link.mass * tree.gravity * (reach[-1] + math.hypot(*link.com))
+    return np.stack([kinetic, np.full_like(kinetic, potential)], axis=-1) + amplitude.underflow(omega)

@@ -1,0 +1,257 @@
+"""The step map: one step of each of an engine's integrators is, to rounding, one step of a textbook scheme.
+
+No trajectory and no truth are needed, only the reference's accelerations in extended precision: from a few random
+states the engine takes one step, and so does every scheme of :mod:`furiko.reference.integration.schemes` that has the
+order the engine's makers give theirs. The one that fits is named. An order that is measured passes any error of that
+order; this does not: a wrong scheme misses by a power of step × fastest rate, 1e-9 and more, the right one by 1e-15.
+
+How far rounding takes them apart is bounded, not chosen: see :mod:`furiko.checks.step_rounding`. A scheme hands the
+accelerations' errors on to the rates times the step, to the angles times its square; that later stages start from
+earlier ones' errors multiplies them by at most exp(stages × step × fastest rate).
+
+The step is an eighth over the fastest rate at which links turn or nearby states part
+(:func:`furiko.reference.variation.fastest_rate`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...engines import Integrator
+from ...models.units import in_units, units_of
+from ...records.check import Result
+from ...reference import literal_accelerations
+from ...reference.integration.schemes import RADIUS, SCHEMES, Scheme, alpha_parameters
+from ...reference.integration.variation import fastest_rate
+from ...reference.maximal_coordinates import MaximalCoordinates, generalized_alpha_index_3, trapezoidal_index_2
+from ...reference.rounding.bounds import EPSILON
+from ..cell import Cell, quotient, worst
+from ..step_rounding import acceleration_error, conversion, joints_apart
+
+Array = NDArray[np.float64]
+Wide = NDArray[Any]
+
+NAME = "step map"
+NEEDS = "trajectory"
+
+STATES = 3  # random states in which a step is taken
+SHORT = 1 / 8  # step × fastest rate
+LARGEST_N = 20  # links; beyond, extended precision takes longer than all other checks together
+
+
+@dataclass(frozen=True)
+class Steps:
+    """States (B, n), the engine's coordinates after one step from each, and how long that is [s]."""
+
+    theta: Array
+    omega: Array
+    alpha: Array
+    h: float
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A textbook scheme in some coordinates, and how it takes one step from states (B, n) in extended precision."""
+
+    scheme: Scheme
+    coordinates: str
+    step: Callable[[Wide, Wide, float], tuple[Wide, Wide]]
+
+    @property
+    def name(self) -> str:
+        """As it is called in the report."""
+        return f"{self.scheme.name} in {self.coordinates}"
+
+
+def compare(cell: Cell) -> Iterator[Result]:
+    """One result for each integrator."""
+    n = cell.scene.system.n
+    if n > LARGEST_N:
+        reason = f"schemes are applied in extended precision up to {LARGEST_N} links, not to {n}"
+        yield cell.result(NAME, "skipped", reason=reason)
+        return
+    steps = chosen_steps(cell)
+    textbook = Textbook(cell, steps)
+    for integrator in cell.info.integrators:
+        yield _compare(cell, integrator, steps, textbook)
+
+
+def chosen_steps(cell: Cell) -> Steps:
+    """The last of the cell's states (the random ones), and a step that is short for all of them."""
+    theta, omega = cell.states.theta[-STATES:], cell.states.omega[-STATES:]
+    fastest = max(float(fastest_rate(cell.scene.system, theta, omega).max()), float(np.abs(omega).max()))
+    # A power of two, so that halves and sums of steps are exact.
+    h = 2.0 ** math.floor(math.log2(SHORT / fastest)) if fastest > 0 else SHORT
+    return Steps(theta, omega, cell.facts.high[-STATES:], h)
+
+
+class Textbook:
+    """What every candidate makes of the same states, computed when it is first asked for."""
+
+    def __init__(self, cell: Cell, steps: Steps) -> None:
+        self._steps = steps
+        self._candidates = candidates(cell, steps)
+        self._ends: dict[str, tuple[Wide, Wide]] = {}
+
+    def of_order(self, order: int | None) -> list[Candidate]:
+        """The candidates of this order, all of them for None."""
+        return [candidate for candidate in self._candidates if order in (None, candidate.scheme.order)]
+
+    def end(self, candidate: Candidate) -> tuple[Wide, Wide]:
+        """θ and ω after its step, (B, n) each."""
+        if candidate.name not in self._ends:
+            theta, omega = (values.astype(np.longdouble) for values in (self._steps.theta, self._steps.omega))
+            self._ends[candidate.name] = candidate.step(theta, omega, self._steps.h)
+        return self._ends[candidate.name]
+
+
+def _compare(cell: Cell, integrator: Integrator, steps: Steps, textbook: Textbook) -> Result:
+    pairs = zip(steps.theta, steps.omega, strict=True)
+    got = np.array([cell.trajectory(t, w, integrator, steps.h, 1) for t, w in pairs])
+    off = acceleration_error(cell, integrator, steps.theta, steps.omega, steps.alpha)
+
+    def bounds(candidate: Candidate) -> Array:
+        return rounding_bounds(cell, integrator, steps, candidate, off)
+
+    def all_fits(order: int | None) -> list[Fit]:
+        found = [fit(got, textbook, one, bounds(one)) for one in textbook.of_order(order)]
+        return sorted(found, key=lambda one: one.excess)
+
+    fits = all_fits(integrator.order)
+    if not fits or fits[0].excess > 1:
+        fits = all_fits(None)
+    best, *rest = fits
+    agrees = best.excess <= 1 and best.candidate.scheme.order == integrator.order
+    return cell.result(
+        f"{NAME} {integrator.name}",
+        "agrees" if agrees else "differs",
+        measured=best.measured,
+        allowed=best.bound,
+        unit="rad/s",
+        reason=_reason(integrator, fits),
+        details={
+            "integrator": integrator.name,
+            "scheme": best.candidate.scheme.name,
+            "coordinates": best.candidate.coordinates,
+            "step": steps.h,
+            "states": len(got),
+            "error of the angles": best.angles,
+            "next best": {"scheme": rest[0].candidate.name, "error": rest[0].measured} if rest else None,
+        },
+    )
+
+
+@dataclass(frozen=True)
+class Fit:
+    """How far a candidate is from what the engine did: worst rate [rad/s] and its bound, worst angle [rad].
+
+    ``excess``: the worst of all angles and rates over their bounds. Where that is an angle's, ``measured`` is the rate
+    that would be as bad.
+    """
+
+    candidate: Candidate
+    excess: float
+    bound: float
+    angles: float
+
+    @property
+    def measured(self) -> float:
+        """[rad/s]."""
+        return self.excess * self.bound
+
+
+def fit(got: Array, textbook: Textbook, candidate: Candidate, bounds: Array) -> Fit:
+    """Hold the engine's step, (B, 2, n), against a candidate's; ``bounds`` of angles and rates, (2, B, 1)."""
+    angles, rates = textbook.end(candidate)
+    off = np.abs(np.stack([got[:, 0] - angles, got[:, 1] - rates])).astype(np.float64)
+    excess = worst(quotient(off, np.broadcast_to(bounds, off.shape)))
+    bound = float(bounds[1, excess.index[1]].max())
+    return Fit(candidate, excess.value, bound, float(off[0].max()))
+
+
+def candidates(cell: Cell, steps: Steps) -> list[Candidate]:
+    """Every scheme, in the coordinates that the engine may apply it in."""
+    system = cell.scene.system
+
+    def accelerations(theta: Wide, omega: Wide) -> Wide:
+        return literal_accelerations(system, theta, omega)
+
+    found = [
+        Candidate(scheme, "angles", lambda t, w, h, step=scheme.step: step(accelerations, t, w, h))  # type: ignore[misc]
+        for scheme in SCHEMES
+    ]
+    if cell.info.coordinates == "maximal":
+        units = units_of(system.tree()).fitting(system.gravity, steps.omega)
+        bodies = MaximalCoordinates(in_units(system.tree(), units))
+        found += [
+            Candidate(scheme, "maximal coordinates", _one_by_one(bodies, step, units.time))
+            for scheme, step in MAXIMAL_SCHEMES
+        ]
+    return found
+
+
+_Step = Callable[[MaximalCoordinates, Wide, Wide, Any], tuple[Wide, Wide]]
+
+MAXIMAL_SCHEMES: tuple[tuple[Scheme, _Step], ...] = tuple(
+    (Scheme(name, 2, lambda *_: (np.empty(0), np.empty(0)), reach=2.0, stages=3), step)
+    for name, step in (
+        (
+            "generalized-α, ρ∞ = 0.9, positions held together",
+            lambda bodies, t, w, h: generalized_alpha_index_3(bodies, t, w, h, RADIUS),
+        ),
+        ("trapezoidal rule, velocities held together", trapezoidal_index_2),
+    )
+)
+
+
+def _one_by_one(
+    bodies: MaximalCoordinates, step: _Step, second: float
+) -> Callable[[Wide, Wide, float], tuple[Wide, Wide]]:
+    """Steps of ``bodies`` whose unit of time has so many seconds."""
+
+    def each(theta: Wide, omega: Wide, h: float) -> tuple[Wide, Wide]:
+        ends = [step(bodies, t, w * second, np.longdouble(h / second)) for t, w in zip(theta, omega, strict=True)]
+        return np.stack([end[0] for end in ends]), np.stack([end[1] for end in ends]) / second
+
+    return each
+
+
+def rounding_bounds(
+    cell: Cell, integrator: Integrator, steps: Steps, candidate: Candidate, acceleration: Array
+) -> Array:
+    """How far rounding may take angles and rates apart, (2, B, 1), with accelerations off by so much, (B,)."""
+    scheme, h = candidate.scheme, steps.h
+    amplified = scheme.reach * math.exp(scheme.stages * SHORT)
+    size = np.abs(steps.omega) + h * np.abs(steps.alpha)
+    turns = np.abs(steps.theta) + h * size
+    sums = EPSILON * (scheme.stages + 2)  # additions of a term for each stage, and the changes of coordinates
+    rates = h * amplified * acceleration + sums * conversion(cell, size)
+    angles = h * rates + sums * conversion(cell, turns)
+    if candidate.coordinates == "maximal coordinates":
+        apart = joints_apart(cell, integrator, steps.theta)
+        # Where positions are held, the rates follow by γ/(βh) times that.
+        beta, gamma, _, _ = map(float, alpha_parameters(RADIUS))
+        angles, rates = angles + apart, rates + gamma / (beta * h) * apart
+    return np.stack([angles, rates])[..., None]
+
+
+def _reason(integrator: Integrator, fits: list[Fit]) -> str:
+    best = fits[0]
+    name = best.candidate.name
+    if best.excess > 1:
+        return (
+            f"one step of {integrator.name} is no textbook scheme's; the nearest, {name}, misses by "
+            f"{best.measured:.3g} rad/s, and rounding explains {best.bound:.3g}"
+        )
+    if best.candidate.scheme.order != integrator.order:
+        return f"{integrator.name} is said to be of order {integrator.order}; one step is that of {name}"
+    alike = [one.candidate.name for one in fits[1:] if one.excess <= 1]
+    if alike:
+        return f"one step is that of {name}; rounding hides how it differs from {', '.join(alike)}"
+    return f"one step is that of {name}"

@@ -1,0 +1,247 @@
+"""Symmetries: what an engine must answer alike, whoever is right; no truth is needed.
+
+Each symmetry turns a mechanism and a state into another whose accelerations follow from the first one's. The engine is
+asked both, and its two answers are held together; so are the two of the documents' own formula. All changes are exact
+in floating point (powers of two, signs, permutations) but for the turn by 2π, whose rounding is carried through the
+accelerations' derivatives. Two answers may therefore differ by the rounding of each, backward error times |M⁻¹|.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...engines import cannot
+from ...models import NLegPendulum, RodChain
+from ...records.check import Result
+from ...reference import literal_accelerations, mass_matrix
+from ...reference.documents.equations_of_motion import Mechanism
+from ...reference.integration.variation import variation
+from ...reference.rounding.bounds import EPSILON, Amplitudes, allowed, amplitudes, turns
+from ..cell import Cell, Worst, quotient, worst
+from .accelerations import SINGULAR
+
+Array = NDArray[np.float64]
+Accelerations = Callable[[Mechanism, Array, Array], Array]
+AmplitudeOf = Callable[[Mechanism], Amplitudes]
+
+NAME = "symmetry"
+NEEDS = "accelerations"
+
+STATES = 3  # random ones; every symmetry is asked for in each
+TURN = 0.75  # [rad], of the support
+
+# 2π lies within 2.45e-16 of its double.
+TWO_PI_ERROR = 2.45e-16
+
+
+@dataclass(frozen=True)
+class Image:
+    """What a symmetry makes of a mechanism and its states: ``before`` and ``after`` must answer alike.
+
+    ``back``: the first accelerations, from the second's; ``moved``: rounding of the angles in making the image [rad].
+    """
+
+    before: Mechanism
+    after: Mechanism
+    theta: Array
+    omega: Array
+    back: Callable[[Array], Array]
+    moved: float = 0.0
+
+
+@dataclass(frozen=True)
+class Symmetry:
+    """``says`` what it is, in words; ``image`` is None for mechanisms that do not have it."""
+
+    name: str
+    says: str
+    image: Callable[[Mechanism, Array, Array], Image | None]
+
+
+def compare(cell: Cell) -> Iterator[Result]:
+    """One result for each symmetry that the mechanism has."""
+    cell = cell.solvable
+    system = cell.scene.system
+    theta, omega = cell.states.theta[-STATES:], cell.states.omega[-STATES:]
+    if not len(theta):
+        yield cell.result(NAME, "skipped", reason=f"in every state {SINGULAR}")
+        return
+
+    def engine(other: Mechanism, angles: Array, rates: Array) -> Array:
+        asked = cell.engine if other == system else cell.engine.of(other)
+        return cell.answer("accelerations", asked.accelerations(angles, rates), angles.shape)
+
+    images = _images(system, theta, omega)
+    refused = {name: why for name, image in images.items() if (why := cannot(cell.info, image.after))}
+    taken = {name: image for name, image in images.items() if name not in refused}
+    found = excesses(taken, theta, omega, engine, cell.amplitude_of, cell.info.accuracy)
+    theory = _theory(system, theta.tobytes(), omega.tobytes())
+    for symmetry in SYMMETRIES:
+        if symmetry.name in refused:
+            yield cell.result(f"{NAME} {symmetry.name}", "skipped", reason=f"the image: {refused[symmetry.name]}")
+        elif symmetry.name in found:
+            yield _result(cell, symmetry, found[symmetry.name], theory[symmetry.name].value)
+
+
+def _images(system: Mechanism, theta: Array, omega: Array) -> dict[str, Image]:
+    found = {symmetry.name: symmetry.image(system, theta, omega) for symmetry in SYMMETRIES}
+    return {name: image for name, image in found.items() if image is not None}
+
+
+def excesses(
+    images: dict[str, Image], theta: Array, omega: Array, ask: Accelerations, amplitude: AmplitudeOf, accuracy: float
+) -> dict[str, Worst]:
+    """For each symmetry: the difference of the two answers over what rounding explains of it, where it is worst."""
+    answers: dict[Mechanism, tuple[Array, Array]] = {}
+    found = {}
+    for name, image in images.items():
+        if image.before not in answers:
+            answers[image.before] = _answer(image.before, theta, omega, ask, amplitude, accuracy)
+        first, bound = answers[image.before]
+        second, error = map(image.back, _answer(image.after, image.theta, image.omega, ask, amplitude, accuracy))
+        bound = bound + np.abs(error)
+        if image.moved:
+            bound = bound + image.moved * np.abs(variation(image.before, theta, omega).by_theta).sum(-1)
+        found[name] = worst(quotient(first - second, bound))
+    return found
+
+
+@lru_cache(maxsize=4)
+def _theory(system: Mechanism, theta: bytes, omega: bytes) -> dict[str, Worst]:
+    """The same of the documents' own formula; the states as bytes, so that every engine's cell can share it."""
+    angles, rates = (np.frombuffer(values).reshape(-1, system.n) for values in (theta, omega))
+
+    def absolute(other: Mechanism) -> Amplitudes:
+        return amplitudes(other, "absolute")
+
+    images = _images(system, angles, rates)
+    return excesses(images, angles, rates, literal_accelerations, absolute, EPSILON)
+
+
+def _result(cell: Cell, symmetry: Symmetry, found: Worst, theory: float) -> Result:
+    state, angle = found.index
+    label = cell.states.labels[-STATES:][state]
+    if theory > 1:
+        reason = f"the documents' own formula does not have this symmetry: {symmetry.says}"
+    elif found.value > 1:
+        reason = f"it should be that {symmetry.says}; angle {angle + 1} in state {label!r} answers otherwise"
+    else:
+        reason = symmetry.says
+    return cell.result(
+        f"{NAME} {symmetry.name}",
+        "agrees" if max(found.value, theory) <= 1 else "differs",
+        measured=found.value,
+        allowed=1.0,
+        unit="×",
+        reason=reason,
+        details={"states": STATES, "state": label, "angle": angle + 1, "documents' formula": theory},
+    )
+
+
+def _answer(
+    system: Mechanism, theta: Array, omega: Array, ask: Accelerations, amplitude: AmplitudeOf, accuracy: float
+) -> tuple[Array, Array]:
+    """Accelerations, and how far rounding may leave them from the exact ones [rad/s²], (B, n) each."""
+    alpha = ask(system, theta, omega)
+    return alpha, allowed(system.n, accuracy) * rounding(system, theta, omega, alpha, amplitude(system))
+
+
+def rounding(system: Mechanism, theta: Array, omega: Array, alpha: Array, amplitude: Amplitudes) -> Array:
+    """How far accelerations are from the exact ones by a backward error of one ε [rad/s²], (B, n)."""
+    mass = mass_matrix(system, theta)
+    return EPSILON * amplitude.answers(mass, amplitude.rows(alpha, omega, mass) * turns(theta)[:, None])
+
+
+def _same(alpha: Array) -> Array:
+    return alpha
+
+
+def mirrored(system: Mechanism, theta: Array, omega: Array) -> Image:
+    """Left and right changed over: θ, ω → -θ, -ω."""
+    return Image(system, system, -theta, -omega, np.negative)
+
+
+def reversed_rates(system: Mechanism, theta: Array, omega: Array) -> Image:
+    """Time reversed: ω → -ω."""
+    return Image(system, system, theta, -omega, _same)
+
+
+def turned_round(system: Mechanism, theta: Array, omega: Array) -> Image:
+    """Every angle once round, this way and that in turn."""
+    rounds = 2 * np.pi * (-1.0) ** np.arange(system.n)
+    largest = float(np.abs(theta).max(initial=0.0)) + 2 * np.pi
+    return Image(system, system, theta + rounds, omega, _same, moved=EPSILON / 2 * largest + TWO_PI_ERROR)
+
+
+def legs_permuted(system: Mechanism, theta: Array, omega: Array) -> Image | None:
+    """The legs, and their angles with them, one place on."""
+    if not isinstance(system, NLegPendulum) or system.n < 3:
+        return None
+    order = np.array([0, *np.roll(np.arange(1, system.n), 1)])
+    other = replace(
+        system, lengths=tuple(system.lengths[i] for i in order), masses=tuple(system.masses[i] for i in order)
+    )
+    undo = np.argsort(order)
+    return Image(system, other, theta[:, order], omega[:, order], lambda alpha: alpha[:, undo])
+
+
+def leg_split(system: Mechanism, theta: Array, omega: Array) -> Image | None:
+    """The last leg as two of half its mass that move together."""
+    if not isinstance(system, NLegPendulum):
+        return None
+    half = system.masses[-1] / 2
+    other = replace(system, lengths=(*system.lengths, system.lengths[-1]), masses=(*system.masses[:-1], half, half))
+    index = [*range(system.n), system.n - 1]
+    return Image(system, other, theta[:, index], omega[:, index], lambda alpha: alpha[:, :-1])
+
+
+def masses_scaled(system: Mechanism, theta: Array, omega: Array) -> Image:
+    """Eight times the mass everywhere."""
+    return Image(system, _scaled(system, mass=8.0), theta, omega, _same)
+
+
+def lengths_scaled(system: Mechanism, theta: Array, omega: Array) -> Image:
+    """Four times the length, and twice the time."""
+    return Image(system, _scaled(system, length=4.0), theta, omega / 2, lambda alpha: 4 * alpha)
+
+
+def gravity_scaled(system: Mechanism, theta: Array, omega: Array) -> Image | None:
+    """Four times gravity, and half the time."""
+    if not system.gravity:
+        return None
+    return Image(system, _scaled(system, gravity=4.0), theta, 2 * omega, lambda alpha: alpha / 4)
+
+
+def support_turned(system: Mechanism, theta: Array, omega: Array) -> Image:
+    """Without gravity there is no down: every angle turned by the same.
+
+    With gravity turned along the same would hold, but its direction is no part of a system: every adapter's is down.
+    """
+    weightless = replace(system, gravity=0.0)
+    return Image(weightless, weightless, theta + TURN, omega, _same)
+
+
+def _scaled(system: Mechanism, mass: float = 1.0, length: float = 1.0, gravity: float = 1.0) -> Mechanism:
+    lengths = tuple(length * l for l in system.lengths)
+    g = gravity * system.gravity
+    if isinstance(system, RodChain):  # a rod's mass goes with its length: the same at all lengths for m / length
+        return RodChain(lengths, mass * system.density, g)
+    return NLegPendulum(lengths, tuple(mass * m for m in system.masses), g)
+
+
+SYMMETRIES = (
+    Symmetry("mirror", "the mirror image moves as the mirror image of the motion", mirrored),
+    Symmetry("reversal", "accelerations are the same when all rates are reversed", reversed_rates),
+    Symmetry("2π", "an angle and the same once round are one place", turned_round),
+    Symmetry("permutation", "legs may be counted in any order", legs_permuted),
+    Symmetry("split leg", "two equal legs that move together are one of their mass", leg_split),
+    Symmetry("mass scale", "eight times the mass everywhere changes no motion", masses_scaled),
+    Symmetry("length scale", "four times the length takes twice the time", lengths_scaled),
+    Symmetry("gravity scale", "four times gravity takes half the time", gravity_scaled),
+    Symmetry("turned support", "without gravity no direction is down", support_turned),
+)

@@ -1,0 +1,312 @@
+"""Trajectories: each of an engine's own integrators at four steps, against a truth in quadruple precision.
+
+Two trajectories are never held against each other point by point: what an integrator of order p leaves after a fixed
+time is C h^p + O(h^(p+1)). Four runs, at h, h/2, h/4 and h/8, give three things:
+
+* the order that their differences show, which needs no truth: log₂ |y(h) - y(h/2)| / |y(h/2) - y(h/4)|, and the same
+  of the finer three. The finer decides; that the coarser is near it shows that the expansion holds;
+* where they converge to, and how sure that is (:mod:`furiko.reference.integration.richardson`);
+* whether the truth lies there. If it does, the engine integrates the same mechanism.
+
+In a chaotic motion errors grow until the expansion in h means nothing. The comparison therefore ends at the last of
+the truth's times at which the coarse run is still near the fine one.
+
+Rounding (:mod:`furiko.checks.step_rounding`) comes on top, in each of the finest run's steps, and what it does to a
+step grows until the end as any small difference does: how much, two runs from states beside the first tell.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...engines import Integrator
+from ...records.check import Result
+from ...reference.integration.richardson import amplified, at_step_zero, follows
+from ...reference.integration.schemes import SCHEMES
+from ...reference.kernels.forward_dynamics import plain_accelerations
+from ...reference.rounding.bounds import EPSILON
+from ...reference.truth.end_points import PARTS, lookup
+from ..cell import Cell, EngineFault
+from ..step_rounding import conversion, iterations_error, joints_apart, rounding_error
+
+Array = NDArray[np.float64]
+
+NAME = "trajectory"
+NEEDS = "trajectory"
+
+NEAR = (
+    1e-2  # [rad] the runs at h/2 and h/4 part less than this: within it, an error's growth is linear to about a percent
+)
+FIRST_STEPS = 8  # of the coarsest run; doubled until the expansion in h holds
+# The measured order is off by a part that is in proportion to h: once the expansion's first term rules, the finer one
+# is no further below the nominal one than this, and the coarser one no further than twice this.
+ORDER_SETTLED = 0.2
+MOST_STEPS = 1 << 17  # of the finest run; what has not converged by then does not
+FEW_STEPS, FEW_STEPS_FIRST_ORDER = 1 << 10, 1 << 14  # of ten links; no longer time is looked at for more
+KERNELS = 1e-14  # what furiko's own accelerations are sure to, of the largest
+SHIFT = 2.0**-24  # half of double precision's digits: the difference and its own rounding part evenly
+
+
+@dataclass(frozen=True)
+class EndPoint:
+    """The true angles [rad] at a time [s], (n,), and how sure they are [rad]."""
+
+    time: float
+    theta: Array
+    error: float
+
+
+@dataclass(frozen=True)
+class Rounding:
+    """By how much rounding moves angles and rates: in every step by ``angle`` [rad] and ``rate`` [rad/s], and in every
+    second, whatever the step, by ``turning`` [rad/s] and ``speeding`` [rad/s²].
+    """
+
+    angle: float
+    rate: float
+    turning: float
+    speeding: float
+
+    def after(self, steps: int, time: float, growth: tuple[float, float]) -> float:
+        """How much of it there can be in the angles at the end [rad]; ``growth`` as :func:`growth` gives it."""
+        by_angle = steps * self.angle + time * self.turning
+        by_rate = steps * self.rate + time * self.speeding
+        return by_angle * growth[0] + by_rate * growth[1]
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """Ends of four runs from the same state over the same time, at ``step``, half, a quarter and an eighth of it."""
+
+    step: float
+    steps: int
+    ends: tuple[Array, ...]  # θ, ω at the end, shape (2, n)
+
+    def orders(self) -> tuple[float, float]:
+        """What the coarser and the finer three runs' differences show: nan where they are nothing but rounding."""
+        gaps = self.gaps()
+        return _order(gaps[0], gaps[1]), _order(gaps[1], gaps[2])
+
+    def gaps(self) -> tuple[float, float, float]:
+        """Largest difference in angle of each two neighbouring runs [rad], coarsest first."""
+        first, second, third = (_apart(a[0], b[0]) for a, b in pairwise(self.ends))
+        return first, second, third
+
+    def settled(self, order: int) -> bool:
+        """Whether the expansion in h holds: near enough, and of the expected order or, its first term small, above."""
+        coarser, finer = self.orders()
+        fits = finer > order - ORDER_SETTLED and coarser > order - 2 * ORDER_SETTLED
+        return self.gaps()[1] < NEAR and fits and follows([end[0] for end in self.ends], order)
+
+    def astray(self, order: int) -> bool:
+        """Whether the expansion holds with a lower order than expected: no finer step will raise it again."""
+        coarser, finer = self.orders()
+        steady = abs(finer - coarser) < ORDER_SETTLED / 4 and abs(finer - round(finer)) < ORDER_SETTLED / 4
+        return self.gaps()[0] < NEAR and steady and finer < order - 0.5
+
+    def judges(self, order: int, noise: float) -> bool:
+        """Whether the runs differ by so much more than ``noise`` [rad] that their order can be told.
+
+        Each gap is off by two noises at most. With one of 16 × 2^p between the middle runs, that between the fine ones
+        is at most 16 + 2/2^p + 2, and the order of p comes out too low by log₂(19/16), a quarter, at most.
+        """
+        return self.gaps()[1] > 16 * 2.0**order * noise
+
+    def limit(self, order: int) -> tuple[Array, float]:
+        """Angles at step zero, and how far off they may be [rad]."""
+        return at_step_zero([end[0] for end in self.ends], order)
+
+
+def _order(coarse: float, fine: float) -> float:
+    return math.log2(coarse / fine) if 0 < fine < math.inf and 0 < coarse < math.inf else math.nan
+
+
+def compare(cell: Cell) -> Iterator[Result]:
+    """One result for each of the engine's integrators."""
+    scene = cell.scene
+    if scene.theta is None or scene.omega is None:
+        return
+    truth = lookup(scene.system, scene.theta, scene.omega, scene.duration)
+    error = truth.error + EPSILON * np.abs(truth.theta).max(-1)
+    points = tuple(map(EndPoint, [scene.duration * part for part in PARTS], truth.theta, error.tolist()))
+    theta, omega = np.array([scene.theta, *truth.theta]), np.array([scene.omega, *truth.omega])
+    alpha = plain_accelerations(scene.system, theta, omega)
+    off = measured_error(cell, theta, omega, alpha)
+    for integrator in cell.info.integrators:
+        yield _compare(cell, integrator, points, rounding(cell, integrator, theta, omega, alpha, off))
+
+
+def _compare(cell: Cell, integrator: Integrator, points: tuple[EndPoint, ...], rounded: Rounding) -> Result:
+    name, p = f"{NAME} {integrator.name}", integrator.order
+    point, ladder = settled(cell, integrator, points, rounded)
+    limit, uncertainty = ladder.limit(p)
+    grown = growth(cell, integrator, ladder)
+    noise = rounded.after(8 * ladder.steps, point.time, grown)
+    bound = uncertainty + amplified(p) * noise + point.error
+    if not math.isfinite(bound):
+        raise EngineFault(f"{integrator.name}: a run from a state beside the scene's does not come to its end")
+    missed = float(np.abs(limit - point.theta).max())
+    coarser, order = ladder.orders()
+    fits = order > p - 0.5 or not ladder.judges(p, noise)
+    agrees = missed <= bound and fits
+    return cell.result(
+        name,
+        "agrees" if agrees else "differs",
+        measured=missed,
+        allowed=bound,
+        unit="rad",
+        reason=_reason(integrator, order, missed, bound, fits, ladder.settled(p)),
+        details={
+            "integrator": integrator.name,
+            "nominal order": p,
+            "measured order": None if math.isnan(order) else order,
+            "measured order, coarser runs": None if math.isnan(coarser) else coarser,
+            "time": point.time,
+            "steps": [ladder.step / 2**k for k in range(4)],
+            "errors": [_finite(float(np.abs(end[0] - point.theta).max())) for end in ladder.ends],
+            "extrapolated error": missed,
+            "rounding": noise,
+            "growth of rounding": grown[0],
+        },
+    )
+
+
+def measured_error(cell: Cell, theta: Array, omega: Array, alpha: Array) -> float:
+    """How far the engine's accelerations are off on the way [rad/s²], from the true ones in states that it passes.
+
+    In other states they are as far off, give or take a factor of ten, and in none further than rounding's own bound,
+    which has room for the worst of everything at once.
+    """
+    bound = float(rounding_error(cell, theta, omega, alpha).max())
+    try:
+        answered = cell.answer("accelerations", cell.engine.accelerations(theta, omega), theta.shape)
+    except Exception:
+        return bound  # an engine that fails here has failed, or will, in a check of its own
+    return min(bound, float(10 * np.abs(answered - alpha).max() + KERNELS * np.abs(alpha).max()))
+
+
+def rounding(
+    cell: Cell, integrator: Integrator, theta: Array, omega: Array, alpha: Array, accelerations: float
+) -> Rounding:
+    """The worst of what it is in the states (B, n) that the motion passes, with accelerations off by so much.
+
+    A step adds a sum of stages to angles and rates: the addition is off by ε of these, the sum by ε of what changes in
+    the step.
+    """
+    schemes = [scheme for scheme in SCHEMES if scheme.order == integrator.order]
+    reach = max((scheme.reach for scheme in schemes), default=1.0)
+    summed = 1 + max((scheme.stages for scheme in schemes), default=1)
+    off = reach * (accelerations + iterations_error(cell, integrator, theta, omega, alpha).max())
+    angles, rates, changes = (EPSILON * conversion(cell, np.abs(values)).max() for values in (theta, omega, alpha))
+    if cell.info.coordinates == "maximal":
+        # A joint that is apart in one step and not in the next has moved angles and rates there and back again.
+        angles += joints_apart(cell, integrator, theta).max()
+    return Rounding(float(angles), float(rates), float(summed * rates), float(off + summed * changes))
+
+
+def settled(
+    cell: Cell, integrator: Integrator, points: tuple[EndPoint, ...], rounded: Rounding
+) -> tuple[EndPoint, Ladder]:
+    """The longest time within the horizon, and steps small enough that the measured orders have settled.
+
+    Longer and longer times, each from the steps that the one before needed, as far as few enough will do. How far that
+    is depends on the scheme and the mechanism alone, never on the machine's speed: a verdict is the same everywhere.
+    """
+    best: tuple[EndPoint, Ladder] | None = None
+    steps, most = FIRST_STEPS, MOST_STEPS
+    for point in points:
+        ladder = refine(cell, integrator, point, rounded, steps, most)
+        if best is not None and not ladder.settled(integrator.order):
+            break
+        best = point, ladder
+        steps = 2 * ladder.steps  # the next time is twice as long
+        most = few_steps(integrator, cell.scene.system.n)
+        if 8 * steps > most:
+            break
+    assert best is not None
+    if not all(map(math.isfinite, best[1].gaps())):
+        raise EngineFault(f"{integrator.name}: not every run came to its end, with {best[1].steps} steps and more")
+    return best
+
+
+def few_steps(integrator: Integrator, n: int) -> int:
+    """Steps of a run that is worth a longer time: schemes of first order need many, long mechanisms make them dear."""
+    return round((FEW_STEPS_FIRST_ORDER if integrator.order == 1 else FEW_STEPS) * min(1.0, 10 / n))
+
+
+def refine(cell: Cell, integrator: Integrator, point: EndPoint, rounded: Rounding, steps: int, most: int) -> Ladder:
+    """Halve the steps until the measured orders are near the nominal one, rounding is, or the finest has ``most``."""
+    ends = [run(cell, integrator, point.time, steps << k) for k in range(4)]
+    while True:
+        ladder = Ladder(point.time / steps, steps, tuple(ends))
+        noise = rounded.after(8 * steps, point.time, (1.0, point.time))
+        hidden = math.isfinite(ladder.gaps()[0]) and not ladder.judges(integrator.order, noise)
+        if ladder.settled(integrator.order) or hidden or 16 * steps > most:
+            return ladder
+        if ladder.astray(integrator.order):
+            return ladder
+        steps *= 2
+        ends = [*ends[1:], run(cell, integrator, point.time, steps << 3)]
+
+
+def run(
+    cell: Cell,
+    integrator: Integrator,
+    duration: float,
+    steps: int,
+    turned: Array | float = 0.0,
+    sped: Array | float = 0.0,
+) -> Array:
+    """The end of one run from the scene's state, its angles ``turned`` and its rates ``sped`` by so much.
+
+    Infinite where it blows up: too coarse a step makes a large error, and is not yet a fault.
+    """
+    assert cell.scene.theta is not None
+    assert cell.scene.omega is not None
+    theta, omega = np.array(cell.scene.theta) + turned, np.array(cell.scene.omega) + sped
+    try:
+        with np.errstate(all="ignore"):
+            return cell.trajectory(theta, omega, integrator, duration / steps, steps)
+    except EngineFault:
+        return np.full((2, theta.size), np.inf)
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def _apart(a: Array, b: Array) -> float:
+    """Largest difference [rad]; infinite where a run blew up."""
+    return float(np.abs(a - b).max()) if np.isfinite(a).all() and np.isfinite(b).all() else math.inf
+
+
+def growth(cell: Cell, integrator: Integrator, ladder: Ladder) -> tuple[float, float]:
+    """Angles at the end [rad] per angle [rad] and per rate [rad/s] at the start: the engine's own runs tell.
+
+    In directions that no symmetry makes special, as turning all angles alike would be. At least what free links do.
+    """
+    time, steps = ladder.step * ladder.steps, 2 * ladder.steps
+    signs = np.random.Generator(np.random.PCG64(1)).choice([-1.0, 1.0], cell.scene.system.n)
+    by_angle = run(cell, integrator, time, steps, turned=SHIFT * signs)
+    by_rate = run(cell, integrator, time, steps, sped=SHIFT / time * signs)
+    angle, rate = (float(np.abs(moved[0] - ladder.ends[1][0]).max()) / SHIFT for moved in (by_angle, by_rate))
+    return max(1.0, angle), max(1.0, rate) * time
+
+
+def _reason(integrator: Integrator, order: float, missed: float, bound: float, fits: bool, settled: bool) -> str:
+    if not fits:
+        return f"{integrator.name} is of order {integrator.order} and shows order {order:.2f}"
+    if missed > bound and not settled:
+        return f"{integrator.name} does not converge: order {order:.2f} with the finest steps"
+    if missed > bound:
+        return (
+            f"{integrator.name} converges, but {missed:.3g} rad beside the true motion; its extrapolation to step zero "
+            f"is sure to {bound:.3g} rad"
+        )
+    return f"order {order:.2f}; extrapolated to step zero the true motion is met"

@@ -1,0 +1,1 @@
+"""Exact formulas: trigonometric polynomials, fractions of them, and how they are written."""

@@ -1,0 +1,1 @@
+"""Each of the documents' numbered equations against first principles."""

@@ -1,0 +1,1 @@
+"""Reads a derivation, decides whether it is right, and names the mistakes where it is wrong."""

@@ -1,0 +1,67 @@
+"""Says by what one coefficient differs from the right one, where no mistake of the catalogue explains it."""
+
+from __future__ import annotations
+
+from ..algebra.notation import motion_text, pretty, text
+from ..algebra.symbols import Mechanism
+from ..algebra.trig import COS, Formula
+from ..mistakes.views import divided
+
+Told = tuple[str, str, str]  # code, English, Japanese
+
+
+def told(m: Mechanism, i: int, q: int, found: Formula, expected: Formula, name: str) -> Told:
+    """The code and the sentence for the term with motion ``q`` of row i, which is called ``name``."""
+    what = "gravity" if not q else pretty(motion_text(m.space, q))
+    code, english, japanese = _difference(m, found, expected)
+    where = f"Row {i + 1}, the {what} term ({name})"
+    wo = f"第{i + 1}式の {'重力' if not q else what} の項 ({name})"
+    return code, f"{where}: {english}.", f"{wo}：{japanese}。"
+
+
+def _difference(m: Mechanism, found: Formula, expected: Formula) -> Told:
+    if not found:
+        return "term-missing", "it is missing", "抜けています"
+    if not expected:
+        return "term-extra", "there is no such term", "このような項はありません"
+    factor = divided(found, expected)
+    if factor is not None:
+        return _factor(m, factor)
+    if found in (_swapped(expected), -_swapped(expected)):
+        return "sine-and-cosine-swapped", "sin and cos are swapped", "sin と cos が逆です"
+    return _part(m, found, expected)
+
+
+def _factor(m: Mechanism, factor: Formula) -> Told:
+    if factor.is_number():
+        size = factor.number()
+        if size == -1:
+            return "sign", "the sign is wrong", "符号が逆です"
+        known = {"2": "factor-two", "1/2": "factor-half"}.get(str(size), "factor-wrong")
+        return known, f"there is a factor {size} too many", f"余分な {size} が掛かっています"
+    shown = pretty(text(m.space, factor))
+    return "factor-wrong", f"there is a factor {shown} too many", f"余分な {shown} が掛かっています"
+
+
+def _part(m: Mechanism, found: Formula, expected: Formula) -> Told:
+    """One part of a sum: missing, with the wrong sign, or one too many."""
+    difference = found - expected
+    for key, c in difference.terms.items():
+        if len(difference) > 1:
+            break
+        part = pretty(text(m.space, Formula({key: abs(c)})))
+        right = expected.terms.get(key)
+        if right is None:
+            return "part-extra", f"{part} does not belong there", f"{part} は不要です"
+        if c == -right:
+            return "part-missing", f"the part {part} is missing", f"{part} が抜けています"
+        shown = pretty(text(m.space, Formula({key: right})))
+        if c == -2 * right:
+            return "part-sign", f"the part {shown} has the wrong sign", f"{shown} の符号が逆です"
+        return "part-factor", f"the part {shown} has the wrong factor", f"{shown} の係数が違います"
+    return "term-wrong", "it is not right", "正しくありません"
+
+
+def _swapped(f: Formula) -> Formula:
+    """cos for sin and sin for cos, of differences written with the first angle positive."""
+    return Formula({(e, h, 1 - phase if h else COS): c for (e, h, phase), c in f.terms.items()})

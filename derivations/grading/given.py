@@ -1,0 +1,58 @@
+"""What was handed in, made ready for comparison: exact rows in absolute angles, and how they look at a point."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..algebra.fingerprint import Vector
+from ..algebra.trig import Formula
+from ..mistakes.images import Images, View, images
+from ..mistakes.views import columns_to_absolute, merged
+from ..steps.derivation import Row, lagrange_rows
+from .submission import Submission
+
+
+@dataclass(frozen=True)
+class GivenRow:
+    """One row: its label, its coefficients in absolute angles, and their values at the point."""
+
+    label: str
+    row: Row
+    vector: Vector
+
+
+@dataclass(frozen=True)
+class Given:
+    """A whole derivation. ``lagrangian``: it was handed in, and ``rows`` are Lagrange's equations of it."""
+
+    seen: Images
+    rows: tuple[GivenRow, ...]
+    lagrangian: Formula | None
+
+    @property
+    def vectors(self) -> list[Vector]:
+        """The rows' values at the point."""
+        return [row.vector for row in self.rows]
+
+
+def given_of(submission: Submission) -> Given:
+    """Make a submission ready."""
+    m = submission.mechanism
+    is_lagrangian = submission.lagrangian is not None
+    view = View(m, submission.relative and not is_lagrangian, submission.equal_lengths, submission.equal_masses)
+    seen = images(view)
+
+    def absolute(f: Formula) -> Formula:
+        return m.space.substitute_angles(f, columns_to_absolute(m)) if submission.relative else f
+
+    lagrangian = merged(view, absolute(submission.lagrangian)) if submission.lagrangian is not None else None
+    written = (
+        submission.rows
+        if lagrangian is None
+        else tuple((str(i + 1), f) for i, f in enumerate(lagrange_rows(m.space, lagrangian)))
+    )
+    rows = []
+    for label, f in written:
+        row = m.space.split(merged(view, f if lagrangian is not None else absolute(f)))
+        rows.append(GivenRow(label, row, seen.point.vector(row)))
+    return Given(seen, tuple(rows), lagrangian)

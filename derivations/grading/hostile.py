@@ -1,0 +1,107 @@
+"""Makes inputs that no grader should choke on: right files damaged at random, and things people do to break parsers."""
+
+from __future__ import annotations
+
+import random
+import string
+
+from ..algebra.symbols import mechanism
+from ..steps.derivation import right
+from .rewriting import rewritten
+
+FRAGMENTS = [
+    "(", ")", "{", "}", "[", "]", "^", "**", "=", "==", "+", "-", "/", "*", "\\frac", "\\frac{", "\\ddot", "\\dot{",
+    "\\left", "\\sum_{i=1}^{3}", "cos", "sin(", "tan", "t1", "w9", "a0", "l_", "m_{", "theta", "θ̈₁", "²", "⁻", "½",
+    "1e9", "1e999", "0.0000000000001", "9" * 60, "__import__('os').system('true')", "eval(", "lambda:0", "#", ";",
+    "\\\\",
+    "\\input{/etc/passwd}", "\u0000", "\u202e", "𝜃", "٣", "＝", "'", '"', "'''", "\n", "\t", "%s", "{{7*7}}", "nan",
+    "inf", "^9^9^9", "^(-12)", "^12)^12)^12", "1/0", "/(l1-l1)", "cos(cos(t1))", "cos(w1)", "sin(t1*t2)", "t1",
+    "²²", "''''",
+]  # fmt: skip
+
+
+def hostile(draw: random.Random) -> str:
+    """One input: mostly malformed; a few are right files that were damaged in a place that does not matter."""
+    return draw.choice((_damaged, _damaged, _damaged, _line, _nested, _large, _file, _noise))(draw)
+
+
+def _valid(draw: random.Random) -> str:
+    m = mechanism(draw.choice(("n-leg", "rod-chain")), draw.choice((2, 3)))
+    return rewritten(m, right(m).rows, draw)
+
+
+def _damaged(draw: random.Random) -> str:
+    text = _valid(draw)
+    for _ in range(draw.randrange(1, 5)):
+        at, kind = draw.randrange(len(text) + 1), draw.randrange(4)
+        if kind == 0:
+            text = text[:at] + text[at + draw.randrange(1, 20) :]
+        elif kind == 1:
+            text = text[:at] + draw.choice(FRAGMENTS) + text[at:]
+        elif kind == 2:
+            text = text[:at] + draw.choice(string.printable) + text[at + 1 :]
+        else:
+            other = draw.randrange(len(text) + 1)
+            text = text[:at] + text[other : other + draw.randrange(40)] + text[at:]
+    return text
+
+
+def _equations(line: str, links: int = 2) -> str:
+    return f"system = 'n-leg'\nlinks = {links}\n[equations]\n1 = '''{line}'''\n"
+
+
+def _line(draw: random.Random) -> str:
+    return _equations("".join(draw.choice(FRAGMENTS) for _ in range(draw.randrange(1, 30))))
+
+
+def _nested(draw: random.Random) -> str:
+    depth = draw.choice((10, 60, 61, 500, 5000))
+    opening, closing = draw.choice((("(", ")"), ("{", "}"), ("\\frac{", "}{2}"), ("cos(", ")"), ("-", ""), ("sin", "")))
+    return _equations(opening * depth + "t1" + closing * depth + draw.choice(("", "=0", "=a1")))
+
+
+def _large(draw: random.Random) -> str:
+    size = draw.choice((50, 400, 3000, 30000))
+    return draw.choice((
+        _equations("*".join(["(m1+m2+l1+l2+g+w1+w2+cos(t1-t2))"] * min(size, 900)) + "=a1"),
+        _equations("((((m1+m2+l1)^12)^12)^12)^12=a1"),
+        _equations("+".join(["a1*cos(t1)"] * size) + "=0"),
+        _equations("1/(" + "+1/(".join(["m1+l1"] * min(size, 55)) + ")" * min(size, 55) + "=a1"),
+        _equations("*".join(["(1/(m1+l1)+1/(m2+l2)+cos(t1)/sin(t2))"] * min(size, 300)) + "=a1"),
+        _equations("a1 = " + "9" * size),
+        _equations("a1 = cos(" + "+".join(["t1"] * size) + ")"),
+        _doublings(draw, "A", "+"),
+        _doublings(draw, "A", "*"),
+        "x" * size,
+        "[" * size,
+        "system = 'n-leg'\nlinks = " + "9" * size,
+    ))  # fmt: skip
+
+
+def _doublings(draw: random.Random, name: str, sign: str) -> str:
+    count = draw.choice((5, 20, 39))
+    start = draw.choice(("m1", "(m1+l1)", "cos(t1)", "w1"))
+    lines = [f"{name}0 = '{start}'"] + [f"{name}{i} = '{name}{i - 1}{sign}{name}{i - 1}'" for i in range(1, count)]
+    return "system = 'n-leg'\nlinks = 2\n[define]\n" + "\n".join(lines) + f"\n[equations]\n1 = 'a1 = {name}{count - 1}'"
+
+
+def _file(draw: random.Random) -> str:
+    system = draw.choice(("'n-leg'", "'rod-chain'", "'cart'", "3", "true", "[]", "{}", "''"))
+    links = draw.choice(("2", "3", "0", "-1", "1e9", "'2'", "true", "10000000000", "2.0", "[2]", "20"))
+    body = draw.choice((
+        "[equations]", "[equations]\n1 = 3", "[equations]\n1 = ['a1=0']", "equations = []", "equations = 'a1=0'",
+        "equations = ['a1=0', 'a2=0']", "lagrangian = 1", "lagrangian = ''", "lagrangian = 'a1'",
+        "lagrangian = '1/(m1+m2)'",
+        "[equations]\n1 = 'a1=0'\n[define]\ncos = '1'", "[equations]\n1 = 'a1=0'\n[define]\nM = 'M'",
+        "angles = 'sideways'\n[equations]\n1 = 'a1=0'", "surprise = 1", "a.a.a.a.a.a = 1",
+        "[[equations]]\n1 = 'a1 = 0'",
+        "[equations]\n1 = 'a1^2 = 0'\n2 = 'a1*a2 = 0'", "[equations]\n1 = '0 = 0'\n2 = '0 = 0'",
+        "[equations]\n1='1/a1=0'",
+        "[equations]\n1='1/w1=a1'", "[equations]\n1='a1=cos(t1)^12*sin(t1)^12'",
+    ))  # fmt: skip
+    return f"system = {system}\nlinks = {links}\n{body}\n"
+
+
+def _noise(draw: random.Random) -> str:
+    alphabet = draw.choice((string.printable, "".join(FRAGMENTS), "".join(map(chr, range(1, 0x3000)))))
+    return "".join(draw.choice(alphabet) for _ in range(draw.randrange(300)))

@@ -1,0 +1,1 @@
+"""A page for a class: thirty mistakes, a question before each."""

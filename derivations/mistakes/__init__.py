@@ -1,0 +1,1 @@
+"""The catalogue of mistakes: every operator at every place of a derivation."""

@@ -1,0 +1,397 @@
+"""Mistakes in the finished rows: one term spoilt in copying or collecting, and the matrix form put together wrongly."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from flint import fmpq
+
+from ..algebra.notation import motion_text, pretty, sub, term_name
+from ..algebra.symbols import Mechanism
+from ..algebra.trig import COS, HALF, NOTHING, Formula, Key, Space, digit, digits, unit
+from ..steps.derivation import Derivation, Mistake, Row, right
+from .energy import everywhere, times
+
+Change = Callable[[Formula], Formula]
+
+
+def row_mistakes(m: Mechanism) -> Iterator[Mistake]:
+    """All of them, for one mechanism."""
+    for i, row in enumerate(right(m).rows):
+        for q, coefficient in row.items():
+            yield from _whole_term(m, i, q, coefficient)
+            yield from _symbols(m, i, q, coefficient)
+            yield from _parts(m, i, q, coefficient)
+            yield from _motion(m, i, q)
+        yield from _row_scaled(m, i)
+    yield from _matrix(m)
+
+
+def replace(d: Derivation, i: int, q: int, f: Formula, at: int | None = None) -> None:
+    """Replace one coefficient of row i; ``at``: it now stands with another product of rates and accelerations."""
+    row: Row = {k: v for k, v in d.rows[i].items() if k != q}
+    place = q if at is None else at
+    sum_ = row.get(place, NOTHING) + f
+    if sum_:
+        row[place] = sum_
+    else:
+        row.pop(place, None)
+    d.rows[i] = row
+
+
+def _told(m: Mechanism, i: int, q: int) -> tuple[str, str]:
+    """What a term is called: its place in the matrix form, and what it multiplies."""
+    what = "g" if not q else pretty(motion_text(m.space, q))
+    kind = ("the gravity term", "重力の項") if not q else (f"the {what} term", f"{what} の項")
+    return f"Row {i + 1}, {kind[0]} ({term_name(m, i, q)})", f"第{i + 1}式の{kind[1]} ({term_name(m, i, q)})"
+
+
+def _term(m: Mechanism, i: int, q: int, code: str, english: str, japanese: str, change: Change, *more: int) -> Mistake:
+    en, ja = _told(m, i, q)
+    return Mistake(
+        code, "equation", (i, *_places(m.space, q), *more), f"{en}: {english}.", f"{ja}：{japanese}。",
+        lambda d: replace(d, i, q, change(d.rows[i].get(q, NOTHING))),
+    )  # fmt: skip
+
+
+def _places(s: Space, q: int) -> tuple[int, ...]:
+    """A product of motion as places for a mistake's name: accelerations as they are, rates after them."""
+    return tuple(place for place, power in enumerate(digits(q, 2 * s.n)) for _ in range(abs(power)))
+
+
+def _whole_term(m: Mechanism, i: int, q: int, f: Formula) -> Iterator[Mistake]:
+    s = m.space
+    yield _term(m, i, q, "sign", "the sign is wrong", "符号が逆です", lambda f: -f)
+    yield _term(m, i, q, "term-missing", "it is missing", "抜けています", lambda f: NOTHING)
+    yield _term(
+        m, i, q, "factor-two", "there is a factor 2 too many", "余分な 2 が掛かっています", lambda f: f.times(2)
+    )
+    yield _term(
+        m, i, q, "factor-half", "there is a factor ½ too many", "余分な ½ が掛かっています", lambda f: f.times(HALF)
+    )
+    waves = {(h, phase) for _, h, phase in f.terms}
+    if waves != {(0, COS)}:
+        ((_, phase),) = {(0, p) for _, p in waves}
+        old, new = ("cos", "sin") if phase == COS else ("sin", "cos")
+        yield _term(
+            m, i, q, f"{new}-for-{old}", f"{new} stands where {old} belongs", f"{old} とすべき所が {new} です",
+            lambda f: _waves(s, f, lambda angle, phase: s.wave(angle, 1 - phase)),
+        )  # fmt: skip
+    angles = digits(next(iter(waves))[0], s.n)
+    if sum(1 for a in angles if a) == 2:
+        yield _term(
+            m, i, q, "angle-sum", "the angles are added; their difference belongs there",
+            "角の和になっています。差です",
+            lambda f: _waves(s, f, lambda angle, phase: s.wave({k: abs(a) for k, a in angle.items()}, phase)),
+        )  # fmt: skip
+    for old_angle in (k for k, a in enumerate(angles) if a):
+        for k in range(m.n):
+            if not angles[k]:
+                yield _term(
+                    m, i, q, "wrong-angle", f"θ{sub(k)} stands where θ{sub(old_angle)} belongs",
+                    f"θ{sub(old_angle)} とすべき所が θ{sub(k)} です",
+_other_angle(s, old_angle, k),
+                    old_angle, k,
+                )  # fmt: skip
+    if q == 0:
+        yield _term(m, i, q, "g-missing", "g is missing", "g が抜けています", lambda f: f * s.g.inverse_monomial())
+
+
+def _other_angle(s: Space, old: int, new: int) -> Change:
+    """θ_new inside cos and sin where θ_old stood."""
+
+    def wave(angle: dict[int, int], phase: int) -> Formula:
+        return s.wave({new if j == old else j: a for j, a in angle.items()}, phase)
+
+    return lambda f: _waves(s, f, wave)
+
+
+def _waves(s: Space, f: Formula, change: Callable[[dict[int, int], int], Formula]) -> Formula:
+    """Each term's cos or sin, as it is written (first angle positive), replaced by another."""
+    result = NOTHING
+    for (e, h, phase), c in f.terms.items():
+        angle = {k: a for k, a in enumerate(digits(h, s.n)) if a}
+        flipped = bool(angle) and next(iter(angle.values())) < 0
+        shown = {k: -a if flipped else a for k, a in angle.items()}
+        factor = Formula({(e, 0, COS): -c if flipped and phase != COS else c})
+        result = result + factor * (change(shown, phase) if angle else s.wave({}, phase))
+    return result
+
+
+def _symbols(m: Mechanism, i: int, q: int, f: Formula) -> Iterator[Mistake]:
+    """Mistakes in what all terms of a coefficient have in common: l, m."""
+    s, n = m.space, m.n
+    exponents = [digits(e, s.symbols) for e, _, _ in f.terms]
+    for letter, offset in (("l", 2 * n), ("m", 3 * n)):
+        common = [k for k in range(n) if all(e[offset + k] > 0 for e in exponents)]
+        for k in common:
+            name, place = f"{letter}{sub(k)}", offset + k
+            yield _term(
+                m, i, q, f"{_WORDS[letter]}-missing", f"{name} is missing", f"{name} が抜けています",
+                times(s.symbol(place).inverse_monomial()), k,
+            )  # fmt: skip
+            yield _term(
+                m, i, q, f"{_WORDS[letter]}-too-many", f"there is one {name} too many",
+                f"{name} が一つ多く掛かっています", times(s.symbol(place)), k,
+            )  # fmt: skip
+            for j in range(n):
+                if j != k:
+                    ratio = s.symbol(offset + j) * s.symbol(place).inverse_monomial()
+                    yield _term(
+                        m, i, q, f"wrong-{_WORDS[letter]}",
+                        f"{letter}{sub(j)} stands where {name} belongs",
+                        f"{name} とすべき所が {letter}{sub(j)} です", times(ratio), k, j,
+                    )  # fmt: skip
+        if letter == "l" and m.kind == "n-leg":
+            for k in range(n):
+                if k not in common:
+                    yield _term(
+                        m, i, q, "length-too-many", f"there is one l{sub(k)} too many",
+                        f"l{sub(k)} が一つ多く掛かっています",
+                        times(s.symbol(offset + k)), k,
+                    )  # fmt: skip
+
+
+_WORDS = {"l": "length", "m": "mass"}
+
+
+def _parts(m: Mechanism, i: int, q: int, f: Formula) -> Iterator[Mistake]:
+    """Mistakes in a sum of masses or lengths: a summand missing, or taken without its fraction."""
+    s = m.space
+    if len(f) < 2:
+        return
+    for key, c in f.terms.items():
+        summand = pretty(_summand(s, key))
+        yield _term(
+            m, i, q, "sum-incomplete", f"the sum leaves out {summand}", f"和に {summand} が入っていません",
+            _summand_sized(key, 0), *_own(m, key),
+        )  # fmt: skip
+        if abs(c) != 1:
+            yield _term(
+                m, i, q, "fraction-missing", f"{summand} stands in the sum without its {abs(c)}",
+                f"和の {summand} に {abs(c)} が掛かっていません",
+                _summand_sized(key, 1), *_own(m, key),
+            )  # fmt: skip
+
+
+def _own(m: Mechanism, key: Key) -> tuple[int, ...]:
+    """The link that a summand is about, as a place for the mistake's name."""
+    s, n = m.space, m.n
+    powers = digits(key[0], s.symbols)
+    offset = 3 * n if m.kind == "n-leg" else 2 * n
+    return tuple(k for k in range(n) for _ in range(powers[offset + k]) if powers[offset + k] > 0)
+
+
+def _summand(s: Space, key: Key) -> str:
+    powers = digits(key[0], s.symbols)
+    return " ".join(
+        s.names[place] + (f"^{power}" if power != 1 else "")
+        for place, power in enumerate(powers)
+        if power and place != 4 * s.n
+    )
+
+
+def _summand_sized(key: Key, size: int) -> Change:
+    """A summand left out (0), or without its fraction (1); its sign stays."""
+
+    def change(f: Formula) -> Formula:
+        c = f.terms.get(key)
+        if c is None:
+            return f
+        return f + Formula({key: -c}) + (Formula({key: fmpq(size if c > 0 else -size)}) if size else NOTHING)
+
+    return change
+
+
+def _motion(m: Mechanism, i: int, q: int) -> Iterator[Mistake]:
+    """The right coefficient with the wrong rate or acceleration."""
+    s, n = m.space, m.n
+    powers = {place: power for place, power in enumerate(digits(q, 2 * n)) if power}
+    if not powers:
+        return
+    ((place, power),) = powers.items()
+    en, ja = _told(m, i, q)
+
+    def moved(code: str, target: int, english: str, japanese: str) -> Mistake:
+        return Mistake(
+            code, "equation", (i, *_places(s, q), *_places(s, target)), f"{en}: {english}.", f"{ja}：{japanese}。",
+            lambda d: replace(d, i, q, d.rows[i].get(q, NOTHING), at=target),
+        )  # fmt: skip
+
+    for k in range(n):
+        if place < n and k != place:
+            yield moved(
+                "wrong-acceleration", unit(k), f"θ̈{sub(k)} stands where θ̈{sub(place)} belongs",
+                f"θ̈{sub(place)} とすべき所が θ̈{sub(k)} です",
+            )  # fmt: skip
+        if place >= n and k != place - n:
+            yield moved(
+                "wrong-rate", 2 * unit(n + k), f"θ̇{sub(k)}² stands where θ̇{sub(place - n)}² belongs",
+                f"θ̇{sub(place - n)}² とすべき所が θ̇{sub(k)}² です",
+            )  # fmt: skip
+            yield moved(
+                "rate-product", unit(n + k) + unit(place),
+                f"θ̇{sub(min(k, place - n))} θ̇{sub(max(k, place - n))} stands where θ̇{sub(place - n)}² belongs",
+                f"θ̇{sub(place - n)}² とすべき所が θ̇{sub(min(k, place - n))} θ̇{sub(max(k, place - n))} です",
+            )  # fmt: skip
+    if place >= n and power == 2:
+        name = f"θ̇{sub(place - n)}"
+        yield moved(
+            "square-missing", unit(place), f"{name} stands where {name}² belongs", f"{name}² とすべき所が {name} です"
+        )
+
+
+# The matrix form ------------------------------------------------------------------------------------------------------
+
+
+def _is_acceleration(s: Space, q: int) -> bool:
+    return any(digit(q, k) for k in range(s.n))
+
+
+def _row_scaled(m: Mechanism, i: int) -> Iterator[Mistake]:
+    """Row i divided, or multiplied, by something on one side of the equals sign only."""
+    s = m.space
+    factors: list[tuple[str, Formula, tuple[int, ...]]] = [(f"l{sub(i)}", s.l(i), (i,))]
+    if m.kind == "n-leg":
+        factors.append((f"m{sub(i)}", s.m(i), (i, i)))
+    for name, factor, places in factors:
+        for left in (True, False):
+            side, seite = ("left", "左辺") if left else ("right", "右辺")
+
+            def scaled(d: Derivation, factor: Formula = factor, left: bool = left) -> None:
+                d.rows[i] = {q: f * factor if _is_acceleration(s, q) != left else f for q, f in d.rows[i].items()}
+
+            yield Mistake(
+                f"divided-on-the-{side}-only", "matrix", places,
+                f"Row {i + 1} is divided by {name} only on the {side}, the side of the "
+                f"{'accelerations' if left else 'rates and gravity'}.",
+                f"第{i + 1}式で {name} による割り算が{seite}だけになっています。", scaled,
+            )  # fmt: skip
+
+    def other_side(d: Derivation) -> None:
+        d.rows[i] = {q: f if _is_acceleration(s, q) else -f for q, f in d.rows[i].items()}
+
+    yield Mistake(
+        "side-change-without-sign", "matrix", (i,),
+        f"Row {i + 1}: the terms with rates and with gravity change sides without changing sign.",
+        f"第{i + 1}式：速度と重力の項を移項したときに符号を変えていません。", other_side,
+    )  # fmt: skip
+
+
+def _matrix(m: Mechanism) -> Iterator[Mistake]:
+    s, n = m.space, m.n
+
+    def other_side(d: Derivation, i: int) -> None:
+        d.rows[i] = {q: f if _is_acceleration(s, q) else -f for q, f in d.rows[i].items()}
+
+    def velocity_sign(d: Derivation, i: int) -> None:
+        d.rows[i] = {q: -f if q and not _is_acceleration(s, q) else f for q, f in d.rows[i].items()}
+
+    def diagonal(d: Derivation, i: int) -> None:
+        d.rows[i] = {q: f for q, f in d.rows[i].items() if not _is_acceleration(s, q) or digit(q, i)}
+
+    def transposed(which: int) -> Callable[[Derivation], None]:
+        """Columns for rows, of the matrix of accelerations (0) or of squared rates (1)."""
+
+        def apply(d: Derivation) -> None:
+            places = [unit(k) if which == 0 else 2 * unit(n + k) for k in range(n)]
+            table = [[row.get(q, NOTHING) for q in places] for row in d.rows]
+            for i in range(n):
+                row = {q: f for q, f in d.rows[i].items() if q not in places}
+                d.rows[i] = row | {q: table[j][i] for j, q in enumerate(places) if table[j][i]}
+
+        return apply
+
+    yield everywhere(
+        "sides-changed-without-sign", "matrix",
+        "In every row, the terms with rates and with gravity change sides without changing sign.",
+        "すべての式で、速度と重力の項を移項したときに符号を変えていません。", other_side,
+    )  # fmt: skip
+    yield everywhere(
+        "velocity-terms-sign", "matrix", "Every term with squared rates has the wrong sign.",
+        "速度の2乗の項の符号がすべて逆です。", velocity_sign,
+    )  # fmt: skip
+    if n == 1:
+        return
+    yield everywhere(
+        "coupling-missing", "matrix", "The matrix of the accelerations has only its diagonal.",
+        "加速度の行列が対角成分だけになっています。", diagonal,
+    )  # fmt: skip
+    yield Mistake(
+        "matrix-transposed", "matrix", (0,),
+        "The matrix of the accelerations is transposed: l_i and l_j change places.",
+        "加速度の行列が転置されています（l_i と l_j が入れ替わっています）。", transposed(0),
+    )  # fmt: skip
+    yield Mistake(
+        "matrix-transposed", "matrix", (1,), "The matrix of the squared rates is transposed.",
+        "速度の2乗の行列が転置されています。", transposed(1),
+    )  # fmt: skip
+    yield from (_chain_matrix(m) if m.kind == "rod-chain" else _star_matrix(m))
+
+
+def _star_matrix(m: Mechanism) -> Iterator[Mistake]:
+    s, n = m.space, m.n
+    for i in range(1, n):
+        for j in range(1, n):
+            if i == j:
+                continue
+
+            def coupled(d: Derivation, i: int = i, j: int = j) -> None:
+                replace(d, i, unit(j), d.rows[i].get(unit(j), NOTHING) + s.m(j) * s.l(j) * s.cos({i: 1, j: -1}))
+
+            yield Mistake(
+                "legs-coupled", "matrix", (i, j),
+                f"A[{i + 1},{j + 1}] is not 0: legs act on link 1, not on each other.",
+                f"A[{i + 1},{j + 1}] が 0 ではありません。足どうしは直接には影響しません。", coupled,
+            )  # fmt: skip
+
+
+def _chain_matrix(m: Mechanism) -> Iterator[Mistake]:
+    """Takeno's L_j = l_j/2 + Σ_{i>j} l_i and α_jk = L_max(j,k) - δ_jk l_j/6, put together wrongly."""
+    s, n = m.space, m.n
+
+    def below(j: int, own: fmpq = HALF, start: int = 1) -> Formula:
+        total = s.l(j).times(own)
+        for i in range(j + start, n):
+            total = total + s.l(i)
+        return total
+
+    def rebuilt(
+        length: Callable[[int], Formula], pick: Callable[[int, int], int], delta: fmpq
+    ) -> Callable[[Derivation], None]:
+        def apply(d: Derivation) -> None:
+            for j in range(n):
+                row: Row = {0: length(j) * s.g * s.sin({j: 1})}
+                for k in range(n):
+                    alpha = (length(pick(j, k)) - (s.l(j).times(delta) if j == k else NOTHING)) * s.l(k)
+                    between = {j: 1, k: -1} if j != k else {}
+                    row[unit(k)] = alpha * s.cos(between)
+                    row[2 * unit(n + k)] = alpha * s.sin(between)
+                d.rows[j] = {q: f for q, f in row.items() if f}
+
+        return apply
+
+    sixth = fmpq(1, 6)
+    kinds: list[tuple[str, Callable[[Derivation], None], str, str]] = [
+        ("smaller-for-larger-index", rebuilt(below, min, sixth),
+         "L with the smaller of the two indices stands everywhere; what hangs below both is L with the larger",
+         "L の添字が小さい方になっています。両方より下にあるのは大きい方の添字です"),
+        ("own-length-whole", rebuilt(lambda j: below(j, fmpq(1)), max, sixth),
+         "L_j counts the rod's own length whole; it counts half, to the centre of mass",
+         "L_j で自分の長さを全部数えています。重心までの半分です"),
+        ("own-length-missing", rebuilt(lambda j: below(j, fmpq(0)), max, sixth),
+         "L_j leaves out l_j/2", "L_j に l_j/2 が抜けています"),
+        ("delta-sign", rebuilt(below, max, -sixth),
+         "δ_jk l_j/6 is added; it is subtracted", "δ_jk l_j/6 を足しています。引きます"),
+        ("delta-missing", rebuilt(below, max, fmpq(0)), "δ_jk l_j/6 is left out", "δ_jk l_j/6 が抜けています"),
+        ("sum-index-own", rebuilt(lambda j: s.l(j).times(HALF) + s.l(j).times(n - 1 - j), max, sixth),
+         "the sum in L_j adds l_j again and again; its index must run over the rods below (Takeno's (12) prints l_m)",
+         "L_j の和で l_j ばかり足しています。添字は下の棒を動きます（(12) の印刷では l_m）"),
+        ("sum-index-last", rebuilt(lambda j: s.l(j).times(HALF) + s.l(n - 1).times(n - 1 - j), max, sixth),
+         "the sum in L_j adds l_n again and again; its index must run over the rods below (Takeno's (12) prints l_m)",
+         "L_j の和で l_n ばかり足しています。添字は下の棒を動きます（(12) の印刷では l_m）"),
+        ("delta-third", rebuilt(below, max, fmpq(1, 3)),
+         "δ_jk l_j/3 stands where δ_jk l_j/6 belongs", "δ_jk l_j/6 とすべき所が l_j/3 です"),
+    ]  # fmt: skip
+    for code, apply, english, japanese in kinds:
+        yield Mistake(code, "matrix", (), f"In the matrices, {english}.", f"行列で、{japanese}。", apply)

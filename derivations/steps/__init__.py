@@ -1,0 +1,1 @@
+"""The equations of motion from first principles, step by step, and a motion by any rows."""

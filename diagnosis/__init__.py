@@ -1,0 +1,1 @@
+"""Why an engine or a model file differs from the theory: hypotheses, each tested by measurement."""

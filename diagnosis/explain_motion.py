@@ -1,0 +1,346 @@
+"""Why an engine's run is not what its integrator makes of the theory, where its accelerations are.
+
+One or two steps from a few states are enough: they are held against textbook schemes applied to the theory, as they
+are, a step late, with damping treated implicitly, or with something taken from the rates on the way. A run with a step
+far too large shows whether the engine owns up to instability. Whatever fits a scheme of the order that the engine's
+makers give is the same mechanism, and two such runs part by chaos only.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..engines import Integrator
+from ..models.mechanism import Mechanism
+from ..reference import planar_tree as planar
+from ..reference.integration.schemes import SCHEMES, Scheme
+from ..reference.planar_tree import Parameters
+from ..reference.rounding.bounds import EPSILON
+from .explain import mechanism_from
+from .finding import Finding
+from .measurement import Array, Measurement, probe_states
+
+LOOKED_AT = 4  # states
+STEP = 0.06  # over the fastest rate
+MARGIN = 30.0  # stages and iterations of a scheme, each with the rounding of an acceleration
+NARROW = 2.0**-24
+
+
+@dataclass(frozen=True)
+class _Runs:
+    """States at the start and after one and two steps, (2, S, n) each; and how much rounding may move a step's end."""
+
+    step: float
+    start: Array
+    once: Array
+    twice: Array
+    bound: Array
+
+
+def explain_motion(
+    engine: Any, expected: Any, integrator: Integrator, *, who: str = "the engine", parted: bool = False
+) -> list[Finding]:
+    """Why runs with ``integrator`` do not follow ``expected``, given that the accelerations do.
+
+    ``engine``: with ``trajectory(theta, omega, integrator, step, steps)``. ``parted``: two long runs were seen to part;
+    if nothing is wrong the finding is then ``chaos-only``, otherwise there is none.
+    """
+    mechanism = mechanism_from(expected)
+    p = planar.parameters(mechanism)
+    reset = _reset(engine, mechanism, integrator, who)
+    if reset:
+        return reset
+    runs = _run(engine, mechanism, p, integrator)
+    if not np.isfinite(runs.once).all():
+        return [Finding("unexplained", who, None, None, f"{who}: {integrator.name}: NaN after one step")]
+
+    def accelerations(theta: Any, omega: Any) -> Any:
+        return planar.accelerations(mechanism.parents, p, theta, omega)
+
+    fitting = _fitting(runs, accelerations, integrator.order)
+    if fitting is not None:
+        return _scheme(fitting, integrator, who, parted)
+    return _not_a_scheme(engine, mechanism, p, runs, accelerations, integrator, who, parted)
+
+
+def _not_a_scheme(
+    engine: Any,
+    mechanism: Mechanism,
+    p: Parameters,
+    runs: _Runs,
+    accelerations: Any,
+    integrator: Integrator,
+    who: str,
+    parted: bool,
+) -> list[Finding]:
+    """Why a step is none of the textbook schemes'."""
+    for hypothesis in (_late, _implicit_damping, _hidden_damping, _narrow):
+        found = list(hypothesis(runs, accelerations, mechanism, p, integrator, who))
+        if found:
+            return found
+    if _converges(engine, mechanism, accelerations, runs, integrator):
+        return [_chaos(integrator, "its steps converge to the theory's motion", who)] if parted else []
+    found = list(_dissipation(runs, accelerations, mechanism, p, integrator, who))
+    if found:
+        return found
+    miss, scheme = min(((_miss(runs, s, accelerations), s.name) for s in SCHEMES), key=lambda pair: pair[0])
+    says = (
+        f"{who}: {integrator.name}: a step is no textbook scheme's; nearest is {scheme}, {miss:.3g} times what "
+        "rounding explains"
+    )
+    return [Finding("unexplained", f"{who}, {integrator.name}", miss, 1.0, says)]
+
+
+def _run(engine: Any, m: Mechanism, p: Parameters, integrator: Integrator) -> _Runs:
+    theta, omega = (values[:LOOKED_AT] for values in probe_states(m, 8, seed=11))
+    alpha = planar.accelerations(m.parents, p, theta, omega)
+    fastest = max(float(np.abs(omega).max()), math.sqrt(float(np.abs(alpha).max())), 1e-3)
+    step = 2.0 ** round(math.log2(STEP / fastest))
+    ends = []
+    for steps in (1, 2):
+        rows = [engine.trajectory(t, w, integrator.name, step, steps) for t, w in zip(theta, omega, strict=True)]
+        ends.append(np.array(rows).swapaxes(0, 1))
+    rounding = _acceleration_error(m, p, theta, omega, alpha)
+    iterations = 1e-11 * step * np.abs(alpha).max(axis=1, keepdims=True)  # where an implicit scheme stops
+    rates = MARGIN * step * rounding + iterations + 64 * EPSILON * np.abs(omega)
+    bound = np.stack([step * rates + 64 * EPSILON * np.abs(theta), rates])
+    return _Runs(step, np.stack([theta, omega]), ends[0], ends[1], bound)
+
+
+def _acceleration_error(m: Mechanism, p: Parameters, theta: Array, omega: Array, alpha: Array) -> Array:
+    """What rounding in an engine leaves of an acceleration, (S, n)."""
+    zero = np.zeros_like(theta)
+    one = Measurement(m.parents, theta, omega, alpha, zero, np.ones(len(theta), dtype=bool))
+    scale = one.scale(p)
+    inverse = np.linalg.inv(planar.mass_matrix(m.parents, p, theta))
+    spread = scale.copy()
+    for i, parent in enumerate(m.parents):
+        if parent >= 0:
+            spread[:, parent] += scale[:, i]
+    return np.asarray((np.abs(inverse) @ spread[..., None])[..., 0])
+
+
+def _fitting(runs: _Runs, accelerations: Any, order: int) -> Scheme | None:
+    """The scheme whose step it is; of several alike in this step one of the expected order."""
+    found = [(s.order < order, miss, s) for s in SCHEMES if (miss := _miss(runs, s, accelerations)) <= 1]
+    return min(found, key=lambda found: found[:2])[2] if found else None
+
+
+def _miss(runs: _Runs, scheme: Scheme, accelerations: Any, end: Array | None = None) -> float:
+    """How far the engine's first step (or ``end``) is from the scheme's, in units of what rounding explains."""
+    with np.errstate(all="ignore"):
+        try:
+            made = np.stack(scheme.step(accelerations, runs.start[0], runs.start[1], runs.step))
+        except (ArithmeticError, RuntimeError):
+            return math.inf
+        off = np.abs((runs.once if end is None else end) - made.astype(np.float64))
+    worst = float(np.max(off / runs.bound))
+    return worst if math.isfinite(worst) else math.inf
+
+
+def _scheme(scheme: Scheme, integrator: Integrator, who: str, parted: bool) -> list[Finding]:
+    where = f"{who}, {integrator.name}"
+    if scheme.order < integrator.order:
+        says = f"{who}: {integrator.name}: its step is {scheme.name}, of order {scheme.order}, not {integrator.order}"
+        return [Finding("first-order-integrator", where, scheme.order, integrator.order, says)]
+    if not parted:
+        return []
+    return [_chaos(integrator, f"its step is {scheme.name} to rounding", who)]
+
+
+def _chaos(integrator: Integrator, shown: str, who: str) -> Finding:
+    says = (
+        f"{who}: {integrator.name}: accelerations agree and {shown}: the same mechanism; what neighbouring runs part "
+        "by is the motion's own growth of small errors"
+    )
+    return Finding("chaos-only", f"{who}, {integrator.name}", None, None, says)
+
+
+def _converges(engine: Any, m: Mechanism, accelerations: Any, runs: _Runs, integrator: Integrator) -> bool:
+    """Whether what a run over a fixed time misses falls with the step as the scheme's order has it.
+
+    For schemes in other coordinates, whose step is none of the textbook's in these.
+    """
+    theta, omega = runs.start
+    finest = max(SCHEMES, key=lambda s: s.order)
+    state, errors = (theta, omega), []
+    for _ in range(16):
+        made = finest.step(accelerations, state[0], state[1], runs.step)
+        state = np.asarray(made[0], dtype=np.float64), np.asarray(made[1], dtype=np.float64)
+    for finer in (1, 4):
+        steps = 16 * finer
+        step, starts = runs.step / finer, zip(theta, omega, strict=True)
+        ends = [engine.trajectory(t, w, integrator.name, step, steps)[0] for t, w in starts]
+        errors.append(float(np.abs(np.array(ends) - state[0]).max()))
+    return errors[0] < 0.1 and errors[1] * 4 ** (integrator.order - 0.5) <= errors[0]
+
+
+def _late(
+    runs: _Runs, accelerations: Any, m: Mechanism, p: Parameters, integrator: Integrator, who: str
+) -> Iterator[Finding]:
+    """After one step the start, or part of it; after two steps what one should have given."""
+    stayed = np.abs(runs.once - runs.start) <= runs.bound
+    parts = [name for name, part in zip(("angles", "rates"), stayed, strict=True) if part.all()]
+    if not parts:
+        return
+    second = [s for s in SCHEMES if _late_miss(runs, s, accelerations, parts) <= 1]
+    if second:
+        says = (
+            f"{who}: {integrator.name}: {' and '.join(parts)} come one step late: after two steps they are what "
+            f"{second[0].name} gives after one"
+        )
+        yield Finding("stale-derived-state", f"{who}, {integrator.name}", -1.0, 0.0, says)
+
+
+def _late_miss(runs: _Runs, scheme: Scheme, accelerations: Any, parts: list[str]) -> float:
+    made = np.stack(scheme.step(accelerations, runs.start[0], runs.start[1], runs.step)).astype(np.float64)
+    rows = [row for row, name in enumerate(("angles", "rates")) if name in parts]
+    return float(np.max((np.abs(runs.twice - made) / runs.bound)[rows]))
+
+
+def _implicit_damping(
+    runs: _Runs, accelerations: Any, m: Mechanism, p: Parameters, integrator: Integrator, who: str
+) -> Iterator[Finding]:
+    """ω⁺ = ω + h (M + h D)⁻¹ M α, θ⁺ = θ + h ω⁺."""
+    if not p.damping.any():
+        return
+    theta, omega = runs.start
+    mass = planar.mass_matrix(m.parents, p, theta)
+    damping = np.zeros_like(mass)
+    for i, parent in enumerate(m.parents):
+        d = p.damping[i]
+        damping[:, i, i] += d
+        if parent >= 0:
+            damping[:, parent, parent] += d
+            damping[:, i, parent] -= d
+            damping[:, parent, i] -= d
+    force = (mass @ accelerations(theta, omega)[..., None])[..., 0]
+    rates = omega + runs.step * np.linalg.solve(mass + runs.step * damping, force[..., None])[..., 0]
+    ends = np.stack([theta + runs.step * rates, rates])
+    if float(np.max(np.abs(runs.once - ends) / runs.bound)) <= 1:
+        says = (
+            f"{who}: {integrator.name}: its step is semi-implicit Euler with the damping taken at the step's end, "
+            "(M + h D)⁻¹; it vanishes with the step"
+        )
+        yield Finding("implicit-damping", f"{who}, {integrator.name}", runs.step, 0.0, says)
+
+
+def _hidden_damping(
+    runs: _Runs, accelerations: Any, m: Mechanism, p: Parameters, integrator: Integrator, who: str
+) -> Iterator[Finding]:
+    """Rates that every step makes less by the same share, or each hinge's relative rate by a torque."""
+    where = f"{who}, {integrator.name}"
+    theta, omega = runs.start
+    for scheme in (s for s in SCHEMES if s.order >= integrator.order):
+        made = np.stack(scheme.step(accelerations, theta, omega, runs.step)).astype(np.float64)
+        off = runs.once[1] - made[1]
+        clear = np.abs(off) > 10 * runs.bound[1]
+        if clear.mean() < 0.5:
+            continue
+        shares = [(off / (runs.step * rates))[clear] for rates in (made[1], omega)]  # taken at the end, or all along
+        share = min(shares, key=lambda share: float(np.median(np.abs(share / np.median(share) - 1))))
+        middle = float(np.median(share))
+        if float(np.quantile(np.abs(share - middle), 0.9)) <= 0.1 * abs(middle) and middle < 0:
+            rate = -middle
+            says = (
+                f"{who}: {integrator.name}: rates are damped by {rate:.4g} of themselves a second, which accelerations "
+                "do not show"
+            )
+            yield Finding("damping", where, rate, 0.0, says)
+            return
+        torque = (planar.mass_matrix(m.parents, p, theta) @ (off / runs.step)[..., None])[..., 0]
+        own = planar.relative_rows(m.parents, torque)
+        relative = omega.copy()
+        for i, parent in enumerate(m.parents):
+            if parent >= 0:
+                relative[:, i] -= omega[:, parent]
+        coefficients = -own / relative
+        spread = coefficients.std(axis=0)
+        if (spread <= 0.2 * np.abs(coefficients.mean(axis=0))).all() and (coefficients > 0).all():
+            worst = int(coefficients.mean(axis=0).argmax())
+            value = float(np.median(coefficients[:, worst]))
+            says = (
+                f"{who}: {integrator.name}: joint {worst + 1} is damped by about {value:.4g} N m s in each step, which "
+                "accelerations do not show"
+            )
+            yield Finding("damping", where, value, 0.0, says)
+            return
+
+
+def _narrow(
+    runs: _Runs, accelerations: Any, m: Mechanism, p: Parameters, integrator: Integrator, who: str
+) -> Iterator[Finding]:
+    """States that are numbers of 24 bits."""
+    if (runs.once == runs.once.astype(np.float32)).all():
+        says = f"{who}: {integrator.name}: its states are numbers of 24 bits: single precision"
+        yield Finding("float32", f"{who}, {integrator.name}", NARROW, EPSILON / 2, says)
+
+
+def _dissipation(
+    runs: _Runs, accelerations: Any, m: Mechanism, p: Parameters, integrator: Integrator, who: str
+) -> Iterator[Finding]:
+    """Energy goes, far more than the scheme loses, and not with the rates alone."""
+    theta, omega = runs.start
+    scheme = next(s for s in SCHEMES if s.order >= integrator.order)
+    made = np.stack(scheme.step(accelerations, theta, omega, runs.step)).astype(np.float64)
+    before = _energy(m, p, theta, omega)
+    change = _energy(m, p, *runs.once) - before
+    due = _energy(m, p, *made) - before
+    size = np.abs(_kinetic(m, p, theta, omega)) + 1e-300
+    loss = (change - due) / size
+    if (loss < -1e3 * EPSILON).all():
+        says = (
+            f"{who}: {integrator.name}: accelerations agree, yet a step of {runs.step:g} s loses "
+            f"{float(-np.median(loss)):.3g} of the kinetic energy: what keeps the constraints takes it"
+        )
+        yield Finding("constraint-dissipation", f"{who}, {integrator.name}", float(np.median(loss)), 0.0, says)
+
+
+def _energy(m: Mechanism, p: Parameters, theta: Array, omega: Array) -> Array:
+    kinetic = _kinetic(m, p, theta, omega)
+    hinge_x, hinge_y = np.zeros_like(theta), np.zeros_like(theta)
+    potential = np.zeros(len(theta))
+    for i, parent in enumerate(m.parents):
+        if parent >= 0:
+            c, s = np.cos(theta[:, parent]), np.sin(theta[:, parent])
+            a, b = m.links[i].hinge
+            hinge_x[:, i] = hinge_x[:, parent] + a * c - b * s
+            hinge_y[:, i] = hinge_y[:, parent] + a * s + b * c
+        c, s = np.cos(theta[:, i]), np.sin(theta[:, i])
+        a, b = m.links[i].com
+        x, y = hinge_x[:, i] + a * c - b * s, hinge_y[:, i] + a * s + b * c
+        potential -= m.links[i].mass * (m.gravity[0] * x + m.gravity[1] * y)
+    return kinetic + potential
+
+
+def _kinetic(m: Mechanism, p: Parameters, theta: Array, omega: Array) -> Array:
+    return np.asarray(np.einsum("si,sij,sj->s", omega, planar.mass_matrix(m.parents, p, theta), omega) / 2)
+
+
+def _reset(engine: Any, m: Mechanism, integrator: Integrator, who: str) -> list[Finding]:
+    """With a step far too large two different starts must not end alike, at rest where the model starts."""
+    theta, omega = (values[:2] for values in probe_states(m, 4, seed=17))
+    alpha = planar.accelerations(m.parents, planar.parameters(m), theta, omega)
+    period = 1.0 / max(math.sqrt(float(np.abs(alpha).max())), 1e-3)
+    for times, steps in ((20.0, 3), (20.0, 30), (1e3, 100), (1e5, 100)):
+        step = times * period
+        with np.errstate(all="ignore"):
+            try:
+                ends = [
+                    np.array(engine.trajectory(t, 30 * w, integrator.name, step, steps))
+                    for t, w in zip(theta, omega, strict=True)
+                ]
+            except (ArithmeticError, RuntimeError, ValueError):
+                return []
+        if all(np.isfinite(end).all() for end in ends) and (ends[0] == ends[1]).all():
+            says = (
+                f"{who}: {integrator.name}: after {steps} steps of {step:.3g} s, far too long, two different starts are"
+                " in the very same state: the engine has put itself back and says nothing"
+            )
+            return [Finding("silent-reset", f"{who}, {integrator.name}", steps, None, says)]
+    return []

@@ -1,0 +1,153 @@
+"""What an engine does in many states, and how far that is from a planar mechanism's equations of motion.
+
+Accelerations are put into the equations (:func:`furiko.reference.planar.torques`): whatever torque is then left over
+is divided by what rounding explains of it. One number a state and a hinge, which is at most one where both are the same
+mechanism; and linear in most of a mechanism's parameters, so that these can be solved for.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..models.mechanism import Mechanism
+from ..models.tree import SUPPORT
+from ..reference import planar_tree as planar
+from ..reference.planar_tree import Parameters
+from ..reference.rounding.bounds import EPSILON, allowed
+
+Array = NDArray[np.float64]
+
+# Readers of files turn frames into one another: a handful of roundings a body that the engine's own count has not.
+READING = 4
+STATES = 32
+QUANTUM = 2.0**-30
+
+
+class Asked(Protocol):
+    """All that an engine is asked for here, in absolute angles (B, n)."""
+
+    def accelerations(self, theta: Array, omega: Array) -> Array: ...
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """Motions and the generalised forces with which the engine says they come about: ``theta`` [rad], ``omega``,
+    ``alpha`` and ``torque`` [N m], shape (S, n), absolute. ``forward``: rows of forward dynamics, where nothing drives.
+    ``accuracy``: relative accuracy of the engine's operations.
+    """
+
+    parents: tuple[int, ...]
+    theta: Array
+    omega: Array
+    alpha: Array
+    torque: Array
+    forward: NDArray[np.bool_]
+    accuracy: float = EPSILON
+
+    def __len__(self) -> int:
+        return len(self.theta)
+
+    def scale(self, p: Parameters) -> Array:
+        """What rounding explains of each relative row [N m], (S, n)."""
+        bound = READING * allowed(len(self.parents), self.accuracy) * EPSILON
+        sizes = planar.magnitudes(self.parents, p, self.theta, self.omega, self.alpha)
+        # An engine that factorises the mass matrix has its rounding there: see :mod:`furiko.reference.rounding.bounds`.
+        root = np.sqrt(planar.stretched_inertias(self.parents, p))
+        felt = np.abs(relative(self.parents, self.alpha)) @ root
+        return np.asarray(np.maximum(bound * np.maximum(sizes, root * felt[:, None]), 1e-290))
+
+    def left_over(self, p: Parameters, scale: Array) -> Array:
+        """Relative rows of (equations − torque) over ``scale``; leading axes of ``p`` come first: (…, S, n)."""
+        rows = planar.torques(self.parents, p, self.theta, self.omega, self.alpha) - self.torque
+        return np.asarray(planar.relative_rows(self.parents, rows) / scale)
+
+    def worst(self, p: Parameters) -> float:
+        """The largest of them in magnitude: at most one where the engine has these parameters."""
+        return float(np.max(np.abs(self.left_over(p, self.scale(p))), initial=0.0))
+
+    def only(self, chosen: NDArray[np.bool_]) -> Measurement:
+        """Some of the rows."""
+        theta, omega, alpha, torque = (rows[chosen] for rows in (self.theta, self.omega, self.alpha, self.torque))
+        return Measurement(self.parents, theta, omega, alpha, torque, self.forward[chosen], self.accuracy)
+
+
+def probe_states(mechanism: Mechanism, count: int = STATES, seed: int = 1) -> tuple[Array, Array]:
+    """Angles all round the circle, inside the hinges' stops where there are some; rates of both signs, none small.
+
+    Multiples of a power of two, so that relative angles are exact. Shape (count, n) each.
+    """
+    generator = np.random.Generator(np.random.PCG64(seed))
+    n = mechanism.n
+    phi = generator.uniform(-np.pi, np.pi, (count, n))
+    for i, hinge in enumerate(mechanism.hinges):
+        if hinge.stops is not None:
+            low, high = hinge.stops
+            margin = 0.02 * (high - low)
+            phi[:, i] = generator.uniform(max(low + margin, -np.pi), min(high - margin, np.pi), count)
+    hinges = sum(float(np.hypot(*link.hinge)) for link in mechanism.links)
+    centres = [float(np.hypot(*link.com)) for link in mechanism.links]
+    natural = np.sqrt(max(float(np.hypot(*mechanism.gravity)), 1.0) / max(hinges, *centres, 1e-3))
+    rates = natural * generator.uniform(0.5, 3.0, (count, n)) * generator.choice([-1.0, 1.0], (count, n))
+    return absolute(mechanism.parents, _quantised(phi)), absolute(mechanism.parents, _quantised(rates))
+
+
+def _quantised(values: Array) -> Array:
+    return np.asarray(np.round(values / QUANTUM) * QUANTUM)
+
+
+def relative(parents: tuple[int, ...], values: Array) -> Array:
+    """Each link's angle (rate, acceleration) less its parent's."""
+    found = values.copy()
+    for i, parent in enumerate(parents):
+        if parent != SUPPORT:
+            found[:, i] = values[:, i] - values[:, parent]
+    return np.asarray(found)
+
+
+def absolute(parents: tuple[int, ...], values: Array) -> Array:
+    """The inverse of :func:`relative`."""
+    found = values.copy()
+    for i, parent in enumerate(parents):
+        if parent != SUPPORT:
+            found[:, i] += found[:, parent]
+    return np.asarray(found)
+
+
+def measure(engine: Any, mechanism: Mechanism, accuracy: float = EPSILON, seed: int = 1) -> Measurement:
+    """Ask an engine in :func:`probe_states`: forward dynamics, and inverse dynamics where it has them.
+
+    Raises RuntimeError where it answers with NaN or infinity.
+    """
+    theta, omega = probe_states(mechanism, max(STATES, 2 * mechanism.n), seed)
+    alpha = _finite("accelerations", engine.accelerations(theta, omega), theta.shape)
+    parts = [(theta, omega, alpha, np.zeros_like(alpha))]
+    if has_inverse_dynamics(engine):
+        generator = np.random.Generator(np.random.PCG64(seed + 1))
+        asked = _quantised(np.abs(omega).max() ** 2 * generator.uniform(-1, 1, theta.shape))
+        torque = _finite("inverse dynamics", engine.inverse_dynamics(theta, omega, asked), theta.shape)
+        parts.append((theta, omega, asked, torque))
+    theta, omega, alpha, torque = (np.concatenate([part[k] for part in parts]) for k in range(4))
+    forward = np.concatenate([np.full(len(part[0]), k == 0) for k, part in enumerate(parts)])
+    return Measurement(mechanism.parents, theta, omega, alpha, torque, forward, accuracy)
+
+
+def has_inverse_dynamics(engine: Any) -> bool:
+    """Whether the engine gives generalised forces."""
+    info = getattr(engine, "info", None)
+    missing = getattr(info, "missing", {})
+    return hasattr(engine, "inverse_dynamics") and "inverse_dynamics" not in missing
+
+
+def _finite(quantity: str, answer: object, shape: tuple[int, ...]) -> Array:
+    values = np.asarray(answer, dtype=np.float64)
+    if values.shape != shape:
+        raise RuntimeError(f"{quantity}: shape {values.shape} returned, {shape} expected")
+    if not np.isfinite(values).all():
+        raise RuntimeError(
+            f"{quantity}: {int((~np.isfinite(values)).sum())} of {values.size} values are NaN or infinite"
+        )
+    return values

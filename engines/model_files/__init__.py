@@ -1,0 +1,1 @@
+"""A user's own model file in each engine that reads it."""

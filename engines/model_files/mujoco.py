@@ -1,0 +1,177 @@
+"""A user's MJCF or URDF in MuJoCo, read by MuJoCo itself.
+
+The compiler refuses a moving body without inertia; where it does, it is told to lift it (``boundinertia``), and what
+the file says is put into the compiled model, whose equations need no more.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from ...models.mechanism import Body, Mechanism, SpatialHinge, planar_mechanism
+from ...models.readers.model_file import ModelFile
+from ...models.spatial import Inertial, Pose, from_quaternion
+from ..mujoco import _quiet_data
+from ..protocol import Array
+from .adapter import FileCoordinates, in_order
+
+LIFTED = {"mjcf": 1e-15, "urdf": 1e-14}  # the smallest that its two readers take [kg m²]
+REFUSED = ("mjMINVAL", "positive eigenvalues")
+SWITCHES = {
+    "contact": mujoco.mjtDisableBit.mjDSBL_CONTACT,
+    "limit": mujoco.mjtDisableBit.mjDSBL_LIMIT,
+    "frictionloss": mujoco.mjtDisableBit.mjDSBL_FRICTIONLOSS,
+    "spring": mujoco.mjtDisableBit.mjDSBL_SPRING,
+    "damper": mujoco.mjtDisableBit.mjDSBL_DAMPER,
+    "gravity": mujoco.mjtDisableBit.mjDSBL_GRAVITY,
+}
+
+
+class MujocoFile:
+    """The file in MuJoCo."""
+
+    def __init__(self, model: ModelFile) -> None:
+        # Otherwise a model that is nearly singular has MuJoCo write a file MUJOCO_LOG.TXT into the present folder.
+        mujoco.set_mju_user_warning(lambda message: None)
+        self._file = model
+        self._notes: list[str] = []
+        self._model = self._compile(model)
+        hinges = model.mechanism.hinges
+        if self._model.nv != len(hinges):
+            raise ValueError(f"MuJoCo compiled {self._model.nv} degrees of freedom, the file has {len(hinges)}")
+        columns = [int(self._model.joint(hinge.name).dofadr[0]) for hinge in hinges]
+        if model.language == "urdf":  # which says nothing of gravity
+            self._model.opt.gravity[:] = model.mechanism.gravity_vector
+        self._data = _quiet_data(self._model)
+        self._coordinates = FileCoordinates(model.mechanism, columns)
+
+    def _compile(self, file: ModelFile) -> Any:
+        try:
+            compiled = mujoco.MjModel.from_xml_string(file.text)
+        except ValueError as error:
+            if not any(words in str(error) for words in REFUSED):
+                raise
+            compiled = self._lifted(file)
+        for body in file.bodies:
+            found = mujoco.mj_name2id(compiled, mujoco.mjtObj.mjOBJ_BODY, body.name)
+            if found > 0 and not body.inertial.tensor.any():
+                compiled.body_inertia[found] = 0.0
+        return compiled
+
+    def _lifted(self, file: ModelFile) -> Any:
+        least = LIFTED[file.language]
+        bound = f'<compiler boundinertia="{least!r}"/>'
+        if file.language == "urdf":
+            bound = f"<mujoco>{bound}</mujoco>"
+        start = file.text.index(">") + 1
+        compiled = mujoco.MjModel.from_xml_string(file.text[:start] + bound + file.text[start:])
+        self._notes.append(
+            f"MuJoCo refuses a moving body without inertia: it was compiled with {least:g} kg m² and set back to none"
+        )
+        return compiled
+
+    def compiled(self) -> Mechanism:
+        model, bodies = self._model, []
+        names = {hinge.name: hinge for hinge in self._file.mechanism.hinges}
+        for b in range(1, model.nbody):
+            first = int(model.body_jntadr[b])
+            hinges = tuple(self._hinge(j, names) for j in range(first, first + int(model.body_jntnum[b])))
+            pose = Pose(from_quaternion(model.body_quat[b]), model.body_pos[b].copy())
+            turned = Pose(from_quaternion(model.body_iquat[b]), model.body_ipos[b].copy())
+            unturned = Inertial(float(model.body_mass[b]), np.zeros(3), np.diag(model.body_inertia[b]))
+            name = model.body(b).name
+            bodies.append(Body(name, int(model.body_parentid[b]) - 1, pose, hinges, unturned.seen_from(turned)))
+        off = model.opt.disableflags & int(SWITCHES["gravity"])
+        gravity = np.zeros(3) if off else model.opt.gravity.copy()
+        return in_order(planar_mechanism(bodies, gravity, self._file.plane), self._file.mechanism)
+
+    def _hinge(self, joint: int, names: Mapping[str, Any]) -> SpatialHinge:
+        model = self._model
+        dof, position = int(model.jnt_dofadr[joint]), int(model.jnt_qposadr[joint])
+        name = model.joint(joint).name
+        off = model.opt.disableflags
+        no_constraint = bool(off & int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT))
+        zero = float(model.qpos0[position])
+        limited = bool(model.jnt_limited[joint]) and not no_constraint and not off & int(SWITCHES["limit"])
+        low, high = (float(end) - zero for end in model.jnt_range[joint])
+        slips = no_constraint or bool(off & int(SWITCHES["frictionloss"]))
+        return SpatialHinge(
+            name=name,
+            axis=model.jnt_axis[joint].copy(),
+            anchor=model.jnt_pos[joint].copy(),
+            armature=float(model.dof_armature[dof]),
+            damping=0.0 if off & int(SWITCHES["damper"]) else _linear(model.dof_damping[dof]),
+            friction=0.0 if slips else float(model.dof_frictionloss[dof]),
+            stiffness=0.0 if off & int(SWITCHES["spring"]) else _linear(model.jnt_stiffness[joint]),
+            rest=float(model.qpos_spring[position]) - zero,
+            stops=(low, high) if limited else None,
+            zero=zero,
+        )
+
+    def notes(self) -> tuple[str, ...]:
+        return tuple(self._notes)
+
+    def settings(self) -> Mapping[str, Any]:
+        option = self._model.opt
+        return {
+            "integrator": mujoco.mjtIntegrator(option.integrator).name.removeprefix("mjINT_"),
+            "timestep": float(option.timestep),
+            "geoms that may collide": int(((self._model.geom_contype | self._model.geom_conaffinity) != 0).sum()),
+        }
+
+    def contacts(self, theta: Array) -> list[tuple[int, str]]:
+        """States in which geoms touch, with the pair's names."""
+        model, data, found = self._model, self._data, []
+        for row, q in enumerate(self._coordinates.positions(theta)):
+            data.qpos[:], data.qvel[:] = q, 0.0
+            mujoco.mj_forward(model, data)
+            if data.ncon:
+                found.append((row, " and ".join(self._geom(g) for g in data.contact[0].geom)))
+        return found
+
+    def _geom(self, geom: int) -> str:
+        found = self._model.geom(geom)
+        return repr(found.name) if found.name else f"one of body {self._model.body(int(found.bodyid[0])).name!r}"
+
+    def accelerations(self, theta: Array, omega: Array, without: frozenset[str] = frozenset()) -> Array:
+        model, data = self._model, self._data
+        found = np.empty_like(theta)
+        kept = model.opt.disableflags
+        for feature in without:
+            model.opt.disableflags |= int(SWITCHES[feature])
+        try:
+            positions, rates = self._coordinates.positions(theta), self._coordinates.rates(omega)
+            for row, (q, v) in enumerate(zip(positions, rates, strict=True)):
+                data.qpos[:], data.qvel[:] = q, v
+                data.qacc_warmstart[:] = 0.0
+                mujoco.mj_forward(model, data)
+                found[row] = data.qacc
+        finally:
+            model.opt.disableflags = kept
+        return self._coordinates.absolute(found)
+
+    def inverse_dynamics(
+        self, theta: Array, omega: Array, alpha: Array, without: frozenset[str] = frozenset()
+    ) -> Array:
+        model, data = self._model, self._data
+        forces = np.empty_like(theta)
+        kept = model.opt.disableflags
+        for feature in without:
+            model.opt.disableflags |= int(SWITCHES[feature])
+        try:
+            where = self._coordinates.positions(theta), self._coordinates.rates(omega), self._coordinates.rates(alpha)
+            for row, (q, v, a) in enumerate(zip(*where, strict=True)):
+                data.qpos[:], data.qvel[:], data.qacc[:] = q, v, a
+                mujoco.mj_inverse(model, data)
+                forces[row] = data.qfrc_inverse
+        finally:
+            model.opt.disableflags = kept
+        return self._coordinates.absolute_forces(forces)
+
+
+def _linear(coefficients: Any) -> float:
+    return float(np.asarray(coefficients, dtype=np.float64).ravel()[0])

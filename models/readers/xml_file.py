@@ -1,0 +1,143 @@
+"""Reads an XML file that nobody vouches for: bounded in size, depth and number, without entities or a DTD.
+
+Expat expands entities and ElementTree builds without end; here a document type declaration is refused where it begins
+and every element is counted as it comes, so that no file costs more than its own size.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from xml.parsers import expat
+from xml.sax.saxutils import quoteattr
+
+from ..errors import InvalidInput
+
+LARGEST_FILE = 8_000_000  # bytes
+MOST_ELEMENTS = 50_000
+DEEPEST = 2_000
+LONGEST_ATTRIBUTE = 10_000  # characters; a list of a few hundred numbers
+
+
+@dataclass
+class Element:
+    """One element: tag, attributes, children, and where it stands."""
+
+    tag: str
+    attributes: dict[str, str]
+    file: str = ""
+    line: int = 0
+    children: list[Element] = field(default_factory=list)
+
+    def all(self, *tags: str) -> Iterator[Element]:
+        """The children with one of these tags."""
+        return (child for child in self.children if child.tag in tags)
+
+    def first(self, tag: str) -> Element | None:
+        """The first child with this tag."""
+        return next(self.all(tag), None)
+
+    def get(self, name: str, otherwise: str = "") -> str:
+        """An attribute's text."""
+        return self.attributes.get(name, otherwise)
+
+    def __str__(self) -> str:
+        name = self.attributes.get("name")
+        called = f" name={name[:60]!r}" if name else ""
+        return f"{self.file}, line {self.line}, <{self.tag}{called}>"
+
+    def wrong(self, says: str) -> InvalidInput:
+        """The error that this element is: where, then what is wrong and what would be right."""
+        return InvalidInput(f"{self}: {says}")
+
+
+def read_xml(path: Path) -> Element:
+    """The file's root element. Raises :class:`InvalidInput`."""
+    try:
+        with path.open("rb") as stream:
+            content = stream.read(LARGEST_FILE + 1)
+    except OSError as error:
+        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from None
+    except ValueError as error:  # a null byte in the name
+        raise InvalidInput(f"{str(path)!r:.80}: cannot be read: {error}") from None
+    if len(content) > LARGEST_FILE:
+        raise InvalidInput(f"{path}: larger than {LARGEST_FILE // 1_000_000} MB, which no pendulum needs")
+    return parse_xml(content, str(path))
+
+
+def parse_xml(content: bytes, file: str) -> Element:
+    """The root element of an XML text; ``file`` is what messages call it. Raises :class:`InvalidInput`."""
+    return _Builder(file).build(content)
+
+
+def write_xml(root: Element) -> str:
+    """The elements as a text again: attributes to the letter, comments and text left out. Takes any depth."""
+    parts: list[str] = []
+    pending: list[Element | str] = [root]
+    while pending:
+        item = pending.pop()
+        if isinstance(item, str):
+            parts.append(item)
+            continue
+        attributes = "".join(f" {name}={quoteattr(value)}" for name, value in item.attributes.items())
+        if not item.children:
+            parts.append(f"<{item.tag}{attributes}/>\n")
+            continue
+        parts.append(f"<{item.tag}{attributes}>\n")
+        pending.append(f"</{item.tag}>\n")
+        pending.extend(reversed(item.children))
+    return "".join(parts)
+
+
+class _Builder:
+    def __init__(self, file: str) -> None:
+        self._file = file
+        self._open: list[Element] = []
+        self._root: Element | None = None
+        self._count = 0
+        self._parser = parser = expat.ParserCreate()
+        parser.StartElementHandler = self._start
+        parser.EndElementHandler = self._end
+        parser.StartDoctypeDeclHandler = self._refuse_doctype
+        parser.EntityDeclHandler = self._refuse_doctype
+
+    def build(self, content: bytes) -> Element:
+        try:
+            self._parser.Parse(content, True)
+        except expat.ExpatError as error:
+            raise InvalidInput(
+                f"{self._file}, line {error.lineno}: not well-formed XML: {expat.ErrorString(error.code)}"
+            ) from None
+        except (LookupError, ValueError) as error:
+            if isinstance(error, InvalidInput):
+                raise
+            raise InvalidInput(f"{self._file}: not XML that can be decoded: {error}") from None
+        if self._root is None:
+            raise InvalidInput(f"{self._file}: no XML element in it")
+        return self._root
+
+    def _start(self, tag: str, attributes: dict[str, str]) -> None:
+        element = Element(tag, attributes, self._file, self._parser.CurrentLineNumber)
+        self._count += 1
+        if self._count > MOST_ELEMENTS:
+            raise element.wrong(f"more than {MOST_ELEMENTS} elements, which no pendulum needs")
+        if len(self._open) >= DEEPEST:
+            raise element.wrong(f"nested more than {DEEPEST} levels deep")
+        for name, value in attributes.items():
+            if len(value) > LONGEST_ATTRIBUTE:
+                raise element.wrong(f"{name[:60]}: {len(value)} characters; at most {LONGEST_ATTRIBUTE} are read")
+        if self._open:
+            self._open[-1].children.append(element)
+        else:
+            self._root = element
+        self._open.append(element)
+
+    def _end(self, tag: str) -> None:
+        self._open.pop()
+
+    def _refuse_doctype(self, *_: object) -> None:
+        raise InvalidInput(
+            f"{self._file}, line {self._parser.CurrentLineNumber}: a document type declaration: models need none, and "
+            "its entities can grow without end; remove it"
+        )

@@ -1,0 +1,1 @@
+"""Writes a mechanism as MJCF or URDF."""

@@ -1,0 +1,38 @@
+"""Writes the catalogue's model files into ``models/files/`` or the folder given.
+
+python -m furiko.models.writers.catalogue_files [FOLDER]
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from ..scene import find_scenes
+from .mjcf import to_mjcf
+from .urdf import to_urdf
+
+FOLDER = Path(__file__).parent.parent / "files"
+
+
+def model_files() -> dict[str, str]:
+    """File name and content of every model file of the catalogue."""
+    files = {}
+    for scene in find_scenes(None):
+        files[f"{scene.name}.xml"] = to_mjcf(scene.system)
+        files[f"{scene.name}.urdf"] = to_urdf(scene.system)
+    return files
+
+
+def main(folder: Path = FOLDER) -> None:
+    """Write them all, and delete those of scenes that are no more."""
+    folder.mkdir(exist_ok=True)
+    files = model_files()
+    for stale in {path.name for path in folder.iterdir()} - set(files):
+        (folder / stale).unlink()
+    for name, content in files.items():
+        (folder / name).write_text(content)
+
+
+if __name__ == "__main__":
+    main(*map(Path, sys.argv[1:]))

@@ -1,0 +1,1 @@
+"""Both documents' equations, symbol by symbol, and their final form put together for a mechanism."""

@@ -1,0 +1,1 @@
+"""Trajectories: Taylor series, textbook schemes, their tangent flow, and extrapolation."""

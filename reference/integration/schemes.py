@@ -1,0 +1,245 @@
+"""Textbook schemes that carry a state over one step of time, for whatever gives accelerations.
+
+A step takes θ and ω of shape (…, n) in any float type and gives both after ``h`` seconds. All of these schemes commute
+with a linear change of coordinates: applied to relative angles q = S⁻¹ θ they give the same θ = S q. In which angles an
+engine applies one can therefore not be seen in its results; whether in maximal coordinates can
+(:mod:`furiko.reference.maximal_coordinates`).
+
+Sources: Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations I* (tableaux; II.1, II.5); Butcher 1964, "On
+Runge-Kutta processes of high order" (six stages and order six cannot be had together: seven); Hairer, Lubich, Wanner,
+*Geometric Numerical Integration* (I.1, VI.3); Chung, Hulbert 1993 and Arnold, Brüls 2007 (generalized-α).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[Any]
+Acceleration = Callable[[Array, Array], Array]
+Step = Callable[[Acceleration, Array, Array, Any], tuple[Array, Array]]
+
+ITERATIONS = 200  # an implicit step's; each takes away at least half of what is left of the error
+
+
+@dataclass(frozen=True)
+class Scheme:
+    """One step of a scheme.
+
+    ``reach``: an error of at most 1 in every acceleration it evaluates, with accelerations that do not depend on the
+    state, moves the rates by at most ``reach`` times the step. ``stages``: accelerations that follow on each other.
+    """
+
+    name: str
+    order: int
+    step: Step
+    reach: float = 1.0
+    stages: int = 1
+
+
+@dataclass(frozen=True)
+class Tableau:
+    """Butcher's: stage i is reached with the slopes of those before it, weighed by ``rows[i]``; ``weights`` end it.
+
+    Raises ValueError where a step would not be exact for constant slopes: weights that do not sum to one.
+    """
+
+    rows: tuple[tuple[Any, ...], ...]
+    weights: tuple[Any, ...]
+
+    def __post_init__(self) -> None:
+        if abs(sum(self.weights) - 1) > 1e-15:
+            raise ValueError(f"weights sum to {sum(self.weights)}, not 1")
+        if [len(row) for row in self.rows] != list(range(len(self.weights))):
+            raise ValueError("row i of an explicit tableau has i entries")
+
+    def step(self, accelerations: Acceleration, theta: Array, omega: Array, h: Any) -> tuple[Array, Array]:
+        """One step."""
+        slopes: list[Array] = []
+        start = np.stack([theta, omega])
+        for row in self.rows:
+            angles, rates = start + h * _weighed(row, slopes, start)
+            slopes.append(np.stack([rates, accelerations(angles, rates)]))
+        end = start + h * _weighed(self.weights, slopes, start)
+        return end[0], end[1]
+
+    def scheme(self, name: str, order: int) -> Scheme:
+        """As a scheme."""
+        return Scheme(name, order, self.step, float(sum(map(abs, self.weights))), len(self.weights))
+
+
+def _weighed(weights: tuple[Any, ...], slopes: list[Array], like: Array) -> Array:
+    number = like.dtype.type  # coefficients have more digits than a double: they must not widen it
+    return sum((number(w) * slope for w, slope in zip(weights, slopes, strict=True) if w != 0), np.zeros_like(like))
+
+
+def explicit_euler(a: Acceleration, theta: Array, omega: Array, h: Any) -> tuple[Array, Array]:
+    """θ₁ = θ + h ω, ω₁ = ω + h a(θ, ω)."""
+    return theta + h * omega, omega + h * a(theta, omega)
+
+
+def semi_implicit_euler(a: Acceleration, theta: Array, omega: Array, h: Any) -> tuple[Array, Array]:
+    """ω₁ = ω + h a(θ, ω), θ₁ = θ + h ω₁: symplectic Euler, rates first."""
+    rates = omega + h * a(theta, omega)
+    return theta + h * rates, rates
+
+
+def drift_kick_euler(a: Acceleration, theta: Array, omega: Array, h: Any) -> tuple[Array, Array]:
+    """θ₁ = θ + h ω, ω₁ = ω + h a(θ₁, ω): symplectic Euler, angles first."""
+    angles = theta + h * omega
+    return angles, omega + h * a(angles, omega)
+
+
+def implicit_euler(a: Acceleration, theta: Array, omega: Array, h: Any) -> tuple[Array, Array]:
+    """θ₁ = θ + h ω₁, ω₁ = ω + h a(θ₁, ω₁)."""
+
+    def state(acceleration: Array) -> tuple[Array, Array]:
+        rates = omega + h * acceleration
+        return theta + h * rates, rates
+
+    return state(_fixed_point(a, state, a(theta, omega)))
+
+
+def velocity_verlet(a: Acceleration, theta: Array, omega: Array, h: Any) -> tuple[Array, Array]:
+    """Half a kick, a drift, half a kick with a(θ₁, ω½); of first order where accelerations depend on rates."""
+    half = omega + h / 2 * a(theta, omega)
+    angles = theta + h * half
+    return angles, half + h / 2 * a(angles, half)
+
+
+def implicit_midpoint(a: Acceleration, theta: Array, omega: Array, h: Any) -> tuple[Array, Array]:
+    """y₁ = y + h f((y + y₁)/2)."""
+
+    def middle(acceleration: Array) -> tuple[Array, Array]:
+        rates = omega + h / 2 * acceleration
+        return theta + h / 2 * rates, rates
+
+    acceleration = _fixed_point(a, middle, a(theta, omega))
+    angles, rates = middle(acceleration)
+    return 2 * angles - theta, 2 * rates - omega
+
+
+def newmark(beta: Any, gamma: Any) -> Step:
+    """θ₁ = θ + h ω + h²((½-β) a + β a₁), ω₁ = ω + h((1-γ) a + γ a₁); β = ¼, γ = ½: the trapezoidal rule."""
+    return _newmark_family(beta, gamma, 0, 0)
+
+
+def generalized_alpha(radius: Any) -> Step:
+    """Chung and Hulbert's, ``radius`` their ρ∞, in Arnold and Brüls' form, from a state whose accelerations are true.
+
+    (1-α_m) ã₁ + α_m ã = (1-α_f) a₁ + α_f a, and Newmark's formulas with ã in place of a.
+    """
+    return _newmark_family(*alpha_parameters(radius))
+
+
+def alpha_parameters(radius: Any) -> tuple[Any, Any, Any, Any]:
+    """β, γ, α_m, α_f of the generalized-α scheme whose spectral radius at infinite frequency is ρ∞."""
+    alpha_m, alpha_f = (2 * radius - 1) / (radius + 1), radius / (radius + 1)
+    gamma = 0.5 + alpha_f - alpha_m
+    return (gamma + 0.5) ** 2 / 4, gamma, alpha_m, alpha_f
+
+
+def _newmark_family(beta: Any, gamma: Any, alpha_m: Any, alpha_f: Any) -> Step:
+    def step(a: Acceleration, theta: Array, omega: Array, h: Any) -> tuple[Array, Array]:
+        start = a(theta, omega)
+
+        def state(acceleration: Array) -> tuple[Array, Array]:
+            end = ((1 - alpha_f) * acceleration + (alpha_f - alpha_m) * start) / (1 - alpha_m)
+            angles = theta + h * omega + h * h * ((0.5 - beta) * start + beta * end)
+            return angles, omega + h * ((1 - gamma) * start + gamma * end)
+
+        return state(_fixed_point(a, state, start))
+
+    return step
+
+
+def _fixed_point(a: Acceleration, state: Callable[[Array], tuple[Array, Array]], guess: Array) -> Array:
+    """The acceleration x with x = a(state(x)), to rounding. Raises ArithmeticError where it is not found."""
+    x, smallest = guess, np.inf
+    for _ in range(ITERATIONS):
+        found = a(*state(x))
+        change = float(np.max(np.abs(found - x), initial=0.0))
+        x = found
+        rounding = 1e3 * float(np.finfo(x.dtype).eps) * float(np.max(np.abs(x), initial=0.0))
+        if change == 0 or smallest / 2 <= change <= rounding:
+            return x
+        if not change <= 1e3 * smallest:
+            break
+        smallest = min(smallest, change)
+    raise ArithmeticError("the implicit step's equations were not solved: the step is too long")
+
+
+_third, _sixth = np.longdouble(1) / 3, np.longdouble(1) / 6
+_root5 = np.sqrt(np.longdouble(5))
+_half = np.longdouble(1) / 2
+
+CLASSICAL = Tableau(((), (_half,), (0, _half), (0, 0, 1)), (_sixth, _third, _third, _sixth))
+THREE_EIGHTHS = Tableau(((), (_third,), (-_third, 1), (1, -1, 1)), (_half / 4, 3 * _half / 4, 3 * _half / 4, _half / 4))
+BUTCHER_6 = Tableau(
+    (
+        (),
+        (_half - _root5 / 10,),
+        (-_root5 / 10, _half + _root5 / 5),
+        ((7 * _root5 - 15) / 20, (_root5 - 1) / 4, (15 - 7 * _root5) / 10),
+        ((5 - _root5) / 60, 0, _sixth, (15 + 7 * _root5) / 60),
+        ((5 + _root5) / 60, 0, (9 - 5 * _root5) / 12, _sixth, (3 * _root5 - 5) / 10),
+        (_sixth, 0, (25 * _root5 - 55) / 12, -(25 + 7 * _root5) / 12, 5 - 2 * _root5, (5 + _root5) / 2),
+    ),
+    (_sixth / 2, 0, 0, 0, 5 * _sixth / 2, 5 * _sixth / 2, _sixth / 2),
+)
+
+
+def _fraction(numerator: int, denominator: int) -> Any:
+    return np.longdouble(numerator) / denominator
+
+
+DORMAND_PRINCE = Tableau(
+    (
+        (),
+        (_fraction(1, 5),),
+        (_fraction(3, 40), _fraction(9, 40)),
+        (_fraction(44, 45), _fraction(-56, 15), _fraction(32, 9)),
+        (_fraction(19372, 6561), _fraction(-25360, 2187), _fraction(64448, 6561), _fraction(-212, 729)),
+        (
+            _fraction(9017, 3168),
+            _fraction(-355, 33),
+            _fraction(46732, 5247),
+            _fraction(49, 176),
+            _fraction(-5103, 18656),
+        ),
+    ),
+    (
+        _fraction(35, 384),
+        0,
+        _fraction(500, 1113),
+        _fraction(125, 192),
+        _fraction(-2187, 6784),
+        _fraction(11, 84),
+    ),
+)
+
+RADIUS = _fraction(9, 10)  # Exudyn's default ρ∞
+
+SCHEMES: tuple[Scheme, ...] = (
+    Scheme("explicit Euler", 1, explicit_euler),
+    Scheme("semi-implicit Euler", 1, semi_implicit_euler),
+    Scheme("semi-implicit Euler, angles first", 1, drift_kick_euler),
+    Scheme("implicit Euler", 1, implicit_euler, stages=2),
+    Scheme("velocity Verlet with rates half a step late", 1, velocity_verlet, stages=2),
+    Tableau(((), (_half,)), (0, 1)).scheme("explicit midpoint", 2),
+    Tableau(((), (1,)), (_half, _half)).scheme("Heun's second order", 2),
+    Scheme("implicit midpoint", 2, implicit_midpoint, stages=2),
+    Scheme("trapezoidal rule (Newmark β = 1/4, γ = 1/2)", 2, newmark(_half / 2, _half), stages=3),
+    Scheme("generalized-α, ρ∞ = 0.9", 2, generalized_alpha(RADIUS), reach=2.0, stages=3),
+    Scheme("generalized-α, ρ∞ = 1", 2, generalized_alpha(np.longdouble(1)), reach=2.0, stages=3),
+    Tableau(((), (_third,), (0, 2 * _third)), (_half / 2, 0, 3 * _half / 2)).scheme("Heun's third order", 3),
+    Tableau(((), (_half,), (-1, 2)), (_sixth, 2 * _third, _sixth)).scheme("Kutta's third order", 3),
+    CLASSICAL.scheme("classical Runge-Kutta", 4),
+    THREE_EIGHTHS.scheme("Runge-Kutta 3/8 rule", 4),
+    DORMAND_PRINCE.scheme("Dormand-Prince, fifth order", 5),
+    BUTCHER_6.scheme("Butcher's sixth order in seven stages", 6),
+)

@@ -1,0 +1,1 @@
+"""Accelerations in O(n), as plain numpy and as compiled code."""

@@ -1,0 +1,308 @@
+"""How much two numbers may differ and still agree: bounds from the arithmetic, none typed in by feel.
+
+An engine that is right computes the exact answer of a slightly wrong problem: the mass matrix, the bias and the
+angles it effectively used are off by roundings. So the residual that its accelerations leave in the true equations of
+motion, row by row, is compared with the sum of the magnitudes of that row's terms (the *backward error*). It does not
+depend on how ill-conditioned the problem is. It is taken in the engine's own coordinates, since rounding happens
+there: with x the accelerations, M the mass matrix and b the bias (velocity and gravity terms) in those coordinates,
+
+    |M x + b|_i  <=  c n ε  ( Σ_j sqrt(W_ii W_jj) |x_j|  +  β_i ).
+
+W is M with every cosine one, which for these mechanisms is the chain stretched out straight: positive semidefinite and
+entrywise not below |M|, so that sqrt(W_ii W_jj) bounds the factors' product in Cholesky's backward error (Higham,
+Accuracy and Stability of Numerical Algorithms, theorem 10.3). β is the sum of the magnitudes of the bias' terms with
+every sine one: an angle is known to ε, so a sine near zero is not known relatively better than that.
+
+In absolute angles the velocity terms are those of the documents, Σ_j W_ij ω_j². In relative ones an engine gets them by
+spatial algebra, where far more meets than is left. With F_k the sum of |q̇_a| over the hinges on the way to link k, with
+V_k and U_k the same sum weighted by the lengths (:mod:`.lever_arms`) from hinge a to the point about which link k's
+moments are taken and on to its centre of mass: the point's velocity is at most V_k, the momentum m_k U_k. The
+acceleration that hinge a adds is its motion times q̇_a, turned with F_a and carried along with V_a, together at most 2
+F_k V_k. The force is m_k (2 F_k V_k) and the momentum turned, m_k F_k U_k. The moment about the point is that force's,
+and the velocity times the momentum: in v × m(v + ω × r) the v × m v cancels but for its rounding, m_k V_k U_k. With
+A_ik the arm of the force about hinge i and inertias likewise (ω × Iω), the rows are
+
+    β_i  =  Σ_{k carried by i}  m_k (F_k (2 V_k + U_k) A_ik + V_k U_k) + I_k F_k²   + gravity.
+
+An engine that takes all moments about the centre of mass of the whole tree has longer arms, and lengths that are known
+less well than to their own ε: the products of two lengths, in W and in β, are then joined by those of one length and
+the other's error, in units of ε.
+
+All this is of numbers whose rounding is relative. A product or quotient below the smallest normal number is off by up
+to half of the smallest positive one, η = ε × the smallest normal number, and this is multiplied by what the term is
+still to be multiplied by. In which order an engine takes the factors it keeps to itself; whatever is left of them is at
+most (1 + m)(1 + A)²(1 + g + swing), with m all mass, A the longest arm, swing the largest sum of an acceleration and a
+squared rate. In the solution the factors L of M = LᵀDL come in besides: eliminated from the tips, a pivot D_j is at
+least link j's own inertia about its hinge, w_j, and L_ji² ≤ W_ii / w_j.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...models import PlanarTree
+from ...models.states import QUANTUM, quantised
+from .. import mass_matrix
+from ..documents.equations_of_motion import Mechanism
+from .lever_arms import Levers, absolute_levers, relative_levers, relative_to_absolute, tree_levers, world_errors
+
+Array = NDArray[np.float64]
+
+EPSILON = 2.0**-52
+SMALLEST = 2.0**-1022  # normal number
+
+# Roundings that a term passes on its way through one link: sine and cosine (1 each) and their error's effect (1), a
+# rotation and a shift of a spatial vector or inertia (6), its product with the inertia (3), its addition (1), and as
+# much again for the sweep back.
+ROUNDINGS_PER_LINK = 26
+
+
+def allowed(n: int, accuracy: float = EPSILON) -> float:
+    """The largest backward error that n links' roundings explain, in units of ε."""
+    return ROUNDINGS_PER_LINK * n * accuracy / EPSILON
+
+
+def turns(theta: Array) -> Array:
+    """By how much rounded angles raise the backward error at each state, (B,) from (B, n).
+
+    An engine is given θ_i − θ_parent, to ε/2 of a difference of at most 2|θ|: n of them on the way to a link put its
+    angle off by nε|θ|, and the cosine of two links' by twice that. Up to half a turn this is a small part of 26 n ε;
+    beyond, 26 n ε |θ|/π has room for it. Multiples of one power of two, if not too large, have exact differences.
+    """
+    largest = np.abs(theta).max(axis=-1, initial=0.0)
+    exact = (quantised(theta) == theta).all(axis=-1) & (largest < QUANTUM / EPSILON)
+    return np.where(exact, 1.0, np.maximum(1.0, largest / np.pi))
+
+
+@dataclass(frozen=True)
+class Amplitudes:
+    """The magnitudes of a system's terms, in one set of coordinates.
+
+    ``to_absolute``: S, with θ = S q, shape (n, n); ``carried``: 1 where a link (row) hangs below a link (column) or is
+    it; ``levers``: the lengths that enter; ``errors``: what they are off by, in units of ε, where that is more than
+    themselves; ``interchanges``: whether rows are interchanged in the solution; ``mass`` [kg], ``inertia`` [kg m²] and
+    ``pivots``, the inertia about its own hinge, of each link, (n,); ``gravity`` [m/s²].
+    """
+
+    to_absolute: Array
+    carried: Array
+    levers: Levers
+    errors: Levers | None
+    interchanges: bool
+    mass: Array
+    inertia: Array
+    pivots: Array
+    gravity: float
+
+    def rows(self, alpha: Array, omega: Array, mass: Array | None = None) -> Array:
+        """Σ|terms| of each row of the equations of motion, in these coordinates, (B, n) from (B, n).
+
+        ``mass``: the absolute mass matrix at each state, (B, n, n), without which no interchange is reckoned with.
+        """
+        factors = self.products if mass is None else self.factors(mass)
+        solution = (factors @ np.abs(self.own(alpha))[..., None])[..., 0]
+        lost = self._growth * self.underflow(omega, alpha)
+        return np.asarray(solution + lost + self.velocity_terms(omega) + self.weights)
+
+    def factors(self, mass: Array) -> Array:
+        """What meets in each entry of the mass matrix and its factors at each state, (B, n, n) or alike for all."""
+        return self.products + interchanged(self._own_matrix(mass)) if self.interchanges else self.products
+
+    def solvable(self, mass: Array, accuracy: float) -> NDArray[np.bool_]:
+        """Whether each mass matrix (B, n, n) is further from singular than rounding, (B,).
+
+        Scaled by sqrt(W_ii) on both sides, so that rows of small and of large links count alike, it is off by a matrix
+        whose norm is at most its largest sum of a row. Where its own smallest eigenvalue is above that, factorisations
+        come to their end (Higham, theorem 10.7) and the bound of their backward error holds; elsewhere neither does.
+        """
+        root = np.sqrt(np.diag(self.products))
+        scale = np.outer(root, root)
+        off = EPSILON * allowed(len(root), accuracy) * (self.factors(mass) / scale).sum(axis=-1).max(axis=-1)
+        least = self._own_matrix(mass) / scale - np.multiply.outer(np.broadcast_to(off, len(mass)), np.eye(len(root)))
+        if _positive_definite(least):  # all of them, as nearly always
+            return np.ones(len(least), dtype=np.bool_)
+        return np.array([_positive_definite(matrix) for matrix in least], dtype=np.bool_)
+
+    def _own_matrix(self, mass: Array) -> Array:
+        return np.asarray(self.to_absolute.T @ mass @ self.to_absolute)
+
+    @cached_property
+    def products(self) -> Array:
+        """sqrt(W_ii W_jj), what meets in each entry of the mass matrix and its factors, (n, n)."""
+        arm = self.levers.arm
+        root = np.sqrt(arm**2 @ self.mass + self.inertia @ self.to_absolute**2)
+        found = np.outer(root, root) + self._lost
+        for one, other in self._pairs[1:]:
+            found += (one.arm * self.mass) @ other.arm.T
+        return found
+
+    @cached_property
+    def weights(self) -> Array:
+        """The gravity terms with every sine one, (n,)."""
+        arms = np.sum([levers.arm for levers in self._each], axis=0)
+        return np.asarray(arms @ (self.mass * self.gravity) + self._lost * (1 + self.gravity))
+
+    def velocity_terms(self, omega: Array) -> Array:
+        """β without gravity, (B, n)."""
+        moment = self.felt(omega) ** 2 * self.inertia
+        rows = self.underflow(omega) + np.zeros_like(omega)
+        for one, other in self._pairs:
+            rows += (self._rush(omega, one) * self.mass) @ other.arm.T
+            moment += self._moment(omega, one, other) * self.mass
+        return np.asarray(rows + moment @ self.to_absolute)
+
+    def forces(self, alpha: Array, omega: Array) -> Array:
+        """Σ|terms| of the force at each link's hinge, (B, n) [N]: mass × acceleration of all that hangs there."""
+        pull = np.abs(self.own(alpha))
+        swing = np.sum([pull @ levers.arm + self._rush(omega, levers) for levers in self._each], axis=0)
+        return np.asarray((self.mass * (self.gravity + swing)) @ self.carried + self.underflow(omega, alpha))
+
+    def underflow(self, omega: Array, alpha: Array | None = None) -> Array:
+        """What the loss of digits below the smallest normal number adds, over ε, (B, 1): to each row, force, energy."""
+        swing = self.felt(omega) ** 2 + (0 if alpha is None else self.felt(alpha))
+        return np.asarray(self._lost * (1 + self.gravity + swing.max(axis=-1, keepdims=True)))
+
+    def own(self, absolute: Array) -> Array:
+        """Accelerations (or rates) in these coordinates."""
+        return np.asarray(absolute @ self._from_absolute.T)
+
+    def felt(self, absolute: Array) -> Array:
+        """Magnitudes that add up to each absolute rate or acceleration: in relative coordinates, all on the way."""
+        return np.asarray(np.abs(self.own(absolute)) @ self.to_absolute.T)
+
+    def residual(self, absolute: Array) -> Array:
+        """Generalised forces of absolute angles as those of these coordinates."""
+        return np.asarray(absolute @ self.to_absolute)
+
+    def answers(self, mass: Array, rows: Array) -> Array:
+        """|M⁻¹ S⁻ᵀ| times magnitudes in rows of these coordinates: accelerations that they may make, (B, n)."""
+        spread = np.abs(np.linalg.inv(mass) @ self._from_absolute.T)
+        return np.asarray((spread @ rows[..., None])[..., 0])
+
+    def entries(self) -> Array:
+        """Magnitudes that meet in each entry of the absolute mass matrix, (n, n)."""
+        return np.asarray(self.absolute_rows(self.absolute_rows(self.products).T).T)
+
+    def absolute_rows(self, own: Array) -> Array:
+        """Magnitudes in rows of these coordinates as those that meet in rows of absolute ones, (..., n)."""
+        return np.asarray(own @ np.abs(self._from_absolute))
+
+    @cached_property
+    def _from_absolute(self) -> Array:
+        return np.asarray(np.linalg.inv(self.to_absolute), dtype=np.float64)
+
+    @cached_property
+    def _lost(self) -> float:
+        longest = max(float(levers.arm.max()) for levers in self._each)
+        return SMALLEST * float(1 + self.mass.sum()) * (1 + longest) ** 2
+
+    @cached_property
+    def _growth(self) -> float:
+        """The largest entry of L; a pivot below ε of its row's diagonal entry would be rounding itself."""
+        diagonal = np.diag(self.products)
+        return float(np.sqrt(diagonal.max() / np.maximum(self.pivots, EPSILON * diagonal).min()))
+
+    @property
+    def _each(self) -> tuple[Levers, ...]:
+        return (self.levers,) if self.errors is None else (self.levers, self.errors)
+
+    @property
+    def _pairs(self) -> tuple[tuple[Levers, Levers], ...]:
+        """Lengths that are multiplied: both as they are, then either as it errs."""
+        itself = (self.levers, self.levers)
+        return (itself,) if self.errors is None else (itself, (self.levers, self.errors), (self.errors, self.levers))
+
+    def _rush(self, omega: Array, levers: Levers) -> Array:
+        """The acceleration of each link's centre of mass that its rates and those on the way make, (B, n)."""
+        if levers.throw is None:
+            return np.asarray(omega**2 @ levers.arm)
+        return np.asarray(self.felt(omega) * (np.abs(self.own(omega)) @ (2 * levers.throw + levers.arm)))
+
+    def _moment(self, omega: Array, one: Levers, other: Levers) -> Array:
+        """V_k U_k of each link, (B, n)."""
+        if one.throw is None:
+            return np.zeros_like(omega)
+        rates = np.abs(self.own(omega))
+        return np.asarray((rates @ one.throw) * (rates @ other.arm))
+
+
+def interchanged(matrix: Array) -> Array:
+    """|L||U| of Gaussian elimination with partial pivoting, rows where they were, (B, n, n).
+
+    Its backward error is so much (Higham, theorem 9.3). Rows are interchanged by the size of their entries, so that a
+    row of small entries may be added to one of large ones, and share in its rounding.
+    """
+    upper, lower = matrix.copy(), np.zeros_like(matrix)
+    count, n = matrix.shape[:2]
+    states, order = np.arange(count), np.tile(np.arange(n), (count, 1))
+    for k in range(n):
+        pivot = np.abs(upper[:, k:, k]).argmax(axis=1) + k
+        for rows in (upper, lower, order):
+            kept = rows[states, k].copy()
+            rows[states, k], rows[states, pivot] = rows[states, pivot], kept
+        below, by = upper[:, k + 1 :, k], upper[:, k, None, k]
+        lower[:, k + 1 :, k] = np.divide(below, by, out=np.zeros_like(below), where=by != 0)
+        upper[:, k + 1 :, k:] -= lower[:, k + 1 :, k, None] * upper[:, k, None, k:]
+    found = np.empty_like(matrix)
+    np.put_along_axis(found, order[..., None], np.abs(lower + np.eye(n)) @ np.abs(np.triu(upper)), axis=1)
+    return found
+
+
+def _positive_definite(matrix: Array) -> bool:
+    try:
+        np.linalg.cholesky(matrix)
+    except np.linalg.LinAlgError:
+        return False
+    return True
+
+
+@lru_cache(maxsize=32)  # a worker looks at one scene, and its images, with several engines
+def amplitudes(
+    system: Mechanism,
+    coordinates: str,
+    *,
+    moments: str = "hinge",
+    placed: str = "parent",
+    interchanges: bool = False,
+) -> Amplitudes:
+    """Of the system's terms in ``relative`` coordinates, or in absolute angles for any other word.
+
+    The rest as :class:`EngineInfo` has it: ``moments`` about each link's ``hinge`` or the ``tree``'s centre of mass,
+    links ``placed`` on the ``parent`` or in the ``world``, rows with ``interchanges`` or without.
+    """
+    tree = system.tree()
+    carried = relative_to_absolute(tree)
+    levers, errors = _levers(tree, coordinates, moments, placed)
+    return Amplitudes(
+        to_absolute=carried if coordinates == "relative" else np.eye(tree.n),
+        carried=carried,
+        levers=levers,
+        errors=errors,
+        interchanges=interchanges,
+        mass=np.array([link.mass for link in tree.links]),
+        inertia=np.array([link.inertia for link in tree.links]),
+        pivots=np.array([link.mass * np.hypot(*link.com) ** 2 + link.inertia for link in tree.links]),
+        gravity=tree.gravity,
+    )
+
+
+def _levers(tree: PlanarTree, coordinates: str, moments: str, placed: str) -> tuple[Levers, Levers | None]:
+    if coordinates != "relative":
+        return absolute_levers(tree), None
+    if moments == "tree":
+        return tree_levers(tree)
+    return relative_levers(tree), world_errors(tree) if placed == "world" else None
+
+
+def condition(system: Mechanism, theta: Array, amplitude: Amplitudes, alpha: Array, omega: Array) -> Array:
+    """Relative forward error of accelerations per unit of backward error, at each state: (B,) from (B, n).
+
+    A backward error η leaves accelerations off by at most η·cond of the largest one.
+    """
+    reach = amplitude.answers(mass_matrix(system, theta), amplitude.rows(alpha, omega)).max(axis=-1)
+    largest = np.abs(alpha).max(axis=-1)
+    return np.asarray(np.divide(reach, largest, out=np.full_like(reach, np.inf), where=largest > 0))

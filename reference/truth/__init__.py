@@ -1,0 +1,1 @@
+"""Proven values: ball arithmetic, closed forms, and trajectories in quadruple precision."""

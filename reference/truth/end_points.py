@@ -1,0 +1,86 @@
+"""True states of the catalogue's scenes, computed once in quadruple precision and kept as small data.
+
+An entry is found by what it belongs to, not by its name: the key is a hash of the mechanism, the initial state and the
+times. Each holds the states as decimals of some 34 digits, and the error estimate of each.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Sequence
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from ...models import RodChain, Scene
+from ..documents.equations_of_motion import Mechanism
+from . import quadruple
+from .quadruple import TrueTrajectory
+
+PATH = Path(__file__).parent.parent / "data" / "endpoints.json"
+BENCHMARKS_PATH = PATH.with_name("benchmarks.json")  # of the motions that are timed, in the same form
+PARTS = (0.125, 0.25, 0.5, 1.0)  # of the duration
+
+
+def lookup(system: Mechanism, theta: Sequence[float], omega: Sequence[float], duration: float) -> TrueTrajectory:
+    """True states at 1/8, 1/4, 1/2 and all of ``duration`` [s], shape (4, n): kept ones, or computed now.
+
+    Computing needs heyoka: raises EngineMissing without it.
+    """
+    entry = _kept().get(_key(system, theta, omega, _times(duration)))
+    if entry is None:
+        entry = _computed(system, theta, omega, _times(duration))
+    return quadruple.from_decimals(entry["states"], entry["error"], system.n)
+
+
+def entries(scenes: Sequence[Scene]) -> dict[str, dict[str, Any]]:
+    """What the data holds for these scenes, computed anew."""
+    return dict(_entry(scene) for scene in scenes if scene.theta is not None and scene.duration > 0)
+
+
+def write(scenes: Sequence[Scene], path: Path = PATH) -> int:
+    """Compute and write the data of all these scenes; returns how many entries it has."""
+    found = entries(scenes)
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(json.dumps(found, indent=1, sort_keys=True, ensure_ascii=False) + "\n", encoding="utf-8")
+    return len(found)
+
+
+def _entry(scene: Scene) -> tuple[str, dict[str, Any]]:
+    assert scene.theta is not None
+    assert scene.omega is not None
+    times = _times(scene.duration)
+    entry = _computed(scene.system, scene.theta, scene.omega, times)
+    return _key(scene.system, scene.theta, scene.omega, times), {"scene": scene.name, **entry}
+
+
+def _computed(system: Mechanism, theta: Sequence[float], omega: Sequence[float], times: list[float]) -> dict[str, Any]:
+    digits, error = quadruple.decimal_states(system, theta, omega, [0.0, *times])
+    return {"times": times, "states": digits[1:], "error": [float(f"{e:.2e}") for e in error[1:]]}
+
+
+def _times(duration: float) -> list[float]:
+    return [duration * part for part in PARTS]
+
+
+def _key(system: Mechanism, theta: Sequence[float], omega: Sequence[float], times: Sequence[float]) -> str:
+    density = system.density if isinstance(system, RodChain) else None
+    masses = None if isinstance(system, RodChain) else system.masses
+    numbers = [system.lengths, masses, density, system.gravity, theta, omega, times]
+    text = json.dumps([system.kind, *(None if value is None else _exact(value) for value in numbers)])
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _exact(value: float | Sequence[float]) -> Any:
+    """Doubles written so that no bit is lost and an integer is no other number than its double."""
+    return float(value).hex() if isinstance(value, int | float) else [float(number).hex() for number in value]
+
+
+@cache
+def _kept() -> dict[str, dict[str, Any]]:
+    found: dict[str, dict[str, Any]] = {}
+    for path in (PATH, BENCHMARKS_PATH):
+        if path.exists():
+            found |= json.loads(path.read_text(encoding="utf-8"))
+    return found

@@ -1,0 +1,156 @@
+"""Trajectories in quadruple precision: the literal equations as heyoka expressions, integrated by Taylor series.
+
+Nothing here is shared with the fast kernels: a dense system of equations is eliminated symbolically, exactly as the
+document writes it. For long chains that would be millions of terms; there the document's own equations before it
+eliminates the joint forces, Takeno (3) and (6), are solved along the chain instead, O(n). Beyond fifty links the
+numbers are long doubles of 64 bits, eleven more than doubles have; the error estimate tells.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...models import EngineMissing, RodChain
+from ..arithmetic import Arithmetic, Array, heyoka_arithmetic
+from ..documents import equations_of_motion as motion
+from ..documents import takeno
+from ..documents.equations_of_motion import Mechanism
+
+Floats = NDArray[np.float64]
+
+TOLERANCES = (1e-34, 1e-30)  # of the two runs; the difference of their orders and steps shows the error
+LARGEST_QUADRUPLE_N = 50  # beyond, quadruple arithmetic, which is done in software, takes hours
+EXTENDED_TOLERANCES = (1e-19, 1e-17)  # of 64-bit mantissas, where the processor has them
+LARGEST_DENSE_N = 10  # beyond, the equations with the joint forces make the smaller expressions
+
+
+@dataclass(frozen=True)
+class TrueTrajectory:
+    """θ [rad] and ω [rad/s] at the times asked for, shape (times, n): the sums ``theta + theta_low`` and so on.
+
+    ``error``: estimate of the largest error of the state at each time, shape (times,), from two runs that differ in
+    order and step; in rad and rad/s.
+    """
+
+    theta: Floats
+    omega: Floats
+    theta_low: Floats
+    omega_low: Floats
+    error: Floats
+
+
+def integrate(
+    system: Mechanism, theta: Sequence[float], omega: Sequence[float], times: Sequence[float]
+) -> TrueTrajectory:
+    """The trajectory from a state (n,) at ``times[0]``; times may run backwards. Raises EngineMissing."""
+    digits, error = decimal_states(system, theta, omega, times)
+    return from_decimals(digits, error, system.n)
+
+
+def from_decimals(digits: Sequence[Sequence[str]], error: Sequence[float], n: int) -> TrueTrajectory:
+    """A trajectory from rows of θ and ω written as decimals."""
+    high = np.array([[float(number) for number in row] for row in digits]).reshape(-1, 2 * n)
+    low = np.array([[float(Decimal(number) - Decimal(float(number))) for number in row] for row in digits]).reshape(
+        -1, 2 * n
+    )
+    return TrueTrajectory(high[:, :n], high[:, n:], low[:, :n], low[:, n:], np.array(error, dtype=np.float64))
+
+
+def decimal_states(
+    system: Mechanism, theta: Sequence[float], omega: Sequence[float], times: Sequence[float]
+) -> tuple[list[list[str]], list[float]]:
+    """Rows of θ and ω as decimals of quadruple precision, and the error estimate of each row."""
+    extended = system.n > LARGEST_QUADRUPLE_N and np.finfo(np.longdouble).nmant >= 63
+    number, tolerances, bits = (
+        (np.longdouble, EXTENDED_TOLERANCES, 63) if extended else (_heyoka().real128, TOLERANCES, 112)
+    )
+    finer, coarser = (_run(system, theta, omega, times, tolerance, number) for tolerance in tolerances)
+    difference = np.abs(finer - coarser).max(-1).astype(np.float64)
+    error = np.maximum(difference, 2.0**-bits * np.abs(finer).max(-1).astype(np.float64))
+    return [[str(number) for number in row] for row in finer], error.tolist()
+
+
+def _run(
+    system: Mechanism,
+    theta: Sequence[float],
+    omega: Sequence[float],
+    times: Sequence[float],
+    tolerance: float,
+    number: Any,
+) -> Array:
+    """States in this kind of number, real128 or long double, shape (times, 2 n)."""
+    hy = _heyoka()
+    state = [number(float(x)) for x in (*theta, *omega)]
+    grid = [number(float(t)) for t in times]
+    integrator = hy.taylor_adaptive(
+        _equations(system), state, time=grid[0], tol=number(tolerance), fp_type=number, compact_mode=True
+    )
+    outcome, *_, states = integrator.propagate_grid(grid)
+    if outcome != hy.taylor_outcome.time_limit:
+        raise ArithmeticError(f"quadruple precision integration stopped early: {outcome.name}")
+    return np.asarray(states)
+
+
+def _equations(system: Mechanism) -> list[tuple[Any, Any]]:
+    """dθ/dt = ω and dω/dt as heyoka wants them."""
+    hy = _heyoka()
+    xp = heyoka_arithmetic()
+    theta = np.array(hy.make_vars(*(f"theta{i}" for i in range(system.n))), dtype=object).reshape(-1)
+    omega = np.array(hy.make_vars(*(f"omega{i}" for i in range(system.n))), dtype=object).reshape(-1)
+    alpha = accelerations(xp, system, theta, omega)
+    return [*zip(theta, omega, strict=True), *zip(omega, alpha, strict=True)]
+
+
+def accelerations(xp: Arithmetic, system: Mechanism, theta: Array, omega: Array) -> Array:
+    """θ̈ of one state, (n,), in the form that is smallest as an expression."""
+    if isinstance(system, RodChain) and system.n > LARGEST_DENSE_N:
+        return chain_accelerations(xp, system, theta, omega)
+    return motion.literal_accelerations(system, theta, omega)
+
+
+def chain_accelerations(xp: Arithmetic, system: RodChain, theta: Array, omega: Array) -> Array:
+    """θ̈ of a rod chain from Takeno (2), (3) and (6) with the joint forces kept, one state (n,).
+
+    (3) gives each centre's acceleration and (6) each θ̈ from the forces at the rod's ends; that rods meet at their
+    joints, (2), ties neighbouring forces together: a symmetric block tridiagonal system, eliminated from the free end.
+    """
+    n = system.n
+    l, g = xp.array(system.lengths), xp.array(system.gravity)
+    m = xp.array(system.density) * l
+    q, one = takeno.q(xp, theta), np.eye(2, dtype=int)
+    thrice = 3 * q[:, :, None] * q[:, None, :]
+    same, next_to = (thrice + one) / m[:, None, None], (thrice - one) / m[:, None, None]
+    swing = (l * omega**2 / 2)[:, None] * takeno.p(xp, theta)
+    block, load = same.copy(), swing.copy()
+    block[1:] += same[:-1]
+    load[1:] += swing[:-1]
+    load[0] -= g * takeno.e_y(xp)
+    for j in range(n - 1, -1, -1):
+        if j < n - 1:
+            block[j] -= next_to[j] @ block[j + 1] @ next_to[j]
+            load[j] -= next_to[j] @ (block[j + 1] @ load[j + 1])
+        block[j] = _inverse(block[j])
+    T = xp.array(np.zeros((n + 1, 2)))
+    for j in range(n):
+        T[j] = block[j] @ (load[j] - next_to[j - 1] @ T[j - 1] if j else load[j])
+    return np.asarray(6 * ((T[:-1] + T[1:]) * q).sum(-1) / (m * l))
+
+
+def _inverse(matrix: Array) -> Array:
+    """Of a symmetric 2 × 2 matrix."""
+    (a, b), (_, c) = matrix
+    return np.asarray(np.array([[c, -b], [-b, a]]) / (a * c - b * b))
+
+
+def _heyoka() -> Any:
+    try:
+        import heyoka
+    except ImportError as error:
+        raise EngineMissing(f"heyoka cannot be imported ({error}); pip install heyoka") from None
+    return heyoka

@@ -1,0 +1,185 @@
+"""The page: one HTML file that opens from disk, offline, with nothing fetched and nothing to run."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache, cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ...records.check import Outcome, Result, SceneEntry
+from ..report import Cell, Report, against
+from ..words import GLYPHS, LEGEND, count, few, figure, last_line, printable, tally
+from .check_drawings import ErrorPlot, HorizonPlot, Mechanism, draw_errors, draw_horizons, draw_mechanism
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+DRAWN = ("traceback", "errors over time")  # further figures that stand elsewhere on the page
+
+TEMPLATES = Path(__file__).parent / "templates"
+PAGE = "report.html.j2"
+PARTS = ("marks.html.j2", "facts.html.j2", "overview.html.j2", "reasons.html.j2", "scene.html.j2")  # it includes these
+
+
+@dataclass(frozen=True)
+class SceneView:
+    """What the page says of one scene; ``anchor`` is the page's own, since a name may hold anything."""
+
+    report: Report
+    name: str
+    anchor: str
+
+    @cached_property
+    def entry(self) -> SceneEntry | None:
+        """What the header says of it; None where only results name it."""
+        return self.report.scene(self.name)
+
+    @cached_property
+    def cells(self) -> list[Cell]:
+        """One for each engine."""
+        return [self.report.table[self.name, engine] for engine in self.report.engines]
+
+    @cached_property
+    def results(self) -> list[Result]:
+        """All of them, engine by engine."""
+        return [result for cell in self.cells for result in cell.results]
+
+    @cached_property
+    def outcomes(self) -> list[Outcome]:
+        """Which of the four there are."""
+        return [outcome for outcome in GLYPHS if any(result.outcome == outcome for result in self.results)]
+
+    @cached_property
+    def horizons(self) -> tuple[HorizonPlot, ...]:
+        """Errors over time, predicted and measured, where a run followed them."""
+        return draw_horizons(self.results)
+
+    @property
+    def lyapunov_time(self) -> float | None:
+        """Seconds in which a small difference grows e-fold, where some check found it."""
+        times = [result.details.get("Lyapunov time") for result in self.results]
+        return next((time for time in times if isinstance(time, float)), None)
+
+    @cached_property
+    def checks(self) -> list[str]:
+        """Which checks there are, in one order for all scenes."""
+        found = {result.check for result in self.results}
+        return [check for check in self.report.checks if check in found]
+
+    @property
+    def further(self) -> list[tuple[str, list[str], list[Result]]]:
+        """Each check, the names of its further figures (a traceback is none), and its results."""
+        return [(check, _keys(found), found) for check in self.checks if (found := self.of(check))]
+
+    def of(self, check: str) -> list[Result]:
+        """The results of one check, engine by engine."""
+        return [result for result in self.results if result.check == check]
+
+    @cached_property
+    def rows(self) -> list[tuple[str, list[list[Result]]]]:
+        """Each check, with its results for each engine."""
+        return [
+            (check, [[r for r in cell.results if r.check == check] for cell in self.cells]) for check in self.checks
+        ]
+
+    @cached_property
+    def mechanism(self) -> Mechanism | None:
+        """Its drawing."""
+        return draw_mechanism(self.entry) if self.entry and self.entry.lengths else None
+
+    @cached_property
+    def errors(self) -> ErrorPlot | None:
+        """Its error plot."""
+        return draw_errors(self.results, self.report.engines)
+
+    @property
+    def again(self) -> str:
+        """The command line that runs this row again."""
+        return self.report.again(self.name)
+
+    @property
+    def equations(self) -> list[tuple[str, str]]:
+        """Name and, where the stream gives it, text of each equation: ``name: text``."""
+        named = [equation.partition(": ") for equation in (self.entry.equations if self.entry else ())]
+        return [(name, text) for name, _, text in named]
+
+
+def to_html(report: Report) -> str:
+    """The whole page as text; everything from the stream is escaped, markup comes from the templates alone."""
+    from markupsafe import Markup
+
+    page = environment().get_template(PAGE)
+    return page.render(
+        report=report,
+        scenes=[SceneView(report, name, f"s{i}") for i, name in enumerate(report.scenes, start=1)],
+        glyphs=GLYPHS,
+        legend=LEGEND,
+        style=Markup((TEMPLATES / "style.css").read_text(encoding="utf-8")),
+        in_words=_in_words,
+    )
+
+
+def load_templates() -> None:
+    """Compile the page's templates ahead of their use; they are kept."""
+    for name in (PAGE, *PARTS):
+        environment().get_template(name)
+
+
+@cache
+def environment() -> Environment:
+    """Where the pages' templates are; what they are given is escaped."""
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    made = Environment(
+        loader=FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=StrictUndefined,
+        finalize=_inert,
+        auto_reload=False,
+        optimized=False,  # the templates have nothing to fold, and looking for it takes a fifth of their compilation
+    )
+    made.filters |= {
+        "figure": figure,
+        "count": count,
+        "few": few,
+        "last_line": last_line,
+        "list_of": _list_of,
+        "tally": tally,
+        "value": _value,
+    }
+    return made
+
+
+def _inert(value: Any) -> Any:
+    return printable(value) if type(value) is str else value
+
+
+def _in_words(cell: Cell) -> str:
+    """What a cell of the table says when pointed at: its deciding check, and how many of its others were left out."""
+    worst = cell.worst
+    if worst is None:
+        return f"{cell.scene} × {cell.engine}: no result"
+    said = f"{cell.scene} × {cell.engine}: {worst.check} {worst.outcome}"
+    if worst.measured is not None:
+        said += f", {against(worst)}"
+    elif worst.reason:
+        said += f", {last_line(worst.reason)[:200]}"
+    skipped = sum(result.outcome == "skipped" for result in cell.results)
+    return said + (f"; {count(skipped, 'check')} skipped" if skipped and cell.outcome != "skipped" else "")
+
+
+def _keys(results: Sequence[Result]) -> list[str]:
+    return [key for key in dict.fromkeys(key for result in results for key in result.details) if key not in DRAWN]
+
+
+def _value(value: object) -> object:
+    return figure(value) if isinstance(value, float) else value
+
+
+def _list_of(values: Sequence[float], longest: int = 8) -> str:
+    shown = ", ".join(f"{value:.6g}" for value in values[:longest])
+    return shown if len(values) <= longest else f"{shown}, … ({len(values)} in all)"

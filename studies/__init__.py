@@ -1,0 +1,1 @@
+"""Measurements over many runs: the benchmark and the stress test."""

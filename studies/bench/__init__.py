@@ -1,0 +1,1 @@
+"""Time against error: of engines, of integrators and of furiko itself."""

@@ -1,0 +1,120 @@
+"""Predicted and measured horizons, against figures of an earlier program and against engines with a fault."""
+
+import math
+
+import numpy as np
+import pytest
+from fake_integrators import Astray, Damped, Fake
+
+from furiko.checks.comparisons import horizon
+from furiko.engines import Integrator
+from furiko.models import RodChain, find_scene
+from furiko.models.scene import Scene
+
+FIVE_RODS = Scene("five", RodChain([1.0, 0.8, 0.6, 0.9, 0.7]), (2.0, 2.5, 1.5, 2.8, 0.7), (0.0,) * 5)
+
+
+def integrator(cell, name):
+    return next(one for one in cell.info.integrators if one.name == name)
+
+
+@pytest.mark.parametrize(
+    ("scene", "engine", "name", "step", "parts"),
+    [
+        # Measured by a program of its own, with finite differences for the tangent flow: three digits.
+        ("double-pendulum", "mujoco", "Euler", 1e-3, 0.194),
+        ("double-pendulum", "mujoco", "RK4", 1e-2, 3.830),
+        ("double-pendulum", "exudyn-tree", "RK44", 1e-2, 3.830),
+        (FIVE_RODS, "mujoco", "RK4", 1e-2, 1.010),
+        (FIVE_RODS, "mujoco", "RK4", 5e-3, 1.310),
+        pytest.param("double-pendulum", "mujoco", "RK4", 1e-3, 8.837, marks=pytest.mark.slow),
+        pytest.param("double-pendulum", "mujoco", "RK4", 5e-3, 5.830, marks=pytest.mark.slow),
+        pytest.param(FIVE_RODS, "mujoco", "RK4", 1e-3, 2.968, marks=pytest.mark.slow),
+    ],
+)
+def test_divergence_times_of_the_prototype(make_cell, scene, engine, name, step, parts):
+    cell = make_cell(engine, scene)
+    found = horizon.horizon(cell, integrator(cell, name), step, 4.0 if parts < 4 else 10.0)
+    predicted, measured = found.crossing(horizon.APART)
+    assert measured == pytest.approx(parts, abs=0.001)
+    assert predicted == pytest.approx(parts, abs=1.5 * step)
+    assert found.miss() <= horizon.EXPLAINED
+
+
+@pytest.mark.parametrize(
+    ("engine", "name"), [("exudyn-tree", "GeneralizedAlpha"), ("exudyn-redundant", "TrapezoidalIndex2")]
+)
+def test_schemes_with_a_memory_are_predicted_too(make_cell, engine, name):
+    cell = make_cell(engine, "double-pendulum")
+    found = horizon.horizon(cell, integrator(cell, name), 5e-3, 4.0)
+    predicted, measured = found.crossing(horizon.APART)
+    assert found.from_time < measured < math.inf
+    assert abs(predicted / measured - 1) < 0.03
+
+
+def test_a_run_that_parts_earlier_than_its_steps_explain_differs(make_cell, monkeypatch):
+    monkeypatch.setattr(horizon, "STEPS", (5e-3,))
+    monkeypatch.setattr(horizon, "LONGEST", 3.0)
+    monkeypatch.setattr(horizon, "APART", 1e-6)
+    monkeypatch.setattr(horizon, "NEAR", 1e-6)
+    (sound,) = horizon.compare(make_cell(Fake, "double-pendulum"))
+    assert sound.outcome == "agrees"
+    assert "had to part" in sound.reason
+    (astray,) = horizon.compare(make_cell(Astray, "double-pendulum"))
+    assert astray.outcome == "differs"
+    assert "had to part at" in astray.reason
+
+
+def test_another_model_is_told_from_a_scheme(make_cell, monkeypatch):
+    monkeypatch.setattr(horizon, "STEPS", (5e-3, 2.5e-3))
+    monkeypatch.setattr(horizon, "LONGEST", 1.0)
+    _, second = horizon.compare(make_cell(Fake, "double-pendulum"))
+    assert second.details["order of local errors"] == pytest.approx(4, abs=0.2)
+    assert "need not part" in second.reason
+    _, second = horizon.compare(make_cell(Damped, "double-pendulum"))
+    assert second.outcome == "differs"
+    assert "another model" in second.reason
+
+
+def test_errors_are_carried_by_the_flow():
+    # e₁ = d₁, e₂ = Φ e₁ + d₂: twice, and one more.
+    flow = np.repeat(2 * np.eye(2)[None], 3, axis=0)
+    truth = horizon.Truth(1.0, np.zeros((4, 2)), np.zeros((4, 2)), flow, None)
+    carried, sizes = horizon.carry(truth, iter([np.full(2, 0.01)] * 3))
+    np.testing.assert_allclose(carried[:, 0], [0, 0.01, 0.03, 0.07])
+    np.testing.assert_allclose(sizes, 0.01)
+
+
+def test_what_has_outgrown_all_sense_counts_as_infinite():
+    assert horizon.largest_so_far(np.array([[0.1], [-0.3], [0.2], [np.nan]]), 5).tolist() == [
+        0.1,
+        0.3,
+        0.3,
+        *[math.inf] * 3,
+    ]
+
+
+def test_paths_of_an_adapter_without_any_are_made_step_by_step(make_cell):
+    class Plain(Fake):
+        path = property()  # as if it were not there
+
+        def trajectory(self, theta, omega, integrator, step, steps):
+            angles, rates = Fake.path(self, theta, omega, integrator, step, steps)
+            return angles[-1], rates[-1]
+
+    cell, state = make_cell(Plain, "double-pendulum"), np.array([2.0, 2.5, 0.0, 0.0])
+    found = horizon.path(cell, cell.info.integrators[0], state, 1e-2, 5)
+    expected = np.hstack(Fake(cell.scene.system).path(state[:2], state[2:], "RK4", 1e-2, 5))
+    np.testing.assert_array_equal(found, expected)
+    with pytest.raises(Exception, match="gives no paths"):
+        horizon.path(cell, Integrator("RK4", 4, remembers=True), state, 1e-2, 5)
+
+
+def test_the_command_prints_a_table(capsys):
+    horizon.main(["double-pendulum", "--engine", "mujoco", "--step", "0.01", "--duration", "1"])
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == 4
+    assert "Euler" in lines[1]
+    assert "0.020 s" in lines[1]
+    assert "later" in lines[3]
+    assert find_scene("double-pendulum").name in lines[1]

@@ -1,0 +1,55 @@
+"""Invariants along trajectories pass engines that are right and fail those with friction or a drive."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from fake_integrators import Damped, Fake, Geared, Pushed
+
+from furiko.checks.comparisons import invariants
+from furiko.engines import ENGINES
+
+
+def outcomes(cell):
+    return {result.check.removeprefix("invariant "): result.outcome for result in invariants.compare(cell)}
+
+
+@pytest.mark.parametrize("engine", [name for name, info in ENGINES.items() if info.integrators])
+@pytest.mark.parametrize("scene", ["two-legs", "rods-3"])
+def test_every_integrator_keeps_what_is_to_be_kept(make_cell, engine, scene):
+    found = outcomes(make_cell(engine, scene))
+    assert len(found) == 3 * len(ENGINES[engine].integrators)
+    assert set(found.values()) == {"agrees"}, found
+
+
+@pytest.mark.parametrize(
+    ("fake", "differs"),
+    [
+        (Fake, set()),
+        (Damped, {"energy RK4", "there and back RK4", "angular momentum RK4"}),
+        # A constant torque has a potential: it does no work on the way there that it takes back.
+        (Pushed, {"energy RK4", "angular momentum RK4"}),
+        (Geared, {"energy RK4", "angular momentum RK4"}),
+    ],
+)
+def test_a_fault_of_1e_7_changes_what_it_should(make_cell, fake, differs):
+    found = outcomes(make_cell(fake, "two-legs"))
+    assert {check for check, outcome in found.items() if outcome == "differs"} == differs
+
+
+def test_coming_to_grief_is_skipped_and_said(make_cell):
+    class Lost(Fake):
+        def trajectory(self, theta, omega, integrator, step, steps):
+            return np.full_like(theta, np.nan), np.full_like(theta, np.nan)
+
+    class LostWithEnergy(Lost):
+        @classmethod
+        def about(cls):
+            return replace(super().about(), missing={})
+
+        def energy(self, theta, omega):
+            assert np.isfinite(theta).all()
+            return np.zeros((1, 2))
+
+    for engine in (Lost, LostWithEnergy):
+        assert set(outcomes(make_cell(engine, "two-legs")).values()) == {"skipped"}

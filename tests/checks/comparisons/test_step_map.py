@@ -1,0 +1,97 @@
+"""The step map names the scheme of every engine's integrators, and no scheme for one that has none."""
+
+import pytest
+from fake_integrators import Damped, Fake, LongStep, OtherRungeKutta
+
+from furiko.checks.comparisons import step_map
+from furiko.engines import ENGINES, Integrator
+from furiko.models import NLegPendulum, RodChain, Scene
+
+SCHEMES = {
+    "Euler": "semi-implicit Euler",
+    "implicitfast": "semi-implicit Euler",
+    "RK4": "classical Runge-Kutta",
+    "RK44": "classical Runge-Kutta",
+    "RK67": "Butcher's sixth order in seven stages",
+    "GeneralizedAlpha": "generalized-α, ρ∞ = 0.9",
+    "TrapezoidalIndex2": "trapezoidal rule, velocities held together",
+}
+
+
+@pytest.mark.parametrize("engine", [name for name, info in ENGINES.items() if info.integrators])
+@pytest.mark.parametrize("scene", ["double-pendulum", "n-leg-3", "rods-5"])
+def test_every_integrator_is_a_textbook_scheme_to_rounding(make_cell, engine, scene):
+    results = list(step_map.compare(make_cell(engine, scene)))
+    assert len(results) == len(ENGINES[engine].integrators)
+    for result in results:
+        assert result.outcome == "agrees", result
+        assert result.details["scheme"].startswith(SCHEMES[result.details["integrator"]])
+        assert (result.details["coordinates"] == "maximal coordinates") == (engine == "exudyn-redundant")
+        # The nearest other scheme of the same order misses by far more than rounding, so that the name means something.
+        rest = result.details["next best"]
+        assert rest is None or rest["error"] > 100 * result.measured
+
+
+@pytest.mark.parametrize("engine", ["exudyn-tree", "exudyn-redundant"])
+@pytest.mark.parametrize(("length", "mass"), [(3e3, 1e-37), (1e-13, 1e-39), (1e20, 1e-15)])
+def test_a_mechanism_of_any_size_is_stepped_alike(make_cell, engine, length, mass):
+    system = NLegPendulum((length, 2 * length, 0.7 * length), (mass, 3 * mass, 2 * mass))
+    for result in step_map.compare(make_cell(engine, Scene("any size", system))):
+        assert result.outcome == "agrees", result
+
+
+def test_links_of_very_unlike_lengths_are_stepped_too(make_cell):
+    lengths = (
+        0.009396414670638332,
+        0.0020709057761925513,
+        0.20956026073682615,
+        0.1852481948143808,
+        0.04967508075444641,
+        0.0003014421897485511,
+        0.0003482194145946025,
+        0.005010387279838114,
+        0.0055728251620897635,
+        0.011157456129782754,
+        0.025845498573458314,
+        0.00791488977558035,
+    )
+    system = RodChain(lengths, 25.765674496303635, 3.970181917992521e-05)
+    # The name is what random states follow from: in those of this one, double precision leaves no digits to a change.
+    cell = make_cell("exudyn-redundant", Scene("wide-6-2", system), random_states=200)
+    for result in step_map.compare(cell):
+        assert result.outcome == "agrees", result
+
+
+def only(results):
+    (result,) = results
+    return result
+
+
+def test_another_scheme_of_the_same_order_is_told_by_its_name(make_cell):
+    result = only(step_map.compare(make_cell(OtherRungeKutta, "double-pendulum")))
+    assert result.outcome == "agrees"
+    assert result.details["scheme"] == "Runge-Kutta 3/8 rule"
+
+
+def test_a_scheme_of_another_order_than_said_differs(make_cell):
+    class Exaggerating(Fake):
+        integrators = (Integrator("RK5", 5),)
+
+    result = only(step_map.compare(make_cell(Exaggerating, "double-pendulum")))
+    assert result.outcome == "differs"
+    assert "said to be of order 5; one step is that of classical Runge-Kutta" in result.reason
+
+
+@pytest.mark.parametrize("fake", [LongStep, Damped])
+def test_a_step_that_is_no_schemes_differs_and_the_nearest_is_named(make_cell, fake):
+    result = only(step_map.compare(make_cell(fake, "double-pendulum")))
+    assert result.outcome == "differs"
+    assert "no textbook scheme" in result.reason
+    if fake is LongStep:
+        assert result.details["scheme"] == "classical Runge-Kutta"
+
+
+def test_long_chains_are_skipped_with_a_reason(make_cell):
+    result = only(step_map.compare(make_cell(Fake, "rods-50")))
+    assert result.outcome == "skipped"
+    assert "50" in result.reason

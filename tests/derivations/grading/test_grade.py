@@ -1,0 +1,228 @@
+"""The grader on derivations written by hand."""
+
+import itertools
+import random
+import time
+
+import pytest
+from handwritten import (
+    RELATIVE,
+    ROW_1,
+    ROW_2,
+    SHIKI_1_4,
+    SHIKI_1_8,
+    SHIKI_1_9,
+    SHIKI_2_5,
+    SHIKI_2_10,
+    SOLVED,
+    TAKENO_18,
+    TAKENO_19,
+    WRONG,
+    lagrangian,
+    toml,
+)
+
+from furiko.derivations.algebra.symbols import mechanism
+from furiko.derivations.grading.grade import grade, grade_text
+from furiko.derivations.grading.rewriting import plain
+from furiko.derivations.mistakes.images import View, images
+from furiko.derivations.steps.derivation import derive, right
+from furiko.models.errors import InvalidInput
+
+RIGHT = {
+    "Shiki (1.8)": toml("n-leg", SHIKI_1_8),
+    "Shiki (1.9)": toml("n-leg", SHIKI_1_9),
+    "Shiki (2.10)": toml("n-leg", SHIKI_2_10),
+    "Takeno (18)": toml("rod-chain", TAKENO_18),
+    "Takeno (19)": toml("rod-chain", TAKENO_19),
+    "rows in another order": toml("n-leg", SHIKI_2_10[::-1]),
+    "one row of one document's scaling, one of the other": toml("n-leg", [SHIKI_1_8[0], SHIKI_1_9[1]]),
+    "solved for the accelerations": toml("n-leg", SOLVED),
+    "relative angles": toml("n-leg", RELATIVE, angles="relative"),
+    "absolute rows with a sum in place of row 1": toml(
+        "n-leg", [f"{ROW_1.split('=')[0]} + 3*l1*({ROW_2.split('=')[0]}) = 0", ROW_2]
+    ),
+    "a Lagrangian": lagrangian("n-leg", 2, SHIKI_1_4),
+    "a Lagrangian of two legs": lagrangian("n-leg", 3, "L = " + SHIKI_2_5),
+    "a Lagrangian with another zero of height, and scaled": lagrangian("n-leg", 2, f"3*({SHIKI_1_4} - m1*g*l1)"),
+    "a Lagrangian and the time derivative of sin(θ1) w1... added": lagrangian(
+        "n-leg", 2, SHIKI_1_4 + " + g*m1*l1*w1*cos(t1)"
+    ),
+    "single rod": toml("rod-chain", ["l1^2/3*a1 + g*l1/2*sin(t1) = 0"]),
+}
+
+
+@pytest.mark.parametrize("text", RIGHT.values(), ids=RIGHT.keys())
+def test_right_derivations_are_correct(text):
+    diagnosis = grade_text(text)
+    assert diagnosis.verdict == "correct", diagnosis.text()
+    assert diagnosis.findings == ()
+    assert diagnosis.exit_status == 0
+
+
+@pytest.mark.parametrize(("what", "system", "rows", "names", "terms"), WRONG, ids=[case[0] for case in WRONG])
+def test_wrong_derivations_are_named(what, system, rows, names, terms):
+    diagnosis = grade_text(toml(system, rows))
+    assert diagnosis.verdict == "wrong"
+    assert diagnosis.mistakes, f"{what}: nothing named\n{diagnosis.text()}"
+    first = diagnosis.mistakes[0]
+    assert len(diagnosis.mistakes) == 1
+    assert {first.cause, *(name.split(":")[0] for name in first.also)} & names, diagnosis.text()
+    assert terms <= {finding.term for finding in diagnosis.findings}
+    assert all(finding.says and finding.says_ja for finding in diagnosis.findings)
+    assert diagnosis.exit_status == 1
+
+
+def test_found_and_expected_are_in_the_rows_own_scaling():
+    scaled = "7*l2*(" + ROW_2.replace("a1*cos", "a1*sin").replace("= 0", ") = 0")
+    (finding,) = grade_text(toml("n-leg", [ROW_1, scaled])).findings
+    assert (finding.equation, finding.term, finding.row) == ("1.10", "A[2,1]", "2")
+    assert (finding.found, finding.expected) == ("7*m2*l1*l2*sin(t1-t2)", "7*m2*l1*l2*cos(t1-t2)")
+
+
+@pytest.mark.parametrize(("links", "rows", "number"), [(2, SHIKI_1_9, "1.10"), (3, SHIKI_2_10, "2.11")])
+def test_findings_carry_the_documents_number(links, rows, number):
+    diagnosis = grade_text(toml("n-leg", [rows[0].replace("g", "*2*g"), *rows[1:]]))
+    assert {finding.equation for finding in diagnosis.findings} == {number}
+
+
+SINGLE = [case for case in WRONG if case[1] == "n-leg" and len(case[2]) == 2 and case[2][0] == ROW_1]
+OTHER = [case for case in WRONG if case[1] == "n-leg" and len(case[2]) == 2 and case[2][1] == ROW_2]
+
+
+PAIRS = list(itertools.product(OTHER, SINGLE))
+
+
+@pytest.mark.parametrize(("one", "two"), PAIRS, ids=[f"{one[0]} & {two[0]}" for one, two in PAIRS])
+def test_two_mistakes_at_once_are_both_found(one, two):
+    diagnosis = grade_text(toml("n-leg", [one[2][0], two[2][1]]))
+    assert diagnosis.verdict == "wrong"
+    told = {named.cause for named in diagnosis.mistakes}
+    told |= {name.split(":")[0] for named in diagnosis.mistakes for name in named.also}
+    assert told & one[3], diagnosis.text()
+    assert told & two[3], diagnosis.text()
+    assert one[4] | two[4] <= {finding.term for finding in diagnosis.findings}
+
+
+def test_three_slips_are_all_told():
+    rows = [
+        SHIKI_2_10[0].replace(r"m_2l_2\ddot{\theta}_2 \cos", r"m_2l_2\ddot{\theta}_2 \sin"),
+        SHIKI_2_10[1].replace("-m_2g", "+m_2g"),
+        SHIKI_2_10[2].replace(r"\dot{\theta}_1^2", r"\cdot 2\dot{\theta}_1^2"),
+    ]
+    diagnosis = grade_text(toml("n-leg", rows))
+    assert {finding.term for finding in diagnosis.findings} == {"A[1,2]", "B[2,2]", "B[3,1]"}
+    assert {named.cause for named in diagnosis.mistakes} >= {"sin-for-cos", "factor-two"}
+
+
+def test_a_mistake_that_nobody_listed_is_told_by_its_term():
+    diagnosis = grade_text(toml("n-leg", [ROW_1, ROW_2.replace("m2*g*sin(t2)", "m2*g*sin(t2) + 5*m2*g*cos(3*t1)")]))
+    assert diagnosis.verdict == "wrong"
+    (finding,) = diagnosis.findings
+    assert finding.term == "B[2,2]"
+    assert "5" in finding.found
+
+
+def test_a_slip_in_the_solved_form_is_found_where_it_stands():
+    diagnosis = grade_text(toml("n-leg", [SOLVED[0].replace("- m2*g*sin(t1-2*t2)", "+ m2*g*sin(t1-2*t2)"), SOLVED[1]]))
+    (finding,) = diagnosis.findings
+    assert finding.equation == "1.11"
+    assert finding.term == "a1: g"
+    assert finding.cause == "part-sign"
+
+
+def test_a_slip_in_relative_angles_is_told_in_them():
+    diagnosis = grade_text(toml("n-leg", [RELATIVE[0].replace("2*w1*w2", "w1*w2"), RELATIVE[1]], angles="relative"))
+    (finding,) = diagnosis.findings
+    assert finding.found == "-m2*l1*l2*w1*w2*sin(t2)"
+    assert finding.expected == "-2*m2*l1*l2*w1*w2*sin(t2)"
+
+
+def test_relative_angles_that_are_not_declared_are_wrong():
+    assert grade_text(toml("n-leg", RELATIVE)).verdict == "wrong"
+
+
+def test_what_is_missing_is_said_and_not_judged():
+    diagnosis = grade_text(toml("n-leg", [ROW_1], links=2))
+    assert diagnosis.verdict == "undecided"
+    assert "θ2" in diagnosis.notes[0]
+
+
+def test_the_same_row_twice_is_no_system():
+    diagnosis = grade_text(toml("n-leg", [ROW_1, "2*(" + ROW_1.replace("= 0", ") = 0")]))
+    assert diagnosis.verdict == "wrong"
+    assert diagnosis.findings[0].cause == "row-repeated"
+
+
+def test_an_empty_row_is_told():
+    diagnosis = grade_text(toml("n-leg", [ROW_1.replace("l2", "l1"), "a1 = a1"]))
+    assert diagnosis.verdict == "wrong"
+
+
+WRONG_LAGRANGIANS = [
+    ("half of T2", SHIKI_1_4.replace(r"\frac{1}{2}m_2(", "m_2("), "half-missing"),
+    ("l1² forgotten, as (3.4) prints", SHIKI_1_4.replace(r"m_1l_1^2\dot{\theta}_1^2 +", r"m_1\dot{\theta}_1^2 +"),
+     "length-missing-in-speed"),
+    ("2 of the cross term", SHIKI_1_4.replace("2l_1l_2", "l_1l_2"), "cross-term-halved"),
+    ("T + U", SHIKI_1_4.replace("+ m_1gl_1", "- m_1gl_1").replace("+ m_2g(", "- m_2g("), "sum-for-difference"),
+    ("U of mass 2", SHIKI_1_4.replace(r"+ m_2g(l_1 \cos \theta_1 + l_2 \cos \theta_2)", ""),
+     "potential-energy-missing"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("what", "formula", "cause"), WRONG_LAGRANGIANS, ids=[case[0] for case in WRONG_LAGRANGIANS])
+def test_wrong_lagrangians_are_named(what, formula, cause):
+    diagnosis = grade_text(lagrangian("n-leg", 2, formula))
+    assert diagnosis.verdict == "wrong"
+    named = diagnosis.mistakes[0]
+    assert cause in {named.cause, *(name.split(":")[0] for name in named.also)}, diagnosis.text()
+    assert all(finding.term.startswith("L: ") and finding.equation == "1.4" for finding in diagnosis.findings)
+
+
+@pytest.mark.parametrize("kind", ["n-leg", "rod-chain"])
+def test_a_wrong_derivation_of_four_links_is_graded_within_two_seconds(kind):
+    """From nothing, with the catalogue derived; processor time, so that a busy machine does not decide."""
+    images.cache_clear()
+    m = mechanism(kind, 4)
+    seen = images(View(m))
+    text = plain(m, derive(m, [seen.wrong[5].mistake, seen.wrong[-7].mistake]).rows, random.Random(1))
+    images.cache_clear()
+    start = time.process_time()
+    assert grade_text(text).verdict == "wrong"
+    assert time.process_time() - start < 2.0
+
+
+def test_many_links_are_graded_term_by_term_and_at_once():
+    m = mechanism("rod-chain", 12)
+    text = plain(m, right(m).rows, random.Random(5))
+    assert grade_text(text).verdict == "correct"
+    start = time.process_time()
+    diagnosis = grade_text(text.replace("g*sin(t7)", "g*sin(t8)"))
+    assert diagnosis.verdict == "wrong"
+    assert {finding.term for finding in diagnosis.findings} == {"G[7]"}
+    assert "one by one" in diagnosis.notes[0]
+    assert time.process_time() - start < 2
+
+
+def test_a_file_is_read_and_its_name_told(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(toml("n-leg", SHIKI_1_9), encoding="utf-8")
+    assert grade(path).verdict == "correct"
+    path.write_text("system = 'n-leg'\nlinks = 2\n[equations]\n1 = 'a1 = ('", encoding="utf-8")
+    with pytest.raises(InvalidInput, match=r"mine\.toml: equations\.1: column 7"):
+        grade(path)
+    path.write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(InvalidInput, match="UTF-8"):
+        grade(path)
+    for missing in (tmp_path / "nothing.toml", tmp_path, "\0"):
+        with pytest.raises(InvalidInput):
+            grade(missing)
+
+
+def test_the_answer_is_plain_data_and_two_languages():
+    diagnosis = grade_text(toml("n-leg", WRONG[0][2]))
+    answer = diagnosis.to_dict()
+    assert answer["verdict"] == "wrong"
+    assert set(answer["findings"][0]) >= {"equation", "term", "found", "expected", "cause", "says"}
+    assert "A[2,1]" in diagnosis.text("en")
+    assert "誤り" in diagnosis.text("ja")

@@ -1,0 +1,71 @@
+"""What the grader must show, measured: a part in every run, all of it where slow tests run."""
+
+import pytest
+
+from furiko.derivations.grading.score import cold, hostile_inputs, pairs, rewritings, singles, table
+
+
+def share(tally, *beginnings):
+    counted = {what: count for what, count in tally.counts.items() if not what.startswith("left out")}
+    return sum(count for what, count in counted.items() if what.startswith(beginnings)) / sum(counted.values())
+
+
+def check_singles(tally):
+    assert share(tally, "NOT", "FALSELY", "no term") == 0, table([tally])
+    # the catalogue's own names, or another for provably the same equations, which nobody could tell apart
+    assert share(tally, "named first", "named under another", "equivalent") >= 0.98
+
+
+def test_single_mistakes_of_two_links():
+    check_singles(singles((2,)))
+
+
+@pytest.mark.slow
+def test_single_mistakes():
+    check_singles(singles())
+
+
+def test_some_pairs():
+    assert share(pairs(60, (2, 3)), "both named") >= 0.85
+
+
+@pytest.mark.slow
+def test_a_thousand_pairs():
+    tally = pairs(1000)
+    assert share(tally, "both named") >= 0.85, table([tally])
+    assert share(tally, "NOT") == 0
+
+
+def test_some_rewritings():
+    assert share(rewritings(100), "correct") == 1
+
+
+@pytest.mark.slow
+def test_a_thousand_rewritings():
+    tally = rewritings(1000)
+    assert share(tally, "correct") == 1, table([tally])
+
+
+def check_hostile(tally):
+    assert not {"TRACEBACK", "NOT ONE LINE"} & tally.counts.keys(), table([tally])
+    assert tally.slowest < 10  # no hang; a second or two where a machine is busy
+    (memory,) = (what for what in tally.counts if what.startswith("memory"))
+    assert int(memory.split()[-2]) < 1500  # MB, of the whole test process
+
+
+def test_some_hostile_inputs():
+    check_hostile(hostile_inputs(300))
+
+
+@pytest.mark.slow
+def test_ten_thousand_hostile_inputs():
+    check_hostile(hostile_inputs(10_000))
+
+
+def test_the_first_verdict_is_wrong_as_it_must_be():
+    assert all(what.endswith("wrong") for what in cold((3,)).counts)
+
+
+def test_the_table_shows_every_count():
+    tally = rewritings(3)
+    assert "100.0 %  correct" in table([tally])

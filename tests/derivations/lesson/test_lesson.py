@@ -1,0 +1,81 @@
+"""The lesson's page: complete in itself, thirty mistakes, each with all its parts."""
+
+import base64
+import json
+import struct
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+
+from furiko.derivations.algebra.symbols import mechanism
+from furiko.derivations.lesson.choices import CHOICES
+from furiko.derivations.lesson.lesson import GRID, changed_lines, lesson
+from furiko.derivations.mistakes.catalogue import catalogue
+from furiko.derivations.steps.derivation import derive, right
+
+
+class Page(HTMLParser):
+    def __init__(self, text):
+        super().__init__()
+        self.tags, self.text = [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.append((tag, dict(attributes)))
+
+    def handle_data(self, data):
+        self.text.append(data)
+
+    def all(self, tag):
+        return [attributes for found, attributes in self.tags if found == tag]
+
+
+@pytest.fixture(scope="module")
+def page():
+    return Page(lesson())
+
+
+def test_it_needs_nothing_but_itself(page):
+    for tag, attributes in page.tags:
+        for name in ("src", "href"):
+            assert attributes.get(name, "data:").startswith(("data:", "#")), (tag, attributes)
+    assert not page.all("link")
+    assert "http" not in "".join(page.text)
+
+
+def test_thirty_mistakes_with_a_question_before_the_answer(page):
+    assert len(page.all("section")) == len(page.all("details")) == len(page.all("canvas")) == 30
+    order = [tag for tag, attributes in page.tags if tag == "details" or attributes.get("class") == "question"]
+    assert order == ["p", "details"] * 30
+
+
+def test_maps_are_pictures_and_not_empty(page):
+    for image in page.all("img"):
+        data = base64.b64decode(image["src"].partition(",")[2])
+        assert data.startswith(b"\x89PNG")
+        assert struct.unpack(">II", data[16:24]) == (GRID, GRID)
+
+
+def test_motions_start_alike_and_part(page):
+    for canvas in page.all("canvas"):
+        motion = json.loads(canvas["data-motion"])
+        true, false = np.array(motion["right"]), np.array(motion["wrong"])
+        assert np.isfinite(true).all()
+        assert (true[0] == false[0]).all()
+        shown = min(len(true), len(false))
+        assert np.abs(true[:shown] - false[:shown]).max() > 0.05
+
+
+@pytest.mark.parametrize("choice", CHOICES, ids=[choice.name for choice in CHOICES])
+def test_each_has_a_wrong_and_a_right_line(choice):
+    m = mechanism(choice.kind, choice.n)
+    mistake = next(mistake for mistake in catalogue(m) if mistake.name == choice.name)
+    lines = list(changed_lines(m, mistake, derive(m, [mistake])))
+    assert lines
+    assert all(wrong.name == good.name and wrong.formula != good.formula for wrong, good in lines)
+    assert right(m).rows != derive(m, [mistake]).rows
+
+
+def test_no_mistake_stands_there_twice():
+    assert len({(choice.kind, choice.n, choice.name) for choice in CHOICES}) == len(CHOICES) == 30

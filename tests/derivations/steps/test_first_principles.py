@@ -1,0 +1,108 @@
+"""The right answers of the grader against the documents, against sympy, and against the theory's own functions."""
+
+import numpy as np
+import pytest
+import sympy
+from handwritten import (
+    SHIKI_1_4,
+    SHIKI_1_8,
+    SHIKI_1_9,
+    SHIKI_2_5,
+    SHIKI_2_10,
+    TAKENO_18,
+    lagrangian,
+    toml,
+)
+
+from furiko.derivations.algebra.symbols import KINDS, mechanism
+from furiko.derivations.grading.submission import parse_submission
+from furiko.derivations.mistakes.views import is_multiple
+from furiko.derivations.steps.derivation import _newton_side, _row, lagrange_rows, right
+from furiko.derivations.steps.motion import Parameters, RowMotion
+from furiko.models import NLegPendulum, RodChain
+from furiko.reference import literal_accelerations
+
+
+@pytest.mark.parametrize(
+    ("system", "rows"),
+    [("n-leg", SHIKI_1_9), ("n-leg", SHIKI_1_8), ("n-leg", SHIKI_2_10), ("rod-chain", TAKENO_18)],
+)
+def test_rows_are_the_documents_rows(system, rows):
+    derived = right(mechanism(system, len(rows)))
+    for (_, written), row in zip(parse_submission(toml(system, rows)).rows, derived.rows, strict=True):
+        assert is_multiple(derived.space.split(written), row)
+
+
+@pytest.mark.parametrize(("links", "formula"), [(2, SHIKI_1_4), (3, SHIKI_2_5)])
+def test_the_lagrangian_is_the_documents(links, formula):
+    written = parse_submission(lagrangian("n-leg", links, formula)).lagrangian
+    assert written == right(mechanism("n-leg", links)).lagrangian()
+
+
+@pytest.mark.parametrize("n", [2, 3, 5])
+@pytest.mark.parametrize("kind", KINDS)
+def test_newtons_road_leads_to_lagranges_rows(kind, n):
+    d = right(mechanism(kind, n))
+    for i in range(n):
+        assert _row(d, i, _newton_side(d, i)) == d.rows[i]
+    for i, row in enumerate(lagrange_rows(d.space, d.lagrangian())):
+        assert is_multiple(d.space.split(row), d.rows[i])
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_rows_are_sympys_lagrange_rows(kind):
+    """Three angles, positions differentiated by sympy; compared at a rational point to 30 digits."""
+    n = 3
+    t, w, a, l, m = (sympy.symbols(f"{x}1:{n + 1}", real=True) for x in "twalm")
+    g, rho = sympy.symbols("g rho")
+    masses = [rho * x for x in l] if kind == "rod-chain" else m
+    ends, energy = [(0, 0)], sympy.Integer(0)
+    for k in range(n):
+        x0, y0 = ends[k] if kind == "rod-chain" else ends[min(k, 1)]
+        share = sympy.Rational(1, 2) if kind == "rod-chain" else 1
+        x, y = x0 + share * l[k] * sympy.sin(t[k]), y0 - share * l[k] * sympy.cos(t[k])
+        ends.append((x0 + l[k] * sympy.sin(t[k]), y0 - l[k] * sympy.cos(t[k])))
+        vx, vy = (sum(p.diff(q) * r for q, r in zip(t, w, strict=True)) for p in (x, y))
+        energy += masses[k] * (vx**2 + vy**2) / 2 - masses[k] * g * y
+        if kind == "rod-chain":
+            energy += masses[k] * l[k] ** 2 / 12 * w[k] ** 2 / 2
+    numbers = {s: sympy.Rational(k + 2, 5) for k, s in enumerate([*t, *w, *a, *l, *m, g, rho])}
+    mech = mechanism(kind, n)
+    names = [*a, *w, *l, *m, g, rho]
+    for i, row in enumerate(right(mech).rows):
+        p = energy.diff(w[i])
+        expected = sum(p.diff(q) * r + p.diff(r) * s for q, r, s in zip(t, w, a, strict=True)) - energy.diff(t[i])
+        expected /= l[i] * rho if kind == "rod-chain" else l[i]
+        found = sympy.Integer(0)
+        for powers, halves, phase, c in mech.space.monomials(mech.space.join(row)):
+            angle = sum(sympy.Rational(h, 2) * q for h, q in zip(halves, t, strict=True))
+            term = sympy.Rational(int(c.p), int(c.q)) * (sympy.sin(angle) if phase else sympy.cos(angle))
+            for symbol, power in zip(names, powers, strict=True):
+                term *= symbol**power
+            found += term
+        assert abs((found - expected).subs(numbers).evalf(50)) < 1e-30
+
+
+@pytest.mark.parametrize(
+    "system",
+    [NLegPendulum((1.0, 0.7, 1.3, 0.4), (0.5, 2.0, 1.0, 0.3)), RodChain((1.0, 0.6, 1.4, 0.8, 0.5), density=1.7)],
+)
+def test_numbers_are_the_theorys(system):
+    """The exact rows with numbers put in, against the documents' final formulas in floats."""
+    draw = np.random.default_rng(1)
+    theta, omega = draw.uniform(-3, 3, (50, system.n)), draw.normal(0, 3, (50, system.n))
+    m = mechanism(system.kind, system.n)
+    density = getattr(system, "density", 1.0)
+    parameters = Parameters(system.lengths, system.masses if system.kind == "n-leg" else (), density)
+    found = RowMotion(m, right(m).rows, parameters).accelerations(theta, omega)
+    # both solve a well-conditioned system of five unknowns in double precision
+    np.testing.assert_allclose(found, literal_accelerations(system, theta, omega), rtol=1e-11, atol=1e-11)
+
+
+def test_a_motion_keeps_the_small_swings_period():
+    """One rod: the trajectory against the harmonic motion that a swing of 1e-4 rad is, to its cubic correction."""
+    m = mechanism("rod-chain", 1)
+    rate = np.sqrt(1.5 * 9.81 / 1.2)
+    times = np.linspace(0, 2, 401)
+    angles = RowMotion(m, right(m).rows, Parameters((1.2,))).trajectory(np.array([1e-4]), np.zeros(1), 2.0, 400)
+    np.testing.assert_allclose(angles[:, 0], 1e-4 * np.cos(rate * times), atol=1e-10)

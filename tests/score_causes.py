@@ -1,0 +1,191 @@
+"""How well causes are named: recall and precision over planted faults, false alarms over sound models, sensitivity.
+
+    python tests/score_causes.py [--plants 25] [--sound 500] [--json FILE]
+
+``--plants`` of each fault; every random number follows from its index, so that a run can be repeated.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+from collections import Counter
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+from engine_faults import NAMES, OF_ENGINES, OF_READERS, OF_RUNS, Asked, misreading
+from model_faults import IN_FILES, Shape, diagnosed, free, planted_in_file, sound_model, with_link
+
+from furiko.diagnosis.diagnose import diagnose
+from furiko.diagnosis.explain import explain
+from furiko.diagnosis.explain_motion import explain_motion
+from furiko.engines import load_engine
+from furiko.models import Link, PlanarTree
+
+SEED = 20_000
+
+
+@dataclass
+class Score:
+    """Of one cause: how many were planted, detected, named first, named at all; and what came first instead."""
+
+    planted: int = 0
+    detected: int = 0
+    first: int = 0
+    named: int = 0
+    instead: Counter[str] = field(default_factory=Counter)
+
+    def add(self, cause, findings):
+        self.planted += 1
+        self.detected += bool(findings)
+        self.named += any(f.cause == cause for f in findings)
+        if findings and findings[0].cause == cause:
+            self.first += 1
+        else:
+            self.instead[findings[0].cause if findings else "nothing"] += 1
+
+
+def findings_of(place, cause, seed):
+    """What is found where this cause is planted with this seed."""
+    rng = np.random.default_rng(seed)
+    if place == "file":
+        plant = planted_in_file(cause, rng)
+        return diagnosed(plant.text, plant.language, plant.wanted).findings
+    if place == "reader":
+        file, readers = misreading(cause, rng)
+        return diagnose(file, None, readers).findings
+    if place == "run":
+        engine, wanted, integrator, parted = OF_RUNS[cause](rng)
+        return explain_motion(engine, wanted, integrator, parted=parted)
+    engine, wanted = OF_ENGINES[cause](rng)
+    return explain(engine, wanted)
+
+
+PLACES = {"file": tuple(IN_FILES), "engine": tuple(OF_ENGINES), "reader": OF_READERS, "run": tuple(OF_RUNS)}
+
+
+def score(plants, places=PLACES, seed=SEED):
+    """A score for every place and cause, from ``plants`` of each."""
+    scores = {}
+    for place, causes in places.items():
+        for cause in causes:
+            one = scores[place, cause] = Score()
+            for k in range(plants):
+                one.add(cause, findings_of(place, cause, seed + k))
+    return scores
+
+
+def precision(scores):
+    """Of all findings that came first with a cause, the share that were planted with it."""
+    first, right = Counter(), Counter()
+    for (_, cause), one in scores.items():
+        first[cause] += one.first
+        right[cause] += one.first
+        for other, count in one.instead.items():
+            first[other] += count
+    return {cause: right[cause] / first[cause] for cause in first if cause != "nothing"}
+
+
+def false_alarms(count, seed=SEED):
+    """(how many sound models got a finding, their seeds)."""
+    alarmed = []
+    for k in range(count):
+        text, style, wanted = sound_model(np.random.default_rng(seed + k))
+        if diagnosed(text, style.language, wanted).findings:
+            alarmed.append(seed + k)
+    return alarmed
+
+
+# --- Sensitivity ----------------------------------------------------------------------------------------------------
+
+
+def uneven_chain(n):
+    lengths = [1.0, 0.8, 0.6, 0.9, 0.7, 1.1, 0.5, 0.75, 0.65, 0.85][:n]
+    links, before = [], 0.0
+    for i, l in enumerate(lengths):
+        m = 1.0 + 0.3 * i
+        links.append(Link(i - 1, (before, 0.0), l, (l / 2, 0.0), m, m * l * l / 12))
+        before = l
+    return PlanarTree(tuple(links), 9.81)
+
+
+def changed_by(mechanism, kind, i, delta):
+    link = mechanism.links[i]
+    if kind == "mass":
+        return with_link(mechanism, i, mass=link.mass * (1 + delta))
+    if kind == "inertia":
+        return with_link(mechanism, i, inertia=link.inertia * (1 + delta))
+    if kind == "length":
+        return with_link(mechanism, i + 1, hinge=(mechanism.links[i + 1].hinge[0] * (1 + delta), 0.0))
+    from dataclasses import replace
+
+    return replace(mechanism, gravity=(mechanism.gravity[0] * (1 + delta), 0.0))
+
+
+def estimated(mechanism, kind, i, delta, name):
+    """Whether a change is detected, and its size told within a tenth, by an engine that hides what it compiled."""
+    other = changed_by(mechanism, kind, i, delta)
+    engine = Asked(load_engine(name, Shape(PlanarTree(other.links, other.gravity[0]))), shows=False)
+    for finding in explain(engine, mechanism):
+        if finding.cause != kind or not isinstance(finding.measured, float) or not finding.expected:
+            continue
+        if abs(finding.measured / finding.expected - 1 - delta) <= 0.1 * delta:
+            return True
+    return False
+
+
+def sensitivity(n, kind, name="pinocchio-aba"):
+    """The smallest relative change 10^-k of the link that shows it least that is detected and estimated."""
+    mechanism = free(uneven_chain(n))
+    places = [0] if kind == "gravity" else range(n - 1) if kind == "length" else range(n)
+    found = None
+    for exponent in range(8, 16):
+        if not all(estimated(mechanism, kind, i, 10.0**-exponent, name) for i in places):
+            break
+        found = 10.0**-exponent
+    return found
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--plants", type=int, default=25)
+    parser.add_argument("--sound", type=int, default=500)
+    parser.add_argument("--json", type=Path)
+    given = parser.parse_args()
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # engines announce instability there
+    scores = score(given.plants)
+    precise = precision(scores)
+    print(f"{'where':8}{'cause':34}{'planted':>8}{'detected':>9}{'first':>7}{'named':>7}{'precision':>10}")
+    for (place, cause), one in scores.items():
+        instead = ", ".join(f"{other} {count}" for other, count in one.instead.items())
+        print(
+            f"{place:8}{cause:34}{one.planted:8}{one.detected:9}{one.first:7}{one.named:7}"
+            f"{precise.get(cause, 0):10.3f}  {instead}"
+        )
+    planted, detected, first = (sum(getattr(s, a) for s in scores.values()) for a in ("planted", "detected", "first"))
+    print(f"{planted} planted, {detected} detected, {first} named first ({first / planted:.1%})")
+    alarms = false_alarms(given.sound)
+    print(f"{given.sound} sound models, {len(alarms)} false alarms {alarms[:5] or ''}")
+    kinds = ("mass", "length", "inertia", "gravity")
+    print("smallest relative change that is detected and estimated within a tenth (worst link)")
+    print(f"{'engine':16}{'n':>3}" + "".join(f"{kind:>10}" for kind in kinds))
+    table = {}
+    for name in NAMES[:3]:
+        for n in (1, 2, 3, 5, 10):
+            row = [sensitivity(n, kind, name) if n > 1 or kind != "length" else None for kind in kinds]
+            table[f"{name} {n}"] = dict(zip(kinds, row, strict=True))
+            print(f"{name:16}{n:3}" + "".join(f"{value:10.0e}" if value else f"{'-':>10}" for value in row))
+    if given.json:
+        rows = [{"where": p, "cause": c, **vars(s), "precision": precise.get(c)} for (p, c), s in scores.items()]
+        content = {"causes": rows, "sound": given.sound, "false alarms": len(alarms), "sensitivity": table}
+        given.json.write_text(json.dumps(content, indent=1))
+
+
+if __name__ == "__main__":
+    main()
