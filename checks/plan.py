@@ -9,24 +9,9 @@ from ..engines import EngineInfo, cannot, engine_info, engine_names, engine_vers
 from ..models import InvalidInput, Scene, find_scenes
 from ..models.errors import nearest
 from ..records.check import Outcome, Result
+from .registry import CHECKS
 
-# Every check, in the order in which a cell runs them: its name, and what of the engine it needs.
-CHECKS = {
-    "model fields": "fields",
-    "accelerations": "accelerations",
-    "symmetry": "accelerations",
-    "terms": "inverse_dynamics",
-    "joint forces": "joint_forces",
-    "energy": "energy",
-    "step map": "trajectory",
-    "trajectory": "trajectory",
-    "invariant": "trajectory",
-    "horizon": "trajectory",
-}
-
-# Seconds rather than milliseconds a scene and an engine: in a full run only.
-LONG = ("invariant", "horizon")
-SHORT = tuple(check for check in CHECKS if check not in LONG)
+SHORT = tuple(name for name, check in CHECKS.items() if not check.long)
 
 
 @dataclass(frozen=True)
@@ -105,16 +90,7 @@ def skip(check: str, scene: Scene, info: EngineInfo) -> str:
     too_much = cannot(info, scene.system)
     if too_much:
         return too_much
-    quantity = CHECKS[check]
-    if quantity in info.missing:
-        return info.missing[quantity]
-    if check == "horizon" and "chaotic" not in scene.tags:
-        return "the scene is not tagged 'chaotic': how its trajectories part is not asked"
-    if check == "horizon" and scene.theta is None:
-        return "the scene has no state for a trajectory to start from"
-    if check == "trajectory" and not scene.duration:
-        return "the scene has no duration: nothing moves in it"
-    return ""
+    return CHECKS[check].skipped(scene, info)
 
 
 def _absent(info: EngineInfo) -> str:
@@ -123,4 +99,4 @@ def _absent(info: EngineInfo) -> str:
 
 
 def _settled(scene: Scene, info: EngineInfo, check: str, outcome: Outcome, reason: str) -> Result:
-    return Result(scene=scene.name, engine=info.name, check=check, outcome=outcome, reason=reason)
+    return Result(scene=scene.name, engine=info.name, check=check, comparison=check, outcome=outcome, reason=reason)

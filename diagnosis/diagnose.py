@@ -15,10 +15,9 @@ from typing import Any
 
 import numpy as np
 
-from ..checks.workers.isolated import Lost, call_apart
-from ..checks.workers.messages import CallJob
 from ..engines.model_files.adapter import READERS, FileEngine, Reader
 from ..engines.quiet import silenced
+from ..engines.workers.isolated import Call, NotReturned, call_isolated
 from ..models import InvalidInput, PlanarTree
 from ..models.mechanism import Hinge, Mechanism, mechanism_of
 from ..models.readers.model_file import ModelFile, read_model
@@ -190,12 +189,12 @@ class _Asked:
 
 def _ask_apart(file: ModelFile) -> list[_Asked]:
     """All engines' answers, each from a process of its own: a file that brings one down leaves the others standing."""
-    calls = [CallJob("furiko.diagnosis.diagnose", "ask", (name, file)) for name in READERS]
-    answers = zip(READERS.values(), call_apart(calls, TIMEOUT), strict=True)
-    return [_brought_down(reader, answer) if isinstance(answer, Lost) else answer for reader, answer in answers]
+    calls = [Call(ask, (name, file)) for name in READERS]
+    answers = zip(READERS.values(), call_isolated(calls, TIMEOUT), strict=True)
+    return [_brought_down(reader, answer) if isinstance(answer, NotReturned) else answer for reader, answer in answers]
 
 
-def _brought_down(reader: Reader, lost: Lost) -> _Asked:
+def _brought_down(reader: Reader, lost: NotReturned) -> _Asked:
     says = f"{reader.name}: {lost.reason}"
     findings = [Finding("unexplained", reader.name, None, None, says)]
     return _Asked(reader.name, "failed", lost.reason, findings=findings, native=reader.native)

@@ -60,9 +60,11 @@ def check(
     as_json: bool,
 ) -> int:
     """Hold engines against the documents' equations, in the catalogue's scenes or your own."""
-    from .checks.workers.processes import workshop
+    from .engines.workers.processes import worker_processes
 
-    with workshop(ahead=jobs or os.cpu_count() or 1) as place:
+    # Before anything else is imported: they import what they need at the same time.
+    modules = ("furiko.checks.facts", "furiko.checks.cell")
+    with worker_processes(jobs or os.cpu_count() or 1, modules) as source:
         from .run import check as run_check
 
         before = _read(baseline) if baseline else None
@@ -75,7 +77,7 @@ def check(
                 jobs=jobs,
                 timeout=timeout,
                 use_cache=not no_cache,
-                place=place,
+                source=source,
                 watch=watch,
             )
     status = report.exit_status
@@ -427,7 +429,7 @@ def progress() -> Iterator[Callable[[Plan, Result], None] | None]:
         def watch(plan: Plan, result: Result) -> None:
             settled = {(r.scene, r.engine, r.check) for r in plan.settled}
             # An engine has one trajectory result for each integrator: they count as the one check that was planned.
-            seen.add((result.scene, result.engine, result.check.split(" ")[0]))
+            seen.add((result.scene, result.engine, result.comparison))
             total = sum(len(t.checks) for t in plan.tasks) + len(settled)
             now = f"{result.scene} {result.engine}"
             bar.update(task, completed=min(len(seen), total), total=total, description=now)

@@ -15,10 +15,11 @@ from pathlib import Path
 
 from . import __version__
 from .checks.cache import Cache, user_cache
+from .checks.jobs import MODULES
 from .checks.plan import Plan, make_plan
 from .checks.runner import TIMEOUT, run
-from .checks.workers.processes import Workshop, workshop
 from .engines import engine_version
+from .engines.workers.processes import Workers, worker_processes
 from .models import Scene, catalogue
 from .records.check import OUTCOMES, EngineEntry, Footer, Header, Result, SceneEntry
 from .reports import Report, StreamWriter, open_report, prepare_reports, write_reports
@@ -36,7 +37,7 @@ def check(
     jobs: int | None = None,
     timeout: float = TIMEOUT,
     use_cache: bool = True,
-    place: Workshop | None = None,
+    source: Workers | None = None,
     watch: Callable[[Plan, Result], None] | None = None,
 ) -> Report:
     """Hold engines against the documents' equations.
@@ -44,7 +45,7 @@ def check(
     ``scenes``: names of the catalogue's or paths of TOML files, None for those of the profile; ``engines``: names,
     None for all; ``profile``: ``smoke``, ``quick`` or ``full``; ``out``: folder for ``report.jsonl`` and its
     renderings, None for none; ``jobs``: worker processes, None for one a core; ``timeout`` [s] of one check;
-    ``use_cache``: take results of an earlier run with the very same inputs; ``place``: workers started ahead;
+    ``use_cache``: take results of an earlier run with the very same inputs; ``source``: workers started ahead;
     ``watch`` is called with each result as it comes.
 
     Raises :class:`furiko.InvalidInput` for unknown names and bad files, before anything runs.
@@ -55,8 +56,8 @@ def check(
     cache = user_cache() if use_cache else Cache(None)
     results = []
     with ExitStack() as open_until_done:
-        workers = place or open_until_done.enter_context(workshop())
-        running = run(plan, cache=cache, place=workers, jobs=jobs, timeout=timeout)
+        workers = source or open_until_done.enter_context(worker_processes(modules=MODULES))
+        running = run(plan, cache=cache, source=workers, jobs=jobs, timeout=timeout)
         header = make_header(plan, given)  # while they work: the formulas in it need numpy
         stream = None if out is None else open_until_done.enter_context(open_report(out, header))
         if stream is not None:

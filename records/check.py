@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 import msgspec
 
-FORMAT = 1
+FORMAT = 2  # 2: a result carries `comparison`
 Outcome = Literal["agrees", "differs", "skipped", "error"]
 OUTCOMES: tuple[Outcome, ...] = ("agrees", "differs", "skipped", "error")
 
@@ -65,8 +65,9 @@ class Result(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag="r
 
     scene: str
     engine: str
-    check: str
+    check: str  # the comparison, and which part of it: "terms M", "trajectory RK4"
     outcome: Outcome
+    comparison: str = ""  # the name of the check that made it; empty in runs of the stress test
     measured: float | None = None
     allowed: float | None = None
     unit: str = ""

@@ -7,9 +7,8 @@ from hypothesis import settings
 
 from furiko.checks.cell import Cell
 from furiko.checks.facts import scene_facts
+from furiko.checks.jobs import CellJob, Facts, TruthJob, messages_of
 from furiko.checks.plan import make_plan
-from furiko.checks.workers.messages import CellJob, Facts, FactsJob
-from furiko.checks.workers.worker import cell, facts
 from furiko.engines import AnyShape, load_engine
 from furiko.models import find_scene
 from furiko.models.states import states
@@ -50,10 +49,9 @@ def run_cell():
     def run(engine, scene="double-pendulum", profile="quick", random_states=30):
         plan = make_plan([scene], [engine], profile)
         (task,) = plan.tasks
-        truth = facts(FactsJob(task.scene, random_states))
-        assert isinstance(truth, Facts)
+        (truth,) = (m for m in messages_of(TruthJob(task.scene, random_states)) if isinstance(m, Facts))
         job = CellJob(replace(task, random_states=random_states), truth.content)
-        results = [*plan.settled, *(message for message in cell(job) if isinstance(message, Result))]
+        results = [*plan.settled, *(message for message in messages_of(job) if isinstance(message, Result))]
         return {result.check: result for result in results}
 
     return run

@@ -22,12 +22,11 @@ _IMPORTED = """
 import json, sys
 from furiko.cli import run
 status = run(["check", "--profile", "smoke", "--no-cache", "--out", sys.argv[1]])
-from furiko.checks.messages import CellJob, FactsJob
+from furiko.checks.jobs import CellJob, Facts, TruthJob, messages_of
 from furiko.checks.plan import make_plan
-from furiko.checks.worker import do
 for task in make_plan(None, None, "smoke").tasks:
-    (facts,) = do(FactsJob(task.scene, task.random_states))
-    list(do(CellJob(task, facts.content)))
+    (facts,) = (m for m in messages_of(TruthJob(task.scene, task.random_states)) if isinstance(m, Facts))
+    messages_of(CellJob(task, facts.content))
 sys.stderr.write(json.dumps(sorted({name.partition(".")[0] for name in sys.modules})))
 """
 

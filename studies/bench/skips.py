@@ -16,12 +16,11 @@ from dataclasses import replace
 from pathlib import Path
 
 from ...checks.cache import Cache
+from ...checks.jobs import CellJob, Facts, TruthJob, messages_of
 from ...checks.plan import Plan, Task, make_plan
 from ...checks.runner import run
-from ...checks.workers.messages import CellJob, Facts, FactsJob
-from ...checks.workers.processes import workshop
-from ...checks.workers.worker import do
 from ...engines import engine_names
+from ...engines.workers.processes import worker_processes
 from ...models import Scene
 from ...records.bench import Skip
 from ...records.check import Result
@@ -62,8 +61,8 @@ def _cache(plan: Plan) -> Skip:
 
 def _run(plan: Plan, cache: Cache) -> Verdicts:
     """The verdicts of a whole run, on worker processes of its own."""
-    with workshop() as place:
-        return _verdicts(run(plan, cache=cache, place=place))
+    with worker_processes() as source:
+        return _verdicts(run(plan, cache=cache, source=source))
 
 
 def _truth(plan: Plan) -> Skip:
@@ -163,14 +162,13 @@ def _only(scene: Scene, named: tuple[str, ...]) -> Scene:
 
 
 def _facts(task: Task) -> bytes:
-    (message,) = do(FactsJob(task.scene, task.random_states))
-    if not isinstance(message, Facts):
-        raise TypeError(f"the truth of {task.scene.name}: {message}")
-    return message.content
+    job = TruthJob(task.scene, task.random_states)
+    (facts,) = (message for message in messages_of(job) if isinstance(message, Facts))
+    return facts.content
 
 
 def _cell(task: Task, facts: bytes) -> Iterator[Result]:
-    return (message for message in do(CellJob(task, facts)) if isinstance(message, Result))
+    return (message for message in messages_of(CellJob(task, facts)) if isinstance(message, Result))
 
 
 def _verdicts(results: Iterable[Result]) -> Verdicts:

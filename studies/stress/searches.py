@@ -9,22 +9,22 @@ a frontier that is caught between two rungs, then one search after the other: th
 
 from __future__ import annotations
 
-import subprocess
-import time
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from multiprocessing.connection import Connection, wait
+from time import monotonic as now
 from typing import Protocol
 
 import msgspec
 
-from ...checks.workers.messages import Case, CaseJob, Done, Failed
-from ...checks.workers.processes import Workshop, death, end, give, workshop
 from ...engines import EngineInfo, engine_info
+from ...engines.workers.messages import Failed
+from ...engines.workers.pool import Event, Lost, Pool, Said, Worker
+from ...engines.workers.processes import worker_processes
 from ...records.check import Result
 from .accelerations import DOCUMENT, KERNELS, AccelerationCase
 from .axes import Ladder, Pair
+from .case import Case, CaseJob
 from .chain import chain_runs, listed_cases
 from .condition import condition_cases
 from .failures import Failure
@@ -228,25 +228,13 @@ def run(
     ``jobs``: worker processes; ``timeout`` [s] for one case; ``watch`` is called with each case that begins,
     and how many questions are open.
     """
-    with workshop() as place:
-        pool = _Pool(searches, results, time.monotonic() + budget, timeout, place, watch)
-        yield from pool.run(jobs)
+    with worker_processes() as source:
+        running = _Run(searches, results, now() + budget, timeout, Pool(source, jobs), watch)
+        yield from running.results()
 
 
-@dataclass(eq=False)
-class _Worker:
-    """A worker process, and the case that it runs."""
-
-    process: subprocess.Popen[bytes]
-    connection: Connection
-    case: Case | None = None
-    search: Search | None = None
-    begun: float = 0.0
-    result: Result | None = None
-
-
-class _Pool:
-    """Who asks next, who runs it, and what became of it."""
+class _Run:
+    """Which search asks next, and what became of its case."""
 
     def __init__(
         self,
@@ -254,53 +242,48 @@ class _Pool:
         results: dict[Key, Result],
         until: float,
         timeout: float,
-        place: Workshop,
+        pool: Pool,
         watch: Watch,
     ) -> None:
         self.asking = {search: search.next(results) for search in searches}
-        self.results, self.until, self.timeout, self.place, self.watch = results, until, timeout, place, watch
+        self.known, self.until, self.timeout, self.pool, self.watch = results, until, timeout, pool, watch
         self.spent: defaultdict[str, float] = defaultdict(float)
-        self.workers: list[_Worker] = []
+        self.searches: dict[Worker, Search] = {}
+        self.found: dict[Worker, Result] = {}
 
-    def run(self, jobs: int) -> Iterator[Result]:
+    def results(self) -> Iterator[Result]:
         """Until all is known or the time is up."""
         try:
-            for _ in range(jobs):
-                self._start()
             while self._employ():
-                for worker in self._heard():
-                    yield from self._listen(worker)
-                yield from self._overdue()
+                for event in self.pool.events(until=min(moment for moment in self._moments() if moment > now())):
+                    yield from self._on(event)
+                self._cut_off()
         finally:
-            for worker in list(self.workers):
-                self._stop(worker)
+            self.pool.close()
 
-    def _start(self) -> None:
-        self.workers.append(_Worker(*self.place.worker()))
-
-    def _stop(self, worker: _Worker) -> None:
-        self.workers.remove(worker)
-        end(worker.process, worker.connection)
+    def _moments(self) -> Iterator[float]:
+        """When to look up from waiting: the end of the budget, and of the grace after it."""
+        yield self.until
+        yield from (max(self.until, worker.begun) + GRACE for worker in self.pool.busy)
+        yield now() + GRACE
 
     def _employ(self) -> bool:
         """Give idle workers cases while there is time; whether any is at work."""
-        for worker in self.workers:
-            if worker.case is None and time.monotonic() < self.until:
-                chosen = self._choose()
-                if chosen is not None:
-                    worker.search, worker.case = chosen
-                    worker.begun, worker.result = time.monotonic(), None
-                    self.watch(worker.case, sum(case is not None for case, _ in self.asking.values()))
-                    give(worker.connection, CaseJob(worker.case))
-        return any(worker.case is not None for worker in self.workers)
+        for worker in self.pool.idle():
+            chosen = self._choose() if now() < self.until else None
+            if chosen is not None:
+                self.searches[worker], case = chosen
+                self.watch(case, sum(case is not None for case, _ in self.asking.values()))
+                self.pool.give(worker, CaseJob(case), max(self.timeout, getattr(case, "takes", 0.0)))
+        return bool(self.pool.busy)
 
     def _choose(self) -> tuple[Search, Case] | None:
         """The next case of the family that has had least of its share; it may have none while others run its last."""
-        running = {worker.search for worker in self.workers if worker.case is not None}
+        running = {self.searches[worker] for worker in self.pool.busy}
         asked: dict[str, list[tuple[tuple[bool, bool, int], Search, Case]]] = {}
         for place, (search, (case, _)) in enumerate(self.asking.items()):
             if case is not None and search not in running:
-                urgency = (getattr(case, "heavy", False), not search.caught(self.results), place)
+                urgency = (getattr(case, "heavy", False), not search.caught(self.known), place)
                 asked.setdefault(search.family, []).append((urgency, search, case))
         if not asked:
             return None
@@ -308,62 +291,33 @@ class _Pool:
         _, search, case = min(asked[family], key=lambda one: one[0])
         return search, case
 
-    def _heard(self) -> list[_Worker]:
-        """Workers that have something to say; a moment later, those there are."""
-        busy = [worker for worker in self.workers if worker.case is not None]
-        patience = max(0.0, min(self._deadline(worker) for worker in busy) - time.monotonic())
-        ready = wait([worker.connection for worker in busy], patience)
-        return [worker for worker in busy if worker.connection in ready]
+    def _on(self, event: Event) -> Iterator[Result]:
+        assert isinstance(event.job, CaseJob)
+        case, worker = event.job.case, event.worker
+        if isinstance(event, Said):
+            if isinstance(event.message, Result):
+                self.found[worker] = event.message
+            elif isinstance(event.message, Failed):
+                self.found[worker] = failed(case, "exception", event.message.reason, event.message.trace)
+        elif isinstance(event, Lost):
+            yield self._over(worker, failed(case, "hang" if event.overdue else "crash", event.reason))
+        else:
+            yield self._over(worker, self.found.pop(worker, failed(case, "exception", "the worker gave no result")))
 
-    def _deadline(self, worker: _Worker) -> float:
-        return min(worker.begun + self._allowed(worker.case), max(self.until, worker.begun) + GRACE)
+    def _cut_off(self) -> None:
+        """Stop cases that are still under way some seconds after the time is up: nothing is known of them."""
+        for worker in self.pool.busy:
+            if now() > max(self.until, worker.begun) + GRACE:
+                self.searches.pop(worker)
+                self.pool.stop(worker)
 
-    def _allowed(self, case: Case | None) -> float:
-        """Seconds for a case: some are known to take long."""
-        return max(self.timeout, getattr(case, "takes", 0.0))
-
-    def _listen(self, worker: _Worker) -> Iterator[Result]:
-        case = worker.case
-        if case is None:
-            return
-        try:
-            message = worker.connection.recv()
-        except (EOFError, ConnectionError):
-            reason = death(worker.process)
-            yield self._over(worker, failed(case, "crash", reason))
-            self._stop(worker)
-            self._start()
-            return
-        if isinstance(message, Result):
-            worker.result = message
-        elif isinstance(message, Failed):
-            worker.result = failed(case, "exception", message.reason, message.trace)
-        elif isinstance(message, Done):
-            found = worker.result or failed(case, "exception", "the worker gave no result")
-            yield self._over(worker, found)
-
-    def _overdue(self) -> Iterator[Result]:
-        """Cases that have run out of their own time hang; those that have run out of the run's are only cut off."""
-        now = time.monotonic()
-        for worker in list(self.workers):
-            case = worker.case
-            if case is None or now < self._deadline(worker):
-                continue
-            allowed = self._allowed(case)
-            if now >= worker.begun + allowed:
-                yield self._over(worker, failed(case, "hang", f"no answer within {allowed:g} s"))
-            worker.case = None
-            self._stop(worker)
-            self._start()
-
-    def _over(self, worker: _Worker, result: Result) -> Result:
-        seconds = time.monotonic() - worker.begun
+    def _over(self, worker: Worker, result: Result) -> Result:
+        seconds = now() - worker.begun
         found = msgspec.structs.replace(result, seconds=round(seconds, 3))
-        self.results[key(found)] = found
-        if worker.search is not None:
-            self.spent[worker.search.family] += seconds
-            self.asking[worker.search] = worker.search.next(self.results)
-        worker.case = worker.search = None
+        self.known[key(found)] = found
+        search = self.searches.pop(worker)
+        self.spent[search.family] += seconds
+        self.asking[search] = search.next(self.known)
         return found
 
 

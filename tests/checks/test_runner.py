@@ -12,7 +12,7 @@ import furiko
 from furiko.checks.cache import Cache
 from furiko.checks.plan import PROFILES, make_plan
 from furiko.checks.runner import run
-from furiko.checks.workers.processes import workshop
+from furiko.engines.workers.processes import worker_processes
 
 CHECKS = PROFILES["quick"].checks
 
@@ -79,16 +79,16 @@ def test_no_worker_outlives_its_run():
     workers = [
         pid
         for pid in set(os.listdir("/proc")) - before
-        if pid.isdigit() and b"furiko.checks.workers.worker" in _command_line(pid) and _parent(pid) == os.getpid()
+        if pid.isdigit() and b"furiko.engines.workers.worker" in _command_line(pid) and _parent(pid) == os.getpid()
     ]
     assert workers == []
 
 
-def test_workers_begin_at_once_and_end_with_their_workshop():
+def test_workers_begin_at_once_and_end_with_their_source():
     """Nobody asks for a result here: as where the header or the stream cannot be written."""
-    with workshop() as place:
-        run(make_plan(["rods-2"], ["mujoco"], "smoke"), cache=Cache(None), place=place, jobs=2)
-        processes = [process for process, _ in place.taken]
+    with worker_processes() as source:
+        run(make_plan(["rods-2"], ["mujoco"], "smoke"), cache=Cache(None), source=source, jobs=2)
+        processes = [worker.process for worker in source.taken]
         assert processes
         assert all(process.poll() is None for process in processes)
     assert all(process.poll() is not None for process in processes)
@@ -139,5 +139,5 @@ def _command_line(pid):
 def test_every_planned_check_has_its_results(jobs):
     report = check("Right", scenes=["rods-1", "double-pendulum-no-gravity"], jobs=jobs)
     assert report.complete
-    checks = {(result.scene, result.check.split(" ")[0]) for result in report.results}
+    checks = {(result.scene, result.comparison) for result in report.results}
     assert len(checks) == 2 * len(CHECKS)

@@ -1,0 +1,147 @@
+"""The jobs of a cross-check: a scene's truth, and one scene on one engine."""
+
+from __future__ import annotations
+
+import time
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, cast
+
+import msgspec
+
+from ..engines.workers.messages import Send, Step
+from ..engines.workers.worker import one_line
+from ..models import Scene, System
+from ..records.check import Result
+from .check import Check
+from .plan import Task
+from .registry import CHECKS
+
+if TYPE_CHECKING:
+    from .cell import Cell
+
+# Most jobs need them: a worker imports them while its first job is still being decided on.
+MODULES = ("furiko.checks.facts", "furiko.checks.cell")
+
+
+@dataclass(frozen=True)
+class Facts:
+    """A scene's truth, as :meth:`SceneFacts.to_bytes` writes it."""
+
+    content: bytes
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A check is over, and this is how many results it gave."""
+
+    check: str
+    results: int
+
+
+@dataclass(frozen=True)
+class TruthJob:
+    """Compute a scene's truth in the states that its cells look at."""
+
+    scene: Scene
+    random_states: int
+
+    def run(self, send: Send) -> None:
+        from ..models.states import states
+        from .facts import scene_facts
+
+        send(Step("truth"))
+        send(Facts(scene_facts(self.scene, states(self.scene, self.random_states)).to_bytes()))
+
+
+@dataclass(frozen=True)
+class CellJob:
+    """Run a task's checks, one after the other; ``facts`` as they came from the scene's :class:`TruthJob`."""
+
+    task: Task
+    facts: bytes
+
+    def run(self, send: Send) -> None:
+        check = self.task.checks[0]
+        send(Step(check))
+        cell = self._cell(lambda asked: send(Step(check, engine=asked)))
+        differs = False
+        for check in self.task.checks:
+            send(Step(check))
+            results = 0
+            for result in self._results(CHECKS[check], cell, differs):
+                differs = differs or (check == "accelerations" and result.outcome == "differs")
+                send(msgspec.structs.replace(result, comparison=check))
+                results += 1
+            send(Compared(check, results))
+
+    def _cell(self, announce: Callable[[bool], None]) -> Cell:
+        from ..engines import AnyShape, engine_info, load_engine
+        from ..models.states import states
+        from .cell import Cell
+        from .facts import SceneFacts
+
+        task = self.task
+        announce(True)
+        engine = load_engine(task.engine, task.scene.system)
+        announce(False)
+        info = replace(engine_info(task.engine), name=task.engine)  # as the plan calls it
+        looked_at = states(task.scene, task.random_states)
+        facts = SceneFacts.from_bytes(self.facts)
+        return Cell(task.scene, info, cast(AnyShape, Announced(engine, announce)), looked_at, facts)
+
+    def _results(self, check: Check, cell: Cell, differs: bool) -> Any:
+        """The results of one check; a failure ends this check alone."""
+        if check.moves and differs:
+            yield cell.result(check.name, "skipped", reason="the accelerations differ already: no trajectory can agree")
+            return
+        begun = time.perf_counter()
+        try:
+            for result in check.compare(cell):
+                now = time.perf_counter()
+                yield msgspec.structs.replace(explained(result, check, cell), seconds=now - begun)
+                begun = now
+        except Exception as error:
+            details = {"traceback": traceback.format_exc()}
+            yield cell.result(check.name, "error", reason=one_line(error), details=details)
+
+
+def messages_of(job: TruthJob | CellJob) -> list[object]:
+    """Everything that a job sends, run in this process; its exceptions come through."""
+    found: list[object] = []
+    job.run(found.append)
+    return found
+
+
+class Announced:
+    """An engine whose every call is announced before and after, so that the engine's time is the engine's alone."""
+
+    def __init__(self, engine: Any, announce: Callable[[bool], None]) -> None:
+        self._engine, self._announce = engine, announce
+
+    def of(self, system: System) -> Announced:
+        """The same engine with another mechanism, announced as well."""
+        return Announced(self.__getattr__("of")(system), self._announce)
+
+    def __getattr__(self, name: str) -> Any:
+        found = getattr(self._engine, name)
+        if not callable(found):
+            return found
+
+        def call(*arguments: Any, **named: Any) -> Any:
+            self._announce(True)
+            try:
+                return found(*arguments, **named)
+            finally:
+                self._announce(False)
+
+        return call
+
+
+def explained(result: Result, check: Check, cell: Cell) -> Result:
+    """A result that differs with the cause that measurements name; anything else as it is."""
+    if result.outcome != "differs" or not check.explained or result.cause is not None or not cell.findings:
+        return result
+    first = cell.findings[0]
+    return msgspec.structs.replace(result, cause=first.cause, reason=f"{result.reason}; {first.cause}: {first.says}")

@@ -1,0 +1,101 @@
+"""Every check, in the order in which a cell runs them. A new one: a file in ``comparisons/`` and an entry here."""
+
+from __future__ import annotations
+
+from ..engines import EngineInfo
+from ..models import Scene
+from .check import Check
+
+
+def _no_duration(scene: Scene, _info: EngineInfo) -> str:
+    return "" if scene.duration else "the scene has no duration: nothing moves in it"
+
+
+def _not_chaotic(scene: Scene, _info: EngineInfo) -> str:
+    if "chaotic" not in scene.tags:
+        return "the scene is not tagged 'chaotic': its divergence time is not asked"
+    return "" if scene.theta is not None else "the scene has no state for a trajectory to start from"
+
+
+CHECKS = {
+    check.name: check
+    for check in (
+        Check(
+            name="model fields",
+            needs="fields",
+            module="model_fields",
+            meaning="The masses, centres, inertias and joints that the engine compiled are those of the scene.",
+            bound="rounding of what the engine's reader computes from the file's numbers",
+            explained=True,
+        ),
+        Check(
+            name="accelerations",
+            needs="accelerations",
+            module="accelerations",
+            meaning="The engine's forward dynamics solve the document's equations of motion.",
+            bound="backward error: residual over the sum of the magnitudes of the row's terms",
+            explained=True,
+        ),
+        Check(
+            name="symmetry",
+            needs="accelerations",
+            module="symmetries",
+            meaning="The engine answers alike where the mechanism looks alike: mirrored, turned, scaled, exchanged.",
+            bound="rounding of both answers",
+        ),
+        Check(
+            name="terms",
+            needs="inverse_dynamics",
+            module="terms",
+            meaning="Mass matrix, velocity terms and gravity terms agree entry by entry.",
+            bound="rounding of the magnitudes that make up each entry",
+            explained=True,
+        ),
+        Check(
+            name="joint forces",
+            needs="joint_forces",
+            module="joint_forces",
+            meaning="The joint reaction forces are those of Newton's law for all that hangs below.",
+            bound="rounding of the sum of the magnitudes of the forces",
+        ),
+        Check(
+            name="energy",
+            needs="energy",
+            module="energy",
+            meaning="Kinetic and potential energy agree, up to one constant of the potential.",
+            bound="rounding of the sum of the magnitudes of the links' energies",
+        ),
+        Check(
+            name="step map",
+            needs="trajectory",
+            module="step_map",
+            meaning="One step of each of the engine's integrators is one step of a textbook scheme.",
+            bound="rounding of the accelerations, handed on through one step",
+        ),
+        Check(
+            name="trajectory",
+            needs="trajectory",
+            module="trajectories",
+            meaning="Each integrator converges to the true motion with its order.",
+            bound="Richardson extrapolation's own uncertainty, and rounding grown along the motion",
+            why_not=_no_duration,
+        ),
+        Check(
+            name="invariant",
+            needs="trajectory",
+            module="invariants",
+            meaning="Energy, angular momentum and the way back hold in the limit of small steps.",
+            bound="Richardson extrapolation's own uncertainty, and rounding along the run",
+            long=True,
+        ),
+        Check(
+            name="horizon",
+            needs="trajectory",
+            module="horizon",
+            meaning="Trajectories of a chaotic motion diverge when their errors predict it, and no earlier.",
+            bound="the predicted divergence time, from local errors and the tangent flow",
+            why_not=_not_chaotic,
+            long=True,
+        ),
+    )
+}

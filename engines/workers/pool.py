@@ -1,0 +1,152 @@
+"""The pool: workers, the job that each is busy with, its time limit, and what became of it."""
+
+from __future__ import annotations
+
+import contextlib
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from multiprocessing.connection import wait
+from typing import Any
+
+from .messages import Done, Job, Step
+from .processes import WorkerProcess, Workers
+
+START = Step("", engine=True)  # until the job says otherwise
+OWN_LIMIT = 600.0  # [s] for a step of furiko's own work
+
+
+@dataclass(eq=False)
+class Worker:
+    """A worker, its job, and the step that the job is at."""
+
+    process: WorkerProcess
+    job: Job | None = None
+    step: Step = START
+    begun: float = 0.0
+    limit: float = 0.0  # [s] for a step that asks an engine
+    allowed: float = 0.0  # [s] for this step
+    deadline: float = 0.0
+    heard: int = 0  # messages of this job
+
+    def begin(self, step: Step) -> None:
+        """The clock starts anew."""
+        self.step = step
+        self.allowed = self.limit if step.engine else max(self.limit, OWN_LIMIT)
+        self.deadline = time.monotonic() + self.allowed
+
+
+@dataclass(frozen=True)
+class Said:
+    """A job sent a message."""
+
+    worker: Worker
+    job: Job
+    message: Any
+
+
+@dataclass(frozen=True)
+class Finished:
+    """A job is over, and all that it sent has arrived."""
+
+    worker: Worker
+    job: Job
+
+
+@dataclass(frozen=True)
+class Lost:
+    """A job will not end: its worker died or sent rubbish (``overdue`` False), or its step took too long (True)."""
+
+    worker: Worker
+    job: Job
+    step: Step
+    reason: str
+    overdue: bool = False
+
+
+Event = Said | Finished | Lost
+
+
+class Pool:
+    """``size`` workers from ``source``. A worker that is lost is replaced by a fresh one at once."""
+
+    def __init__(self, source: Workers, size: int) -> None:
+        self.source = source
+        self.workers = [Worker(source.worker()) for _ in range(size)]
+
+    def idle(self) -> list[Worker]:
+        """Workers without a job."""
+        return [worker for worker in self.workers if worker.job is None]
+
+    @property
+    def busy(self) -> list[Worker]:
+        """Workers with a job."""
+        return [worker for worker in self.workers if worker.job is not None]
+
+    def give(self, worker: Worker, job: Job, limit: float) -> None:
+        """Give an idle worker a job; ``limit`` [s] for each step in which an engine is asked."""
+        worker.job, worker.heard, worker.begun, worker.limit = job, 0, time.monotonic(), limit
+        worker.begin(START)
+        with contextlib.suppress(OSError):  # if it has died, its closed connection will tell
+            worker.process.channel.send(job)
+
+    def events(self, until: float | None = None) -> Iterator[Event]:
+        """What happens next: waits until a worker says something, is overdue, or ``until`` (of time.monotonic)."""
+        busy = self.busy
+        if not busy:
+            return
+        ends = [worker.deadline for worker in busy] + ([] if until is None else [until])
+        ready = wait([worker.process.channel.connection for worker in busy], max(0.0, min(ends) - time.monotonic()))
+        for worker in busy:
+            if worker.process.channel.connection in ready:
+                yield from self._listen(worker)
+        now = time.monotonic()
+        for worker in busy:
+            if worker.job is not None and worker in self.workers and now > worker.deadline:
+                yield from self._lose(worker, f"no answer within {worker.allowed:g} s", overdue=True)
+
+    def stop(self, worker: Worker) -> None:
+        """End a worker with whatever it is doing, and start a fresh one in its place."""
+        worker.process.end()
+        worker.job = None
+        self.workers[self.workers.index(worker)] = Worker(self.source.worker())
+
+    def close(self) -> None:
+        """End all workers."""
+        for worker in self.workers:
+            worker.process.end()
+        self.workers = []
+
+    def _listen(self, worker: Worker) -> Iterator[Event]:
+        try:
+            messages = worker.process.channel.available()
+        except (EOFError, ConnectionResetError):
+            yield from self._lose(worker, worker.process.how_it_died())
+            return
+        except OSError as error:
+            yield from self._lose(worker, f"the engine's process cannot be understood: {error}")
+            return
+        for message in messages:
+            job = worker.job
+            if job is None:  # it spoke without being asked: not to be trusted with another job
+                self.stop(worker)
+                return
+            if isinstance(message, Done):
+                if message.sent != worker.heard:
+                    yield from self._lose(
+                        worker, f"{message.sent - worker.heard} of {message.sent} messages did not arrive"
+                    )
+                    return
+                worker.job = None
+                yield Finished(worker, job)
+                continue
+            worker.heard += 1
+            if isinstance(message, Step):
+                worker.begin(message)
+            yield Said(worker, job, message)
+
+    def _lose(self, worker: Worker, reason: str, *, overdue: bool = False) -> Iterator[Event]:
+        job, step = worker.job, worker.step
+        self.stop(worker)
+        if job is not None:
+            yield Lost(worker, job, step, reason, overdue)

@@ -1,0 +1,101 @@
+"""The pool: every message arrives, the clock is the engine's alone, and no worker outlives the process it works for."""
+
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from misbehaving import LosesOne, Works
+
+from furiko.engines.workers import pool as module
+from furiko.engines.workers.pool import Finished, Lost, Pool, Said
+from furiko.engines.workers.processes import PREFIX, remove_left_behind, worker_processes
+
+
+def events_of(job, limit=60.0):
+    with worker_processes() as source:
+        pool = Pool(source, 1)
+        pool.give(pool.workers[0], job, limit)
+        found = []
+        while pool.busy:
+            found += pool.events()
+        pool.close()
+    return found
+
+
+def test_a_message_that_does_not_arrive_is_noticed():
+    *_, last = events_of(LosesOne())
+    assert isinstance(last, Lost)
+    assert "1 of 2 messages did not arrive" in last.reason
+
+
+def test_an_engine_that_takes_too_long_is_overdue():
+    *_, last = events_of(Works(engine=True, seconds=3600), limit=2.0)
+    assert isinstance(last, Lost)
+    assert last.overdue
+    assert last.step.engine
+
+
+def test_work_of_the_jobs_own_is_not_on_the_engines_clock():
+    found = events_of(Works(engine=False, seconds=3.0), limit=1.0)
+    assert isinstance(found[-1], Finished)
+    assert [event.message for event in found if isinstance(event, Said)][-1] == "done"
+
+
+def test_work_of_the_jobs_own_has_a_limit_too(monkeypatch):
+    monkeypatch.setattr(module, "OWN_LIMIT", 2.0)
+    *_, last = events_of(Works(engine=False, seconds=3600), limit=1.0)
+    assert isinstance(last, Lost)
+    assert last.overdue
+    assert not last.step.engine
+
+
+PARENT = """
+import sys, time
+from misbehaving import Works
+from furiko.engines.workers.pool import Pool
+from furiko.engines.workers.processes import worker_processes
+with worker_processes() as source:
+    pool = Pool(source, 1)
+    pool.give(pool.workers[0], Works(True, 3600.0), 3600.0)
+    list(pool.events())
+    print(pool.workers[0].process.process.pid, source.folder, flush=True)
+    time.sleep(3600)
+"""
+
+
+def test_a_worker_dies_with_its_parent_and_the_next_run_removes_the_folder():
+    tests = str(Path(__file__).parents[2])
+    paths = os.pathsep.join([tests, os.environ.get("PYTHONPATH", "")])
+    parent = subprocess.Popen(
+        [sys.executable, "-c", PARENT], stdout=subprocess.PIPE, text=True, env=os.environ | {"PYTHONPATH": paths}
+    )
+    worker, folder = parent.stdout.readline().split(maxsplit=1)
+    assert Path(f"/proc/{worker}").exists()
+    parent.send_signal(signal.SIGKILL)
+    parent.wait()
+    parent.stdout.close()
+    until = time.monotonic() + 10
+    while _running(worker) and time.monotonic() < until:
+        time.sleep(0.05)
+    assert not _running(worker)
+    assert Path(folder.strip()).exists()
+    remove_left_behind()
+    assert not Path(folder.strip()).exists()
+
+
+def test_folders_of_runs_that_are_alive_stay():
+    with tempfile.TemporaryDirectory(prefix=f"{PREFIX}{os.getpid()}-") as folder:
+        remove_left_behind()
+        assert Path(folder).exists()
+
+
+def _running(pid):
+    """Whether a process is there and not merely waiting for its parent to ask for its status."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
