@@ -1,9 +1,10 @@
-"""Results and truths kept from earlier runs, each under the digest of everything that it depends on.
+"""Results and truths kept from earlier runs, each under the digest of everything that it rests on.
 
-An entry's name is the SHA-256 of its inputs: the scene, the engine and its version, the check, the states, and the
-source of every module that takes part. Nothing is ever changed in place, so two runs at once do not disturb each other:
-an entry is written under another name and renamed. A disk that is full or not writable, or an entry that is damaged,
-costs the time to compute it again and nothing else.
+An entry's name is the SHA-256 of its inputs: the scene, the engine and its code, the checks, the states, and furiko's
+own code and data (:mod:`.foundations`). What cannot be known is not kept: an adapter from elsewhere may rest on
+anything. An entry holds its own digest and the number of its results. Nothing is ever changed in place, so two runs at
+once do not disturb each other: an entry is written under another name and renamed. A disk that is full or not writable,
+or an entry that is damaged, costs the time to compute it again and nothing else.
 """
 
 from __future__ import annotations
@@ -11,19 +12,37 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import os
-import platform
+import random
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 
 import msgspec
 
+from ..engines import ENGINES
 from ..models import Scene
 from ..records.check import Result
+from .foundations import own_foundation, package_foundation
 from .plan import Task
 
-SOURCES = ("models", "records", "reference", "engines", "diagnosis", "checks")
-_results = msgspec.json.Decoder(list[Result])
+LARGEST = 512 << 20  # bytes of the whole folder; the entries that were used least recently go first
+DIGEST = 32
+
+
+class _Entry(msgspec.Struct, frozen=True):
+    count: int
+    results: list[Result]
+
+
+_entries = msgspec.json.Decoder(_Entry)
+
+
+@dataclass(frozen=True)
+class Holding:
+    """What the folder holds of one kind."""
+
+    entries: int
+    size: int  # bytes
+    oldest: float | None  # seconds since the epoch, of its last use
 
 
 @dataclass(frozen=True)
@@ -31,60 +50,91 @@ class Cache:
     """A folder of entries; ``None`` for a run that keeps nothing and finds nothing."""
 
     folder: Path | None
+    largest: int = LARGEST
 
-    def results(self, task: Task, version: str) -> list[Result] | None:
+    def results(self, task: Task) -> list[Result] | None:
         """The results of an earlier run of this very task, marked as kept; None where it has to run."""
-        content = self._load(_results_key(task, version))
+        content = self._load("results", _results_key(task) if self.folder else None)
         if content is None:
             return None
         try:
-            found = _results.decode(content)
+            entry = _entries.decode(content)
         except msgspec.DecodeError:
             return None
-        return [msgspec.structs.replace(result, kept=True, seconds=0.0) for result in found]
+        compared = {result.comparison for result in entry.results}
+        if entry.count != len(entry.results) or compared != set(task.checks):
+            return None
+        return [msgspec.structs.replace(result, kept=True, seconds=0.0) for result in entry.results]
 
-    def keep_results(self, task: Task, version: str, results: list[Result]) -> None:
+    def keep_results(self, task: Task, results: list[Result]) -> None:
         """Keep all of a task's results, unless one is a failure: that may have passed by next time."""
-        if all(result.outcome != "error" for result in results):
-            self._save(_results_key(task, version), msgspec.json.encode(results))
+        if self.folder and all(result.outcome != "error" for result in results):
+            entry = _Entry(len(results), results)
+            self._save("results", _results_key(task), msgspec.json.encode(entry))
 
     def facts(self, scene: Scene, random_states: int) -> bytes | None:
         """A scene's truth as its worker sent it; None where it has to be computed."""
-        sealed = self._load(_facts_key(scene, random_states))
-        if sealed is None or hashlib.sha256(sealed[32:]).digest() != sealed[:32]:
-            return None
-        return sealed[32:]
+        return self._load("truths", _facts_key(scene, random_states) if self.folder else None)
 
     def keep_facts(self, scene: Scene, random_states: int, content: bytes) -> None:
         """Keep a scene's truth."""
-        self._save(_facts_key(scene, random_states), hashlib.sha256(content).digest() + content)
+        if self.folder:
+            self._save("truths", _facts_key(scene, random_states), content)
 
-    def _path(self, key: str) -> Path | None:
-        return self.folder / key[:2] / key[2:] if self.folder else None
+    def _path(self, kind: str, key: str | None) -> Path | None:
+        return self.folder / kind / key[:2] / key[2:] if self.folder and key else None
 
-    def _load(self, key: str) -> bytes | None:
-        path = self._path(key)
+    def _load(self, kind: str, key: str | None) -> bytes | None:
+        path = self._path(kind, key)
+        if path is None:
+            return None
         try:
-            return path.read_bytes() if path else None
+            sealed = path.read_bytes()
         except OSError:
             return None
+        if hashlib.sha256(sealed[DIGEST:]).digest() != sealed[:DIGEST]:
+            return None
+        with contextlib.suppress(OSError):
+            os.utime(path)
+        return sealed[DIGEST:]
 
-    def _save(self, key: str, content: bytes) -> None:
-        path = self._path(key)
+    def _save(self, kind: str, key: str | None, content: bytes) -> None:
+        path = self._path(kind, key)
         if path is None:
             return
         draft = path.with_name(f"{path.name}.{os.getpid()}")
         with contextlib.suppress(OSError):
             path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
             try:
-                draft.write_bytes(content)
+                draft.write_bytes(hashlib.sha256(content).digest() + content)
                 draft.replace(path)
             finally:
                 draft.unlink(missing_ok=True)
+            if random.random() < 1 / 64:  # looking at every entry takes longer than writing one
+                self.trim()
 
-    def entries(self) -> list[Path]:
-        """Files of all entries."""
-        return [path for path in self.folder.glob("??/*") if path.is_file()] if self.folder else []
+    def entries(self, kind: str = "*") -> list[Path]:
+        """Files of all entries, of one kind or of all."""
+        return [path for path in self.folder.glob(f"{kind}/??/*") if path.is_file()] if self.folder else []
+
+    def holds(self) -> dict[str, Holding]:
+        """What there is, kind by kind."""
+        found = {}
+        for kind in ("results", "truths"):
+            states = [path.stat() for path in self.entries(kind)]
+            oldest = min((state.st_mtime for state in states), default=None)
+            found[kind] = Holding(len(states), sum(state.st_size for state in states), oldest)
+        return found
+
+    def trim(self) -> None:
+        """Delete the entries that were used least recently until the folder is within its limit."""
+        states = [(path.stat().st_mtime, path.stat().st_size, path) for path in self.entries()]
+        size = sum(size for _, size, _ in states)
+        for _, bytes_, path in sorted(states):
+            if size <= self.largest:
+                return
+            path.unlink(missing_ok=True)
+            size -= bytes_
 
     def clear(self) -> int:
         """Delete every entry; returns how many there were."""
@@ -101,8 +151,14 @@ def user_cache() -> Cache:
     return Cache(Path(os.environ.get("FURIKO_CACHE") or platformdirs.user_cache_dir("furiko")))
 
 
-def _results_key(task: Task, version: str) -> str:
-    return _digest("results", _scene(task.scene), task.engine, version, repr(task.checks), str(task.random_states))
+def _results_key(task: Task) -> str | None:
+    """None where it is not known what the engine's answers rest on."""
+    info = ENGINES.get(task.engine)
+    foundation = package_foundation(info.package, info.module) if info else b""
+    if not foundation:
+        return None
+    scene, checks = _scene(task.scene), repr(task.checks)
+    return _digest("results", scene, task.engine, foundation.hex(), checks, str(task.random_states))
 
 
 def _facts_key(scene: Scene, random_states: int) -> str:
@@ -112,27 +168,22 @@ def _facts_key(scene: Scene, random_states: int) -> str:
 def _scene(scene: Scene) -> str:
     """Everything of a scene that a result depends on, and nothing that it does not."""
     system = scene.system
-    parts = (scene.name, system, scene.theta, scene.omega, scene.duration, scene.random, scene.named)
+    parts = (
+        scene.name,
+        system,
+        scene.theta,
+        scene.omega,
+        scene.duration,
+        scene.random,
+        scene.named,
+        sorted(scene.tags),
+    )
     return repr(parts)
 
 
 def _digest(*parts: str) -> str:
-    seal = hashlib.sha256(sources_digest())
+    seal = hashlib.sha256(own_foundation())
     for part in parts:
         content = part.encode()
         seal.update(len(content).to_bytes(8, "big") + content)
     return seal.hexdigest()
-
-
-@cache
-def sources_digest() -> bytes:
-    """Digest of furiko's own source that results depend on, and of the Python and numpy that run it."""
-    from importlib.metadata import version
-
-    root = Path(__file__).parent.parent
-    seal = hashlib.sha256(f"{platform.python_version()} {version('numpy')} {version('python-flint')}".encode())
-    for name in SOURCES:
-        # In a checkout the folders stand at the root, in a wheel inside the package: beside each other in both.
-        for path in sorted((root / name).rglob("*.py")):
-            seal.update(path.relative_to(root).as_posix().encode() + path.read_bytes())
-    return seal.digest()

@@ -13,7 +13,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from itertools import chain
 
-from ..engines import engine_version
 from ..engines.workers.messages import Failed
 from ..engines.workers.pool import Event, Finished, Lost, Pool, Worker
 from ..engines.workers.processes import Workers
@@ -37,7 +36,7 @@ def run(
     """
     known, tasks = [*plan.settled], []
     for task in plan.tasks:
-        kept = cache.results(task, version) if (version := engine_version(task.engine)) else None
+        kept = cache.results(task)
         if kept is None:
             tasks.append(task)
         else:
@@ -142,9 +141,8 @@ class _Run:
         missing = [check for check in job.task.checks if check not in progress.compared]
         for check in missing:
             yield _error(job.task, check, "the check was planned, and no result of it arrived")
-        version = engine_version(job.task.engine)
-        if version and progress.results and not missing:
-            self.cache.keep_results(job.task, version, progress.results)
+        if not missing:
+            self.cache.keep_results(job.task, progress.results)
 
     def _lost(self, job: object, event: Lost, progress: _Progress) -> Iterator[Result]:
         """A worker is gone with the job it had: say so, and let a fresh one resume what is left of it."""

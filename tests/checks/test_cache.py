@@ -1,18 +1,32 @@
 """What is kept is found again, only for the very same inputs, and its failures cost nothing but time."""
 
+import hashlib
+import importlib
 import multiprocessing
 import os
+import sys
 from dataclasses import replace
 
 import pytest
+from msgspec import json, structs
 
 import furiko
 from furiko.checks import cache as module
+from furiko.checks import foundations
 from furiko.checks.cache import Cache
+from furiko.checks.foundations import package_foundation
 from furiko.checks.plan import make_plan
 from furiko.records.check import Result
 
-RESULT = Result(scene="rods-2", engine="mujoco", check="accelerations", outcome="agrees", measured=1.5, unit="ε")
+RESULT = Result(
+    scene="rods-2",
+    engine="mujoco",
+    check="accelerations",
+    comparison="accelerations",
+    outcome="agrees",
+    measured=1.5,
+    unit="ε",
+)
 
 
 @pytest.fixture
@@ -26,15 +40,15 @@ def cache(tmp_path):
 
 
 def test_results_are_found_again_and_marked(cache, task):
-    assert cache.results(task, "4.0.0") is None
-    cache.keep_results(task, "4.0.0", [RESULT])
-    (found,) = cache.results(task, "4.0.0")
+    assert cache.results(task) is None
+    cache.keep_results(task, [RESULT])
+    (found,) = cache.results(task)
     assert found.kept
     assert (found.measured, found.outcome) == (1.5, "agrees")
 
 
 def test_any_other_input_is_another_entry(cache, task, monkeypatch):
-    cache.keep_results(task, "4.0.0", [RESULT])
+    cache.keep_results(task, [RESULT])
     scene = task.scene
     others = [
         replace(task, random_states=21),
@@ -44,28 +58,135 @@ def test_any_other_input_is_another_entry(cache, task, monkeypatch):
         replace(task, scene=replace(scene, duration=3.0)),
         replace(task, scene=replace(scene, system=furiko.RodChain(scene.system.lengths, density=0.9))),
     ]
-    assert all(cache.results(other, "4.0.0") is None for other in others)
-    assert cache.results(task, "4.0.1") is None
-    monkeypatch.setattr(module, "sources_digest", lambda: b"another version of furiko")
-    assert cache.results(task, "4.0.0") is None
+    assert all(cache.results(other) is None for other in others)
+    monkeypatch.setattr(module, "own_foundation", lambda: b"another version of furiko")
+    assert cache.results(task) is None
 
 
 def test_a_failure_is_not_kept(cache, task):
-    cache.keep_results(task, "4.0.0", [RESULT, replace_outcome("error")])
-    assert cache.results(task, "4.0.0") is None
+    cache.keep_results(task, [RESULT, replace_outcome("error")])
+    assert cache.results(task) is None
+
+
+def test_results_lost_from_an_entry_make_it_run_again(cache, task):
+    both = replace(task, checks=("accelerations", "terms"))
+    terms = [structs.replace(RESULT, check=f"terms {part}", comparison="terms") for part in "MCG"]
+    cache.keep_results(both, [RESULT, *terms])
+    assert len(cache.results(both)) == 4
+    (path,) = cache.entries()
+    for kept in ([RESULT], [RESULT, *terms[:1]], terms):
+        lost = json.encode({"count": 4, "results": kept})
+        path.write_bytes(hashlib.sha256(lost).digest() + lost)
+        assert cache.results(both) is None
+    whole_check = json.encode({"count": 1, "results": [RESULT]})
+    path.write_bytes(hashlib.sha256(whole_check).digest() + whole_check)
+    assert cache.results(both) is None
+
+
+def test_an_engine_from_elsewhere_is_never_kept(cache, task):
+    """Nobody knows what its answers rest on: its file, those it imports, an engine that it wraps."""
+    foreign = replace(task, engine="fake_engines:Right")
+    cache.keep_results(foreign, [structs.replace(RESULT, engine="fake_engines:Right")])
+    assert cache.results(foreign) is None
+    assert cache.entries() == []
+
+
+def installed(folder, module="someengine", package="some-engine"):
+    """A package as pip leaves it, with one Python file and one library."""
+    (folder / module).mkdir()
+    (folder / module / "__init__.py").write_text("")
+    (folder / module / "core.so").write_bytes(b"library")
+    info = folder / "some_engine-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {package}\nVersion: 1.0\n")
+    (info / "RECORD").write_text(f"{module}/__init__.py,,\n{module}/core.so,,\n")
+    importlib.invalidate_caches()
+    return package, module
+
+
+def edit_library(folder):
+    (folder / "someengine" / "core.so").write_bytes(b"libraRy")
+
+
+def edit_and_set_back_the_clock(folder):
+    path = folder / "someengine" / "core.so"
+    status = path.stat()
+    path.write_bytes(b"libraRy")
+    os.utime(path, ns=(status.st_atime_ns, status.st_mtime_ns))
+
+
+def delete_library(folder):
+    (folder / "someengine" / "core.so").unlink()
+
+
+def hide_behind_another(folder):
+    (folder / "front").mkdir()
+    (folder / "front" / "someengine.py").write_text("raise ImportError('broken')")
+    sys.path.insert(0, str(folder / "front"))
+
+
+@pytest.mark.parametrize("change", [edit_library, edit_and_set_back_the_clock, delete_library, hide_behind_another])
+def test_an_engine_whose_code_changed_under_the_same_version_is_another(tmp_path, monkeypatch, change):
+    monkeypatch.setattr(sys, "path", [str(tmp_path), *sys.path])
+    package, module = installed(tmp_path)
+    before = package_foundation.__wrapped__(package, module)
+    assert before
+    assert package_foundation.__wrapped__(package, module) == before
+    change(tmp_path)
+    importlib.invalidate_caches()
+    assert package_foundation.__wrapped__(package, module) != before
+
+
+def test_it_is_not_known_what_an_editable_install_rests_on(tmp_path, monkeypatch):
+    monkeypatch.setattr(sys, "path", [str(tmp_path), *sys.path])
+    package, module = installed(tmp_path)
+    source = '{"dir_info": {"editable": true}, "url": "file:///home/me/engine"}'
+    (tmp_path / "some_engine-1.0.dist-info" / "direct_url.json").write_text(source)
+    assert package_foundation.__wrapped__(package, module) == b""
+
+
+def test_an_engine_that_is_gone_rests_on_nothing(tmp_path, monkeypatch):
+    monkeypatch.setattr(sys, "path", [str(tmp_path), *sys.path])
+    assert package_foundation.__wrapped__("some-engine", "someengine") == b""
+
+
+def test_reference_data_are_part_of_what_a_result_rests_on(tmp_path, monkeypatch):
+    for room in foundations.ROOMS:
+        (tmp_path / room).mkdir()
+    data = tmp_path / "reference" / "data" / "endpoints.json"
+    data.parent.mkdir()
+    monkeypatch.setattr(foundations, "__file__", str(tmp_path / "checks" / "foundations.py"))
+    digests = set()
+    for content in ("0.51", "0.52"):
+        data.write_text(content)
+        digests.add(foundations.own_foundation.__wrapped__())
+    assert len(digests) == 2
+
+
+def test_the_folder_is_bounded_and_what_was_used_last_stays(tmp_path, task):
+    cache = Cache(tmp_path / "cache", largest=1000)
+    for states in range(4):
+        cache.keep_facts(task.scene, states, b"x" * 300)
+    for age, path in enumerate(sorted(cache.entries())):
+        os.utime(path, (1000 - age, 1000 - age))
+    assert cache.facts(task.scene, 2) is not None  # used just now
+    cache.trim()
+    assert sum(path.stat().st_size for path in cache.entries()) <= 1000
+    assert cache.facts(task.scene, 2) is not None
+    assert cache.holds()["truths"].entries == len(cache.entries()) == 3
 
 
 def replace_outcome(outcome):
-    return Result(scene="rods-2", engine="mujoco", check="energy", outcome=outcome, reason="once")
+    return Result(scene="rods-2", engine="mujoco", check="energy", comparison="energy", outcome=outcome, reason="once")
 
 
 @pytest.mark.parametrize("damage", [b"", b"[", b"\x00" * 100, b'[{"kind": "result"}]'])
 def test_a_damaged_entry_is_computed_again(cache, task, damage):
-    cache.keep_results(task, "4.0.0", [RESULT])
+    cache.keep_results(task, [RESULT])
     cache.keep_facts(task.scene, 20, b"truth")
     for path in cache.entries():
         path.write_bytes(damage)
-    assert cache.results(task, "4.0.0") is None
+    assert cache.results(task) is None
     assert cache.facts(task.scene, 20) is None
 
 
@@ -78,8 +199,8 @@ def test_truth_is_found_again(cache, task):
 def test_a_folder_that_cannot_be_written_is_no_failure(tmp_path, task):
     (tmp_path / "file").write_text("")
     cache = Cache(tmp_path / "file" / "cache")
-    cache.keep_results(task, "4.0.0", [RESULT])
-    assert cache.results(task, "4.0.0") is None
+    cache.keep_results(task, [RESULT])
+    assert cache.results(task) is None
     assert cache.entries() == []
 
 
@@ -92,30 +213,30 @@ def test_a_full_disk_leaves_no_entry(cache, task, monkeypatch):
             return file.write(content)
 
     monkeypatch.setattr(Path, "write_bytes", fail)
-    cache.keep_results(task, "4.0.0", [RESULT])
+    cache.keep_results(task, [RESULT])
     monkeypatch.undo()
     assert cache.entries() == []
 
 
 def test_no_cache_keeps_nothing(task):
     cache = Cache(None)
-    cache.keep_results(task, "4.0.0", [RESULT])
-    assert cache.results(task, "4.0.0") is None
+    cache.keep_results(task, [RESULT])
+    assert cache.results(task) is None
     assert cache.clear() == 0
 
 
 def test_clearing_deletes_every_entry(cache, task):
-    cache.keep_results(task, "4.0.0", [RESULT])
+    cache.keep_results(task, [RESULT])
     cache.keep_facts(task.scene, 20, b"truth")
     assert cache.clear() == 2
-    assert cache.results(task, "4.0.0") is None
+    assert cache.results(task) is None
 
 
 def _write_and_read(folder, task, times):
     cache = Cache(folder)
     for _ in range(times):
-        cache.keep_results(task, "4.0.0", [RESULT] * 50)
-        found = cache.results(task, "4.0.0")
+        cache.keep_results(task, [RESULT] * 50)
+        found = cache.results(task)
         assert found is not None
         assert len(found) == 50
 
