@@ -19,6 +19,7 @@ from ..engines.workers.processes import Workers
 from ..records.check import Result
 from .cache import Cache
 from .jobs import CellJob, Compared, Facts, TruthJob
+from .ledger import Ledger
 from .plan import Plan, Task
 
 TIMEOUT = 60.0  # [s] for one call of an engine; the slowest sound one seen takes a few
@@ -26,24 +27,34 @@ HANGS = 2  # after so many time-outs an engine is given up: each costs the whole
 
 
 def run(
-    plan: Plan, *, cache: Cache, source: Workers, jobs: int | None = None, timeout: float = TIMEOUT
+    plan: Plan,
+    *,
+    cache: Cache,
+    source: Workers,
+    jobs: int | None = None,
+    timeout: float = TIMEOUT,
+    ledger: Ledger | None = None,
 ) -> Iterator[Result]:
     """Every result of the plan: first what is settled or kept already, then the others in the order in which they come.
 
     Workers are busy from the call on, before the first result is asked for; they end with their ``source``, if not by
     themselves. ``source``: where workers come from; ``jobs``: how many, as many as there are cores for None;
-    ``timeout``: seconds for one call of an engine.
+    ``timeout``: seconds for one call of an engine; ``ledger`` is told how many results each check has given.
     """
     known, tasks = [*plan.settled], []
+    ledger = ledger or Ledger(plan)
     for task in plan.tasks:
         kept = cache.results(task)
         if kept is None:
             tasks.append(task)
         else:
             known += kept
+            for check in task.checks:
+                given = sum(result.comparison == check for result in kept)
+                ledger.promise(task.scene.name, task.engine, check, given)
     if not tasks:
         return iter(known)
-    run = _Run(tasks, cache, source, jobs or os.cpu_count() or 1, timeout)
+    run = _Run(tasks, cache, source, jobs or os.cpu_count() or 1, timeout, ledger)
     run.begin()
     return chain(known, run.results())
 
@@ -59,8 +70,10 @@ class _Progress:
 class _Run:
     """The jobs that wait, and what has come of those that run."""
 
-    def __init__(self, tasks: list[Task], cache: Cache, source: Workers, jobs: int, timeout: float) -> None:
-        self.cache, self.source, self.timeout = cache, source, timeout
+    def __init__(
+        self, tasks: list[Task], cache: Cache, source: Workers, jobs: int, timeout: float, ledger: Ledger
+    ) -> None:
+        self.cache, self.source, self.timeout, self.ledger = cache, source, timeout, ledger
         scenes = {task.scene.name: TruthJob(task.scene, task.random_states) for task in tasks}
         # The largest truths first: they take longest, and cells wait for them.
         self.truths = deque(sorted(scenes.values(), key=lambda job: -job.scene.system.n))
@@ -125,8 +138,9 @@ class _Run:
         elif isinstance(event.message, Result):
             progress.results.append(event.message)
             yield event.message
-        elif isinstance(event.message, Compared):
+        elif isinstance(event.message, Compared) and isinstance(job, CellJob):
             progress.compared.add(event.message.check)
+            self.ledger.promise(job.task.scene.name, job.task.engine, event.message.check, event.message.results)
         elif isinstance(event.message, Facts) and isinstance(job, TruthJob):
             self.cache.keep_facts(job.scene, job.random_states, event.message.content)
             self._release(job, event.message.content)

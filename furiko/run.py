@@ -16,6 +16,7 @@ from pathlib import Path
 from . import __version__
 from .checks.cache import Cache, user_cache
 from .checks.jobs import MODULES
+from .checks.ledger import Ledger
 from .checks.plan import Plan, make_plan
 from .checks.runner import TIMEOUT, run
 from .engines import engine_version
@@ -54,18 +55,25 @@ def check(
     given = None if scenes is None else [str(scene) for scene in scenes]
     plan = make_plan(given, engines, profile)
     cache = user_cache() if use_cache else Cache(None)
-    results = []
+    results: list[Result] = []
     with ExitStack() as open_until_done:
         workers = source or open_until_done.enter_context(worker_processes(modules=MODULES))
-        running = run(plan, cache=cache, source=workers, jobs=jobs, timeout=timeout)
+        ledger = Ledger(plan)
+        running = run(plan, cache=cache, source=workers, jobs=jobs, timeout=timeout, ledger=ledger)
         header = make_header(plan, given)  # while they work: the formulas in it need numpy
         stream = None if out is None else open_until_done.enter_context(open_report(out, header))
         if stream is not None:
             prepare_reports()  # likewise: at the end of a small run nothing else would be left to do
-        for result in running:
+
+        def take(result: Result) -> None:
             results.append(result if stream is None else stream.write(result))
             if watch is not None:
                 watch(plan, results[-1])
+
+        for result in running:
+            take(result)
+        for result in ledger.missing(results):
+            take(result)
         footer = _footer(stream, results, time.monotonic() - begun)
     report = Report(header, tuple(results), footer)
     if out is not None:

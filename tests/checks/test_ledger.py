@@ -1,0 +1,51 @@
+"""What was planned and did not arrive is an error, wherever it was lost."""
+
+import pytest
+
+import furiko
+from furiko.checks import runner
+from furiko.checks.ledger import Ledger
+from furiko.checks.plan import make_plan
+from furiko.records.check import Result
+
+
+def result(check, comparison):
+    return Result(scene="rods-2", engine="mujoco", check=check, comparison=comparison, outcome="agrees")
+
+
+@pytest.fixture
+def ledger():
+    found = Ledger(make_plan(["rods-2"], ["mujoco"], "smoke"))
+    found.promise("rods-2", "mujoco", "terms", 4)
+    return found
+
+
+def test_all_is_there(ledger):
+    terms = [result(f"terms {part}", "terms") for part in ("M", "C", "G", "velocity")]
+    assert ledger.missing([result("accelerations", "accelerations"), *terms]) == []
+
+
+def test_a_check_without_results_and_one_with_too_few(ledger):
+    first, second = ledger.missing([result("terms M", "terms"), result("terms C", "terms")])
+    assert (first.check, first.outcome) == ("accelerations", "error")
+    assert "no result" in first.reason
+    assert (second.check, second.outcome) == ("terms", "error")
+    assert "2 of its 4 results" in second.reason
+
+
+@pytest.mark.parametrize("lost", ["a whole check", "one of several results"])
+def test_what_the_runner_drops_is_noticed(monkeypatch, lost):
+    """A fault in the runner: a result that came from a worker is not handed on."""
+    real = runner._Run._on
+
+    def dropping(self, event):
+        for found in real(self, event):
+            dropped = found.comparison == "energy" if lost == "a whole check" else found.check == "terms C"
+            if not dropped:
+                yield found
+
+    monkeypatch.setattr(runner._Run, "_on", dropping)
+    report = furiko.check(["rods-2"], ["fake_engines:Right"])
+    missing = [found for found in report.results if found.outcome == "error"]
+    assert [found.check for found in missing] == ["energy" if lost == "a whole check" else "terms"]
+    assert report.exit_status == 3
