@@ -7,19 +7,27 @@ from pathlib import Path
 from typing import Any
 
 from ...records.check import Header
+from ...records.stress import (
+    HALF_THE_DIGITS,
+    AxisFrontier,
+    ChainMotion,
+    ConditionGrowth,
+    EnergyDrift,
+    SmallSwings,
+    StableStep,
+    StressSummary,
+)
 from ..write import write_whole
 from .check_page import TEMPLATES, environment
 from .stress_drawings import Map, Picture, Plot, draw, draw_curves, draw_map
 
 PAGE, CHAIN_PAGE = "stress.html", "chain.html"
 
-Data = dict[str, Any]
-
 HOLDS = "holds"
 FRAMES = ("0.125", "0.25", "0.375", "0.5", "0.75", "1", "1.5", "2")  # [s] at which chains are pictured
 
 
-def write_pages(folder: Path, summary: Data, header: Header) -> tuple[Path, Path]:
+def write_pages(folder: Path, summary: StressSummary, header: Header) -> tuple[Path, Path]:
     """Write both into the folder; each is there whole or not at all."""
     return (
         write_whole(folder / PAGE, stress_page(summary, header)),
@@ -27,62 +35,58 @@ def write_pages(folder: Path, summary: Data, header: Header) -> tuple[Path, Path
     )
 
 
-def stress_page(summary: Data, header: Header) -> str:
+def stress_page(summary: StressSummary, header: Header) -> str:
     """Frontiers, conditions, steps, long runs and failures."""
-    single = [f for f in summary["frontiers"] if not f["pair"]]
-    engines = list(dict.fromkeys(f["engine"] for f in summary["frontiers"]))
+    single = [f for f in summary.frontiers if not f.pair]
+    engines = list(dict.fromkeys(f.engine for f in summary.frontiers))
     colours = {engine: i for i, engine in enumerate(engines)}
     return _render(
         "stress.html.j2",
         summary=summary,
         header=header,
         engines=engines,
-        half=2.0**-26,
+        half=HALF_THE_DIGITS,
         rows=_by_axis(single, engines),
-        pairs=[f for f in summary["frontiers"] if f["pair"] and f["status"] == "fails"],
-        pairs_asked=sum(f["pair"] for f in summary["frontiers"]),
-        pairs_closed=sum(f["pair"] and f["closed"] for f in summary["frontiers"]),
+        pairs=[f for f in summary.frontiers if f.pair and f.status == "fails"],
+        pairs_asked=sum(f.pair for f in summary.frontiers),
+        pairs_closed=sum(f.pair and f.closed for f in summary.frontiers),
         curves=[plot for axis in _axes(single) if (plot := _curve(axis, single, colours))],
-        condition=_condition(summary["condition"]),
-        stresses=_stresses(summary["steps"]),
-        maps=_maps(summary["steps"]),
-        kinds=_kinds(summary["steps"]),
-        long_runs=[run for run in summary["long runs"] if run["steps"]],
-        drifts=_drifts(summary["long runs"]),
+        condition=_condition(summary.condition),
+        stresses=_stresses(summary.steps),
+        maps=_maps(summary.steps),
+        kinds=_kinds(summary.steps),
+        long_runs=[run for run in summary.long_runs if run.steps],
+        drifts=_drifts(summary.long_runs),
     )
 
 
-def chain_page(summary: Data, header: Header) -> str:
+def chain_page(summary: StressSummary, header: Header) -> str:
     """Takeno's chain."""
-    chain = summary["chain"]
-    fine = [m for m in chain["motions"] if m["amplitude"] == 1.0 and m["tolerance"] <= 1e-12]
+    chain = summary.chain
+    fine = [m for m in chain.motions if m.amplitude == 1.0 and m.tolerance <= 1e-12]
     return _render(
         "chain.html.j2",
         chain=chain,
         header=header,
-        swings=[plot for data in chain["swings"] if (plot := _swings(data))],
+        swings=[plot for data in chain.swings if (plot := _swings(data))],
         pictures=_pictures(fine),
-        shown=[f"{m['n']} rods" for m in _few(fine)],
+        shown=[f"{m.n} rods" for m in _few(fine)],
         speeds=draw(
             "Speed of the tip",
-            {f"{m['n']} rods": _series(m["speed"], m["time"], 2.0) for m in _few(fine)},
+            {f"{m.n} rods": _series(m.speed, m.time, 2.0) for m in _few(fine)},
             "time, s",
             "m/s",
         ),
         apart=draw(
             "How far the tips of n and 2n rods are apart",
-            {
-                f"{r['n']} and {2 * r['n']}": _series(r["series"], None, 2.0)
-                for r in chain["convergence"]
-                if r["amplitude"] == 1.0
-            },
+            {f"{r.n} and {2 * r.n}": _series(r.series, None, 2.0) for r in chain.convergence if r.amplitude == 1.0},
             "time, s",
             "m",
             log_y=True,
         ),
         steps=draw(
             "Largest step of the classical Runge-Kutta scheme",
-            {"step": [(r["n"], r["step"]) for r in chain["usable step"]]},
+            {"step": [(r.n, r.step) for r in chain.usable_steps if r.step]},
             "rods",
             "s",
             log_x=True,
@@ -91,7 +95,7 @@ def chain_page(summary: Data, header: Header) -> str:
         ),
         cost=draw(
             "Computing for one second of motion",
-            {"seconds": [(m["n"], m["seconds"] / m["time"]) for m in fine]},
+            {"seconds": [(m.n, m.seconds / m.time) for m in fine]},
             "rods",
             "s",
             log_x=True,
@@ -100,7 +104,7 @@ def chain_page(summary: Data, header: Header) -> str:
         ),
         memory=draw(
             "Memory",
-            {"bytes": [(r["n"], r["bytes"]) for r in chain["memory"] if r["bytes"]]},
+            {"bytes": [(r.n, r.bytes) for r in chain.memory if r.bytes]},
             "rods",
             "bytes",
             log_x=True,
@@ -118,13 +122,15 @@ def _render(template: str, **values: Any) -> str:
     return templates.get_template(template).render(style=Markup(style), **values)
 
 
-def _axes(frontiers: Sequence[Data]) -> list[str]:
-    return list(dict.fromkeys(f["axis"] for f in frontiers))
+def _axes(frontiers: Sequence[AxisFrontier]) -> list[str]:
+    return list(dict.fromkeys(f.axis for f in frontiers))
 
 
-def _by_axis(frontiers: Sequence[Data], engines: Sequence[str]) -> list[tuple[Data, list[Data | None]]]:
+def _by_axis(
+    frontiers: Sequence[AxisFrontier], engines: Sequence[str]
+) -> list[tuple[AxisFrontier, list[AxisFrontier | None]]]:
     """Each axis (any of its frontiers, for its words) and its frontier for each engine."""
-    found = {(f["axis"], f["engine"]): f for f in frontiers}
+    found = {(f.axis, f.engine): f for f in frontiers}
     rows = []
     for axis in _axes(frontiers):
         cells = [found.get((axis, engine)) for engine in engines]
@@ -132,14 +138,11 @@ def _by_axis(frontiers: Sequence[Data], engines: Sequence[str]) -> list[tuple[Da
     return rows
 
 
-def _curve(axis: str, frontiers: Sequence[Data], colours: dict[str, int]) -> Plot | None:
-    of_axis = [f for f in frontiers if f["axis"] == axis]
-    lines = {
-        f["engine"]: [(p["value"], max(p["error"], 1e-17)) for p in f["curve"] if p["error"] is not None]
-        for f in of_axis
-    }
+def _curve(axis: str, frontiers: Sequence[AxisFrontier], colours: dict[str, int]) -> Plot | None:
+    of_axis = [f for f in frontiers if f.axis == axis]
+    lines = {f.engine: [(p.value, max(p.error, 1e-17)) for p in f.curve if p.error is not None] for f in of_axis}
     return draw(
-        f"{axis}: {of_axis[0]['says']}",
+        f"{axis}: {of_axis[0].says}",
         {name: points for name, points in lines.items() if len(points) > 1},
         "",
         "typical relative error",
@@ -150,10 +153,10 @@ def _curve(axis: str, frontiers: Sequence[Data], colours: dict[str, int]) -> Plo
     )
 
 
-def _condition(rows: Sequence[Data]) -> Plot | None:
+def _condition(rows: Sequence[ConditionGrowth]) -> Plot | None:
     return draw(
         "Condition of the mass matrix",
-        {f"{row['posture']}, {row['coordinates']}": list(zip(row["n"], row["condition"], strict=True)) for row in rows},
+        {f"{row.posture}, {row.coordinates}": list(zip(row.n, row.condition, strict=True)) for row in rows},
         "links",
         "λ max / λ min",
         log_x=True,
@@ -162,66 +165,65 @@ def _condition(rows: Sequence[Data]) -> Plot | None:
     )
 
 
-def _stresses(steps: Sequence[Data]) -> list[tuple[str, str, list[float], list[tuple[str, list[Data | None]]]]]:
+def _stresses(
+    steps: Sequence[StableStep],
+) -> list[tuple[str, str, list[float], list[tuple[str, list[StableStep | None]]]]]:
     """For each stress: its unit, its values, and for each engine and integrator what was found at each value."""
     found = []
-    for stress in dict.fromkeys(s["stress"] for s in steps):
-        of_stress = [s for s in steps if s["stress"] == stress]
-        values = sorted({s["value"] for s in of_stress})
-        at = {(s["engine"], s["integrator"], s["value"]): s for s in of_stress}
+    for stress in dict.fromkeys(s.stress for s in steps):
+        of_stress = [s for s in steps if s.stress == stress]
+        values = sorted({s.value for s in of_stress})
+        at = {(s.engine, s.integrator, s.value): s for s in of_stress}
         rows = [
             (f"{engine} {integrator}", [at.get((engine, integrator, value)) for value in values])
-            for engine, integrator in dict.fromkeys((s["engine"], s["integrator"]) for s in of_stress)
+            for engine, integrator in dict.fromkeys((s.engine, s.integrator) for s in of_stress)
         ]
-        found.append((stress, of_stress[0]["unit"], values, rows))
+        found.append((stress, of_stress[0].unit, values, rows))
     return found
 
 
-def _kinds(steps: Sequence[Data]) -> list[str]:
-    return [HOLDS, *dict.fromkeys(c["failure"] for s in steps for c in s["cells"] if c["failure"])]
+def _kinds(steps: Sequence[StableStep]) -> list[str]:
+    return [HOLDS, *dict.fromkeys(c.failure for s in steps for c in s.runs if c.failure)]
 
 
-def _maps(steps: Sequence[Data]) -> list[Map]:
+def _maps(steps: Sequence[StableStep]) -> list[Map]:
     """Step × links for each engine and integrator."""
     kinds = _kinds(steps)
-    links = [s for s in steps if s["stress"] == "links" and s["cells"]]
+    links = [s for s in steps if s.stress == "links" and s.runs]
     maps = []
-    for engine, integrator in dict.fromkeys((s["engine"], s["integrator"]) for s in links):
-        mine = [s for s in links if (s["engine"], s["integrator"]) == (engine, integrator)]
-        columns = [
-            (f"{s['value']:g}", {c["rung"]: kinds.index(c["failure"] or HOLDS) for c in s["cells"]}, s["rung"])
-            for s in mine
-        ]
-        known = {c["rung"]: c["step"] for s in mine for c in s["cells"]}
+    for engine, integrator in dict.fromkeys((s.engine, s.integrator) for s in links):
+        mine = [s for s in links if (s.engine, s.integrator) == (engine, integrator)]
+        columns = [(f"{s.value:g}", {c.rung: kinds.index(c.failure or HOLDS) for c in s.runs}, s.rung) for s in mine]
+        known = {c.rung: c.step for s in mine for c in s.runs}
         rung, step = next(iter(known.items()))
         rows = [f"{step * 2 ** ((row - rung) / 2):.1e} s" for row in range(25)]
         maps.append(draw_map(f"{engine} {integrator}", columns, rows, kinds))
     return maps
 
 
-def _drifts(runs: Sequence[Data]) -> list[Plot]:
+def _drifts(runs: Sequence[EnergyDrift]) -> list[Plot]:
     plots = (
         draw(
-            f"{run['engine']} {run['integrator']}",
-            {"energy": [(i * run["steps"] / (len(run["drift"]) - 1), value) for i, value in enumerate(run["drift"])]},
+            f"{run.engine} {run.integrator}",
+            {"energy": [(i * run.steps / (len(run.drift) - 1), value) for i, value in enumerate(run.drift)]},
             "steps",
             "ΔE / E",
         )
         for run in runs
-        if len(run["drift"]) > 2
+        if len(run.drift) > 2
     )
     return [plot for plot in plots if plot]
 
 
-def _swings(data: Data) -> Plot | None:
+def _swings(data: SmallSwings) -> Plot | None:
     return draw(
-        f"{data['links']}: error of the k-th small swing",
+        f"{data.links}: error of the k-th small swing",
         {
-            f"k = {row['k']}": [(n, abs(e)) for n, e in zip(data["n"], row["errors"], strict=True)]
-            for row in data["rows"]
-            if row["k"] in (1, 2, 3, 5, 7, 10)
+            f"k = {row.k}": [(n, abs(e)) for n, e in zip(data.n, row.errors, strict=True)]
+            for row in data.rows
+            if row.k in (1, 2, 3, 5, 7, 10)
         },
-        data["links"],
+        data.links,
         "relative to Bernoulli's",
         log_x=True,
         log_y=True,
@@ -229,17 +231,17 @@ def _swings(data: Data) -> Plot | None:
     )
 
 
-def _few(motions: Sequence[Data], most: int = 6) -> list[Data]:
+def _few(motions: Sequence[ChainMotion], most: int = 6) -> list[ChainMotion]:
     """At most so many motions, the ends among them."""
     if len(motions) <= most:
         return list(motions)
     return [motions[round(i * (len(motions) - 1) / (most - 1))] for i in range(most)]
 
 
-def _pictures(motions: Sequence[Data]) -> list[Picture]:
+def _pictures(motions: Sequence[ChainMotion]) -> list[Picture]:
     found = []
     for time in FRAMES:
-        curves = {f"{m['n']} rods": m["curves"][time] for m in _few(motions) if time in m["curves"]}
+        curves = {f"{m.n} rods": m.curves[time] for m in _few(motions) if time in m.curves}
         if curves:
             found.append(draw_curves(f"{time} s", curves, 1.05))
     return found

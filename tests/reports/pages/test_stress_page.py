@@ -2,9 +2,11 @@
 
 from html.parser import HTMLParser
 
+import msgspec
 import pytest
 
 from furiko.records.check import Header
+from furiko.records.stress import StressSummary
 from furiko.reports.pages.stress_drawings import draw, draw_map
 from furiko.reports.pages.stress_page import chain_page, stress_page, write_pages
 
@@ -37,6 +39,11 @@ def steps(**changes):
 
 
 def summary(**changes):
+    """A summary from its JSON document, with these keys changed."""
+    return msgspec.convert(document() | changes, StressSummary)
+
+
+def document():
     return {
         "seed": 1, "cases": 12, "open": 2,
         "frontiers": [frontier(), frontier(engine="kernels", status="holds", failure=None)],
@@ -60,7 +67,7 @@ def summary(**changes):
                              "series": [0.0, 1e-3]}],
             "verdict": ["It is physics."],
         },
-    } | changes  # fmt: skip
+    }  # fmt: skip
 
 
 def motion(n):
@@ -100,11 +107,9 @@ class Checker(HTMLParser):
 @pytest.mark.parametrize("render", [stress_page, chain_page])
 @pytest.mark.parametrize("empty", [False, True])
 def test_pages_are_whole_and_fetch_nothing(render, empty):
-    found = summary()
-    if empty:
-        found |= {"frontiers": [], "condition": [], "steps": [], "long runs": [], "failures": []}
-        found["chain"] = {key: [] for key in found["chain"]}
-    page = render(found, HEADER)
+    nothing = {"frontiers": [], "condition": [], "steps": [], "long runs": [], "failures": []}
+    nothing["chain"] = {key: [] for key in document()["chain"]}
+    page = render(summary(**nothing) if empty else summary(), HEADER)
     checker = Checker()
     checker.feed(page)
     assert checker.open == []
@@ -128,6 +133,17 @@ def test_the_stress_page_says_what_was_found():
         assert words in page
     assert "a &lt;b&gt;bold&lt;/b&gt; reason" in page
     assert "There is no exception" in page
+
+
+def test_the_records_write_the_document_that_they_were_read_from():
+    assert msgspec.to_builtins(summary()) == document()
+
+
+def test_a_long_run_too_short_to_classify_has_no_exponent_in_the_document():
+    (run,) = document()["long runs"]
+    short = {key: value for key, value in run.items() if key not in ("exponent", "rate", "spread")} | {"kind": None}
+    again = msgspec.to_builtins(summary(**{"long runs": [short]}))
+    assert again["long runs"] == [short]
 
 
 def test_a_broken_promise_is_not_hidden():
