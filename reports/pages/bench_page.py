@@ -7,19 +7,18 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ...records.bench import Bench, Motion, Point, Reach, Speed
-from ..bench_words import MET, SAME, batch, duration, link_words, times
-from ..words import figure
+from ..words import MET, SAME, batch, duration, figure, link_words, multiple
 from .plot import KINDS, LARGE, Plot, Series, draw
 from .rendering import render
 
 FURIKO = "furiko"
-WORST = 1.0  # rad or rad/s: what is further off has nothing to do with the motion, and is not drawn
-FINEST = 1e-18  # errors of zero stand here
+WORST = 1.0  # rad or rad/s: a larger error has nothing to do with the motion, and is not drawn
+FINEST = 1e-18  # errors of zero are drawn here
 
 
 @dataclass(frozen=True)
 class MotionView:
-    """What the page says of one motion."""
+    """One motion, as the page shows it."""
 
     motion: Motion
 
@@ -35,7 +34,7 @@ class MotionView:
 
     @cached_property
     def errors(self) -> list[float]:
-        """Those that times are given for."""
+        """The errors for which times are given."""
         return list(dict.fromkeys(reach.error for reach in self.motion.reaches))
 
     @cached_property
@@ -93,7 +92,7 @@ def _points(points: Sequence[Point], engine: str, scheme: str) -> list[tuple[flo
 
 @dataclass(frozen=True)
 class SpeedView:
-    """What the page says of the accelerations of one kind of mechanism."""
+    """The accelerations of one kind of mechanism, as the page shows them."""
 
     system: str
     speeds: list[Speed]
@@ -183,7 +182,7 @@ def to_html(found: Bench) -> str:
         motions=[MotionView(motion) for motion in found.motions],
         speeds=[SpeedView(kind, [s for s in found.speeds if s.system == kind]) for kind in kinds],
         duration=duration,
-        ratio=times,
+        ratio=multiple,
         batch=batch,
         met=MET,
         same=SAME,

@@ -1,4 +1,4 @@
-"""The page: one HTML file that opens from disk, offline, with nothing fetched and nothing to run."""
+"""The page of a check, ``report.html``: one file that opens from disk, fetches nothing and runs nothing."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ...records.check import Outcome, Result, SceneEntry
-from ..report import Cell, Report, against
+from ..report import Report, TableCell, against
 from ..words import GLYPHS, LEGEND, count, last_line
 from .error_plots import ErrorPlot, HorizonPlot, draw_errors, draw_horizons
 from .mechanism_drawing import MechanismDrawing, draw_mechanism
 from .rendering import environment, render
 
-DRAWN = ("traceback", "errors over time")  # further figures that stand elsewhere on the page
+DRAWN = ("traceback", "errors over time")  # details that the page shows elsewhere
 
 PAGE = "report.html.j2"
 PARTS = ("marks", "facts", "overview", "reasons", "scene", "plot")  # it includes these
@@ -21,7 +21,7 @@ PARTS = ("marks", "facts", "overview", "reasons", "scene", "plot")  # it include
 
 @dataclass(frozen=True)
 class SceneView:
-    """What the page says of one scene; ``anchor`` is the page's own, since a name may hold anything."""
+    """One scene, as the page shows it; ``anchor`` is a number of the page's own, because a name may hold anything."""
 
     report: Report
     name: str
@@ -29,22 +29,22 @@ class SceneView:
 
     @cached_property
     def entry(self) -> SceneEntry | None:
-        """What the header says of it; None where only results name it."""
+        """The header's entry; None where only results name the scene."""
         return self.report.scene(self.name)
 
     @cached_property
-    def cells(self) -> list[Cell]:
+    def cells(self) -> list[TableCell]:
         """One for each engine."""
         return [self.report.table[self.name, engine] for engine in self.report.engines]
 
     @cached_property
     def results(self) -> list[Result]:
-        """All of them, engine by engine."""
+        """All results, engine by engine."""
         return [result for cell in self.cells for result in cell.results]
 
     @cached_property
     def outcomes(self) -> list[Outcome]:
-        """Which of the four there are."""
+        """The outcomes that occur."""
         return [outcome for outcome in GLYPHS if any(result.outcome == outcome for result in self.results)]
 
     @cached_property
@@ -60,7 +60,7 @@ class SceneView:
 
     @cached_property
     def checks(self) -> list[str]:
-        """Which checks there are, in one order for all scenes."""
+        """The checks of this scene, in the same order for all scenes."""
         found = {result.check for result in self.results}
         return [check for check in self.report.checks if check in found]
 
@@ -82,17 +82,17 @@ class SceneView:
 
     @cached_property
     def mechanism(self) -> MechanismDrawing | None:
-        """Its drawing."""
+        """The drawing of the mechanism."""
         return draw_mechanism(self.entry) if self.entry and self.entry.lengths else None
 
     @cached_property
     def errors(self) -> ErrorPlot | None:
-        """Its error plot."""
+        """Its errors relative to their bounds."""
         return draw_errors(self.results, self.report.engines)
 
     @property
     def again(self) -> str:
-        """The command line that runs this row again."""
+        """The command line that runs this scene again."""
         return self.report.again(self.name)
 
     @property
@@ -120,8 +120,8 @@ def load_templates() -> None:
         environment().get_template(name)
 
 
-def _in_words(cell: Cell) -> str:
-    """What a cell of the table says when pointed at: its deciding check, and how many of its others were left out."""
+def _in_words(cell: TableCell) -> str:
+    """The tooltip of a table cell: its deciding check, and how many others were skipped."""
     worst = cell.worst
     if worst is None:
         return f"{cell.scene} × {cell.engine}: no result"

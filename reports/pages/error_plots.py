@@ -16,7 +16,7 @@ WIDTH, LEFT, RIGHT = 900, 250, 110
 LANE, ROW_PADDING = 9, 10  # every engine has a lane of its own in a check's row, so that no mark covers another
 TOP, BOTTOM = 22, 40
 ZERO_ROOM = 44  # for errors that are exactly zero, left of the logarithmic axis
-DECADES = (-6, 12)  # what the axis shows at most; what lies outside stands at its end
+DECADES = (-6, 12)  # largest range of the axis; errors beyond it are drawn at its end
 MOST_TICKS = 10
 
 

@@ -5,30 +5,31 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from ...records.stress import AxisFrontier, StableStep, StressSummary
-from ..words import count, figure, one_line, printable
+from ..words import count, figure, one_line
+from .console import PlainConsole
+
+WIDTH = 160  # columns in a pipe: a column for each engine
 
 Rows = Sequence[tuple[str, ...]]
 
 
 def print_stress(found: StressSummary, page: Path) -> None:
     """Print it; as wide as the terminal, or 160 columns in a pipe. ``page``: where the HTML page is."""
-    from rich.console import Console
-
-    console = Console(width=None if sys.stdout.isatty() else 160, highlight=False, markup=False)
+    console = PlainConsole(sys.stdout, None if sys.stdout.isatty() else WIDTH)
     for heading, rows in _tables(found):
         if rows:
-            _print_table(console, heading, rows)
+            console.table(heading, rows, "bold")
+            console.line()
     for swings in found.chain.swings:
-        console.print(
-            f"chain of {swings.links}: first swing's error is {swings.rows[0].coefficient:.4g}/n^{swings.power}"
-            f" at n = {swings.n[-1]}"
+        console.line(
+            f"chain of {swings.links}: the error of its first natural frequency is "
+            f"{swings.rows[0].coefficient:.4g}/n^{swings.power} at n = {swings.n[-1]}"
         )
     for sentence in found.chain.verdict:
-        console.print(f"- {sentence}")
-    console.print(_end(found, page))
+        console.line(f"- {sentence}")
+    console.line(_end(found, page))
 
 
 def _tables(found: StressSummary) -> list[tuple[tuple[str, ...], Rows]]:
@@ -47,12 +48,12 @@ def _frontiers(frontiers: Sequence[AxisFrontier]) -> tuple[tuple[str, ...], Rows
     at = {(f.axis, f.engine): f for f in frontiers}
     axes = dict.fromkeys(f.axis for f in frontiers)
     rows = [(axis, *(_frontier(at.get((axis, engine))) for engine in engines)) for axis in axes]
-    return ("half the digits are lost", *engines), rows
+    return ("half the digits are lost from", *engines), rows
 
 
 def _frontier(frontier: AxisFrontier | None) -> str:
     if frontier is None or not frontier.curve:
-        return "not asked yet"
+        return "not run yet"
     if frontier.status == "open":
         return "open"
     if frontier.status == "holds":
@@ -63,7 +64,7 @@ def _frontier(frontier: AxisFrontier | None) -> str:
 
 def _pairs(failing: Sequence[AxisFrontier]) -> tuple[tuple[str, ...], Rows]:
     rows = [(f.engine, f.axis, f.fails_at or "", f.failure or "") for f in failing]
-    return ("engine", "two at once", "from", "how"), rows
+    return ("engine", "two axes at once", "fails from", "failure"), rows
 
 
 def _conditions(found: StressSummary) -> tuple[tuple[str, ...], Rows]:
@@ -94,30 +95,20 @@ def _long_runs(found: StressSummary) -> tuple[tuple[str, ...], Rows]:
         (
             f"{run.engine} {run.integrator}",
             f"{run.steps:,}",
-            run.kind or run.failure or "not known yet",
+            run.kind or run.failure or "too few steps yet",
             "" if run.exponent is None else f"{run.exponent:.2f}",
             figure(run.largest),
         )
         for run in found.long_runs
         if run.steps
     ]
-    return ("energy in the long run", "steps", "is", "H", "largest |ΔE|/E"), rows
-
-
-def _print_table(console: Any, heading: tuple[str, ...], rows: Rows) -> None:
-    from rich.table import Table
-
-    table = Table(*heading, box=None, header_style="bold", pad_edge=False)
-    for row in rows:
-        table.add_row(*map(printable, row))
-    console.print(table)
-    console.print()
+    return ("energy in the long run", "steps", "energy is", "H", "largest |ΔE|/E"), rows
 
 
 def _end(found: StressSummary, page: Path) -> str:
     broken = len(found.kernels.broken)
     told = f"{count(found.cases, 'case')}; "
-    told += f"{count(broken, 'case')} where furiko's own kernels broke their promise; " if broken else ""
+    told += f"{count(broken, 'case')} in which furiko's own kernels exceed their error bound; " if broken else ""
     if found.open:
-        told += f"{count(found.open, 'question')} open: run again with this folder to go on; "
+        told += f"{count(found.open, 'question')} open: run again with the same folder to resume; "
     return f"{told}page: {page}"
