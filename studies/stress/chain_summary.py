@@ -162,7 +162,7 @@ def verdict(motions: Sequence[ChainMotion]) -> list[str]:
     if len(said) >= 3:
         said.append(
             "So the violent tip is physics: the chain's own solution loses its smoothness at the free end, where the "
-            "tension vanishes. What asks for ever smaller steps is that every finer chain resolves more of the kink."
+            "tension vanishes. Steps become smaller with n because every finer chain resolves more of the kink."
         )
     return said
 
@@ -173,8 +173,8 @@ def _before(motions: Sequence[ChainMotion]) -> list[str]:
         return []
     n, distance, power = falling
     return [
-        f"Until {CRACK:g} s the tip converges: {n} and {2 * n} rods are {distance:.1e} m apart, and that falls as "
-        f"n^-{power:.2f}, as for a smooth solution of the chain's partial differential equation."
+        f"Until {CRACK:g} s the tip converges: the tips of {n} and {2 * n} rods differ by {distance:.1e} m, which "
+        f"falls as n^-{power:.2f}, as for a smooth solution of the chain's partial differential equation."
     ]
 
 
@@ -184,8 +184,8 @@ def _integrator(motions: Sequence[ChainMotion]) -> list[str]:
         return []
     n, distance = max(reached, key=lambda one: one[1])
     return [
-        f"It is not the integrator's doing: with tolerance {COARSE:g} and series of another order in place of "
-        f"{FINE:g}, no tip is elsewhere by more than {distance:.1e} m until 1 s ({n} rods)."
+        f"The integrator is not the cause: with tolerance {COARSE:g} and series of another order in place of "
+        f"{FINE:g}, the tips differ by at most {distance:.1e} m until {AFTER:g} s ({n} rods)."
     ]
 
 
@@ -196,11 +196,11 @@ def _crack(motions: Sequence[ChainMotion]) -> list[str]:
     first, last = fine[0], fine[-1]
     power = -order([m.n for m in fine], [m.fastest_turning for m in fine])
     return [
-        f"At {last.fastest_tip_at:.3f} s the whip cracks: the last rod's rate grows as n^{power:.2f} "
+        f"At {last.fastest_tip_at:.3f} s the whip cracks: the angular rate of the last rod grows as n^{power:.2f} "
         f"({first.fastest_turning:.0f} rad/s with {first.n} rods, {last.fastest_turning:.0f} rad/s "
-        f"with {last.n}), while the tip's speed is {first.fastest_tip:.1f} and "
-        f"{last.fastest_tip:.1f} m/s and energy is kept to {max(m.energy_drift for m in fine):.0e}. There "
-        "the curve has a kink."
+        f"with {last.n}), while the speed of the tip is {first.fastest_tip:.1f} and "
+        f"{last.fastest_tip:.1f} m/s and the energy drifts by at most "
+        f"{max(m.energy_drift for m in fine):.0e}. There the curve has a kink."
     ]
 
 
@@ -212,7 +212,7 @@ def _doublings(motions: Sequence[ChainMotion]) -> list[str]:
         added = [fine[2 * n] - fine[n] for n in sorted(fine) if 2 * n in fine]
         if len(added) >= 3:
             told.append(f"{', '.join(f'{value:.2g}' for value in added)} m/s (amplitude {amplitude:g})")
-    return [f"What each doubling of n adds to the tip's greatest speed: {'; '.join(told)}."] if told else []
+    return [f"Each doubling of n adds to the largest speed of the tip: {'; '.join(told)}."] if told else []
 
 
 def _after(motions: Sequence[ChainMotion]) -> list[str]:
@@ -221,8 +221,8 @@ def _after(motions: Sequence[ChainMotion]) -> list[str]:
         return []
     n, distance, power = falling
     return [
-        f"Past the kink the tip still converges, if not as that of a smooth solution: until 1 s {n} and {2 * n} "
-        f"rods differ by {distance:.1e} m, and that falls as n^-{power:.2f}."
+        f"After the kink the tip still converges, but more slowly than for a smooth solution: until {AFTER:g} s the "
+        f"tips of {n} and {2 * n} rods differ by {distance:.1e} m, which falls as n^-{power:.2f}."
     ]
 
 
