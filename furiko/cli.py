@@ -276,7 +276,7 @@ def stress(
         from .reports.terminal.stress import print_stress
 
         print_stress(found, out / "stress.html")
-    return DIFFERS if found["kernels"]["broken"] else AGREES
+    return DIFFERS if found.kernels.broken else AGREES
 
 
 @cli.command()

@@ -17,6 +17,7 @@ from . import __version__
 from .engines import EngineInfo, engine_info, engine_names, engine_version
 from .models import EngineMissing, InvalidInput
 from .records.check import EngineEntry, Header
+from .records.stress import StressSummary
 from .reports.journal import Journal
 from .studies.stress.accelerations import DOCUMENT, KERNELS, OWN
 from .studies.stress.axes import AXES, Ladder, find_axes, pairs
@@ -62,8 +63,8 @@ def stress(
     timeout: float = 30.0,
     long_steps: int = 10_000_000,
     watch: Watch | None = None,
-) -> dict[str, Any]:
-    """Find out where engines, integrators and formulas break; the summary as plain data.
+) -> StressSummary:
+    """Find out where engines, integrators and formulas break.
 
     ``axes``: names of ladders, of pairs (``A x B``) or of families (``steps``, ``chain``, …), None for all but pairs;
     ``engines``: names, ``document`` and ``kernels`` among them, None for all; ``budget`` [s] of the whole; ``out``:
@@ -89,7 +90,7 @@ def stress(
 
 def summarise(
     searches: Sequence[Search], results: Results, header: Header, seed: int, folder: Path | None
-) -> dict[str, Any]:
+) -> StressSummary:
     """The summary, and its pages in the folder."""
     from .studies.stress.summary import summary
 

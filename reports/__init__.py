@@ -1,15 +1,18 @@
-"""Writes the result stream, reads it back, and renders it: terminal, HTML, Markdown, JUnit; compares two runs."""
+"""Writes the result stream, reads it back, renders it (terminal, HTML, Markdown, JUnit) and compares two runs.
+
+Imports records and models.errors, nothing else of furiko.
+"""
 
 from .compare import Comparison, compare
-from .report import Cell, Report
+from .report import Report, TableCell
 from .stream import StreamWriter, read_stream
 from .write import open_report, prepare_reports, write_reports
 
 __all__ = [
-    "Cell",
     "Comparison",
     "Report",
     "StreamWriter",
+    "TableCell",
     "compare",
     "open_report",
     "prepare_reports",

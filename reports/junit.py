@@ -8,12 +8,12 @@ from ..records.check import Outcome, Result
 from .report import Report, against
 from .words import last_line, one_line, printable
 
-# What JUnit calls an outcome, as the element inside a test case. One that agrees has none.
+# JUnit's element for an outcome, inside a test case. One that agrees has none.
 ELEMENTS: dict[Outcome, str] = {"differs": "failure", "error": "error", "skipped": "skipped"}
 
 
 def to_junit(report: Report) -> str:
-    """The XML document. A run that is not whole gets a failing suite of its own, so that no CI takes it for green."""
+    """The XML document. A run that is not whole gets a failing suite of its own, so that no CI reports success."""
     suites = XML.Element("testsuites", {"name": "furiko"})
     by_scene: dict[str, list[Result]] = {scene: [] for scene in report.scenes}
     for result in report.results:
@@ -60,7 +60,7 @@ def _case(suite: XML.Element, result: Result) -> None:
 
 
 def _count(suite: XML.Element) -> None:
-    """The tallies that readers of JUnit take from the suite's attributes."""
+    """The counts that readers of JUnit take from the suite's attributes."""
     suite.set("tests", str(len(suite)))
     for field, element in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
         suite.set(field, str(len(suite.findall(f"testcase/{element}"))))

@@ -1,11 +1,11 @@
-"""The summary for a CI step (GITHUB_STEP_SUMMARY) or a comment: what differs first, the table, details folded."""
+"""The summary for a CI step (GITHUB_STEP_SUMMARY) or a comment: differences first, the table, details folded."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
 from ..records.check import Result
-from .report import Cell, Report
+from .report import Report, TableCell
 from .words import GLYPHS, LEGEND, figure, last_line, one_line
 
 MOST_LISTED = 50  # a step summary may hold 1 MiB
@@ -14,11 +14,11 @@ _SAFE = frozenset(" .,;'()/+=-%–…·×≤≥²³√°✓✗") | frozenset("\n
 
 
 def to_markdown(report: Report) -> str:
-    """GitHub-flavoured Markdown in which all that came from the stream is text and nothing else."""
+    """GitHub-flavoured Markdown; text from the stream never acts as markup."""
     sections = [
         _top(report),
-        _findings(report.having("differs"), "What differs"),
-        _findings(report.having("error"), "What failed"),
+        _findings(report.having("differs"), "Differences"),
+        _findings(report.having("error"), "Failures"),
         _table(report),
         _skips(report),
         _facts(report),
@@ -27,7 +27,7 @@ def to_markdown(report: Report) -> str:
 
 
 def escape(text: str, longest: int = LONGEST_REASON) -> str:
-    """One line of text that Markdown shows as it is: all but letters, digits and a few signs as character references.
+    """One line of text that Markdown shows as it is: character references for all but letters, digits and a few signs.
 
     A reference never acts as markup (CommonMark 6.2), so one rule covers emphasis, links, tables, code and HTML.
     """
@@ -37,8 +37,8 @@ def escape(text: str, longest: int = LONGEST_REASON) -> str:
 def _top(report: Report) -> str:
     mark = {0: GLYPHS["agrees"], 1: GLYPHS["differs"]}.get(report.exit_status, GLYPHS["error"])
     flaws = [f"> [!WARNING]\n> {escape(flaw)}" for flaw in report.flaws]
-    alone = [escape(sentence) for sentence in report.alone]
-    return "\n\n".join([f"## furiko {mark} {escape(report.verdict)}", *flaws, *alone])
+    outliers = [escape(sentence) for sentence in report.outliers]
+    return "\n\n".join([f"## furiko {mark} {escape(report.verdict)}", *flaws, *outliers])
 
 
 def _findings(results: Sequence[Result], title: str) -> str:
@@ -58,7 +58,7 @@ def _findings(results: Sequence[Result], title: str) -> str:
     ]
     table = _rows(["scene", "engine", "check", "measured", "allowed", "cause", "reason"], rows)
     more = len(results) - MOST_LISTED
-    left = f"\n\n… and {more} more, which report.html lists." if more > 0 else ""
+    left = f"\n\n… and {more} more; report.html lists all." if more > 0 else ""
     return f"### {title}\n\n{table}{left}"
 
 
@@ -71,7 +71,7 @@ def _table(report: Report) -> str:
     return f"### Scene × engine\n\n{_rows(['scene', *map(escape, report.engines)], rows)}\n\n{LEGEND}."
 
 
-def _said(cell: Cell) -> str:
+def _said(cell: TableCell) -> str:
     if cell.outcome is None:
         return "no result"
     said = f"{GLYPHS[cell.outcome]} {cell.outcome}"
@@ -94,7 +94,7 @@ def _skips(report: Report) -> str:
         for reason, results in skips[:MOST_LISTED]
     ]
     table = _rows(["skipped", "engines", "checks", "reason"], rows)
-    return _folded(f"{report.counts['skipped']:,} skipped, and why", table)
+    return _folded(f"{report.counts['skipped']:,} skipped, with reasons", table)
 
 
 def _facts(report: Report) -> str:

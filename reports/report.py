@@ -1,4 +1,4 @@
-"""A run that was read back, and what all its renderings ask of it."""
+"""A run that was read back, with the tables, counts and sentences that all renderings show."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from functools import cached_property
 from ..records.check import OUTCOMES, EngineEntry, Footer, Header, Outcome, Result, SceneEntry
 from .words import count, few, figure, last_line
 
-# What a cell of several checks says: the worst of them, where that something differs outweighs that something
-# failed, and that one check was skipped says little where others ran.
+# The outcome of a cell with several checks is the first of these that occurs: a difference outweighs a failure, and one
+# skipped check says little where others ran.
 GRAVEST: tuple[Outcome, ...] = ("differs", "error", "agrees", "skipped")
 AGREES, DIFFERS, FAILED = 0, 1, 3  # exit statuses
 
 
 @dataclass(frozen=True)
-class Cell:
+class TableCell:
     """All comparisons of one scene with one engine."""
 
     scene: str
@@ -34,7 +34,7 @@ class Cell:
 
     @cached_property
     def worst(self) -> Result | None:
-        """The result that decides: of those with the cell's outcome, the one with the largest share of the allowed."""
+        """The result that decides: with the cell's outcome, and the largest error as a multiple of what is allowed."""
         deciding = [result for result in self.results if result.outcome == self.outcome]
         return max(deciding, key=_share_or_nothing, default=None)
 
@@ -100,19 +100,19 @@ class Report:
         return _in_order(measured, (result.check for result in self.results))
 
     @cached_property
-    def table(self) -> Mapping[tuple[str, str], Cell]:
+    def table(self) -> Mapping[tuple[str, str], TableCell]:
         """One cell for each scene and engine."""
         found: dict[tuple[str, str], list[Result]] = {}
         for result in self.results:
             found.setdefault((result.scene, result.engine), []).append(result)
         return {
-            (scene, engine): Cell(scene, engine, tuple(found.get((scene, engine), ())))
+            (scene, engine): TableCell(scene, engine, tuple(found.get((scene, engine), ())))
             for scene in self.scenes
             for engine in self.engines
         }
 
     @cached_property
-    def unrun(self) -> tuple[Cell, ...]:
+    def unrun(self) -> tuple[TableCell, ...]:
         """Cells of the header's scenes and engines for which the stream has no result, not even a reason for none."""
         return tuple(
             cell
@@ -123,11 +123,11 @@ class Report:
 
     @cached_property
     def flaws(self) -> tuple[str, ...]:
-        """Why this is not the whole of a run, a sentence each; every rendering says them. Empty for a whole run."""
+        """Why this is not a whole run, a sentence each; every rendering shows them. Empty for a whole run."""
         found = []
         if self.footer is None:
             found.append(
-                "This run was cut off: its stream has no footer, so what is shown is only what came before the end."
+                "This run was cut off: its stream has no footer, so only the results before the cut are shown."
             )
         elif not self.complete:
             wrong = ", ".join(
@@ -135,7 +135,7 @@ class Report:
                 for outcome in OUTCOMES
                 if self._counted[outcome] != self.counts[outcome]
             )
-            found.append(f"This stream was altered or damaged: its footer counts other results than it holds: {wrong}.")
+            found.append(f"This stream was altered or damaged: its footer does not count the results in it: {wrong}.")
         if self.footer is not None and self.unrun:
             first = self.unrun[0]
             found.append(
@@ -146,7 +146,7 @@ class Report:
 
     @property
     def exit_status(self) -> int:
-        """0: all that ran agrees and all that was asked for ran; 1: something differs; 3: something failed to run."""
+        """0: all planned comparisons ran and agree; 1: something differs; 3: something failed or is missing."""
         if self.counts["differs"]:
             return DIFFERS
         if self.counts["error"] or self.flaws:
@@ -164,12 +164,12 @@ class Report:
         else:
             said = [f"All {count(ran, 'comparison')} agree" if ran != 1 else "The one comparison agrees"]
             if not ran:
-                said = ["No comparison came to an end"]
+                said = ["No comparison finished"]
         if self.counts["error"]:
             said.append(f"{self.counts['error']:,} failed")
         if self.counts["skipped"]:
             said.append(f"{self.counts['skipped']:,} skipped, each with its reason")
-        return ("As far as it got: " if self.footer is None else "") + "; ".join(said) + "."
+        return ("Until the cut: " if self.footer is None else "") + "; ".join(said) + "."
 
     def having(self, *outcomes: Outcome) -> list[Result]:
         """The results with these outcomes, largest share of the allowed first."""
@@ -177,7 +177,7 @@ class Report:
         return sorted(chosen, key=_share_or_nothing, reverse=True)
 
     def reasons(self, outcome: Outcome) -> list[tuple[str, list[Result]]]:
-        """Each reason that this outcome was given for, and the results it stands at; the most frequent first."""
+        """Each reason for this outcome, with the results that give it; the most frequent first."""
         found: dict[str, list[Result]] = {}
         for result in self.results:
             if result.outcome == outcome:
@@ -185,11 +185,10 @@ class Report:
         return sorted(found.items(), key=lambda item: -len(item[1]))
 
     @cached_property
-    def alone(self) -> tuple[str, ...]:
-        """Who stands alone where something differs, a sentence each: one engine, or the documents' equations.
+    def outliers(self) -> tuple[str, ...]:
+        """Sentences: where only one engine differs from all others, or all engines differ from the equations.
 
-        The equations and at least two engines vote on each scene and check. Where these are split otherwise nobody is
-        blamed.
+        The equations and at least two engines vote on each scene and check. Any other split blames nobody.
         """
         votes: dict[tuple[str, str], dict[Outcome, list[str]]] = {}
         for result in self.results:
@@ -202,26 +201,24 @@ class Report:
             elif len(differing) >= 2 and not agreeing:
                 lone.setdefault("", []).append(scene)
         return tuple(
-            f"{engine} stands alone in {few(scenes, 'scene')}: the equations and the other engines agree."
+            f"Only {engine} differs in {few(scenes, 'scene')}: the equations and the other engines agree."
             if engine
-            else f"The equations stand alone in {few(scenes, 'scene')}: all engines differ from them."
+            else f"All engines differ from the equations in {few(scenes, 'scene')}."
             for engine, scenes in lone.items()
         )
 
     def scene(self, name: str) -> SceneEntry | None:
-        """What the header says of this scene."""
+        """The header's entry of this scene; None where there is none."""
         return next((scene for scene in self.header.scenes if scene.name == name), None)
 
     def engine(self, name: str) -> EngineEntry | None:
-        """What the header says of this engine."""
+        """The header's entry of this engine; None where there is none."""
         return next((engine for engine in self.header.engines if engine.name == name), None)
 
-    def again(self, scene: str, engine: str | None = None) -> str:
-        """The command line that runs this row, or this one cell, again."""
+    def again(self, scene: str) -> str:
+        """The command line that runs this scene again."""
         entry = self.scene(scene)
         words = ["furiko", "check", (entry.source if entry else "") or scene]
-        if engine is not None:
-            words += ["--engine", engine]
         return shlex.join([*words, "--profile", self.header.profile])
 
     @property

@@ -1,18 +1,27 @@
-"""How every report writes a figure, a count, and text that came from outside."""
+"""How every report writes figures, counts, times, and text that came from outside."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 from ..records.check import Outcome
+
+if TYPE_CHECKING:
+    from ..records.bench import Speed
 
 # A glyph beside the word, so that no outcome is told by colour alone.
 GLYPHS: dict[Outcome, str] = {"agrees": "✓", "differs": "✗", "skipped": "–", "error": "!"}
 LEGEND = "ε: worst error as a multiple of rounding; ×: as a multiple of what is allowed"
 
+# A benchmark: whether a target is met, and whether verdicts are the same with a skip and without.
+MET = {True: "✓", False: "✗", None: "–"}
+SAME = {True: "the same {}", False: "NOT the same ({})"}
+UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs"), (1e-9, "ns"))
+
 
 def figure(value: float | None) -> str:
-    """Two significant digits, which is all that an error has to say: ``0.031``, ``3.1``, ``340``, ``1.2e-14``."""
+    """Two significant digits, as many as an error has: ``0.031``, ``3.1``, ``340``, ``1.2e-14``."""
     if value is None:
         return "–"
     if value == 0:
@@ -32,6 +41,28 @@ def tally(number: int, outcome: Outcome) -> str:
     """``1 agrees``, ``2 agree``, ``1 error``, ``2 errors``, ``3 skipped``."""
     plural = {"agrees": "agree", "differs": "differ", "skipped": "skipped", "error": "errors"}
     return f"{number:,} {outcome if number == 1 else plural[outcome]}"
+
+
+def duration(seconds: float) -> str:
+    """Three significant digits, in s, ms, µs or ns: ``8.71 ns``, ``1.2 µs``, ``340 ms``, ``12 s``."""
+    size, unit = next(((size, unit) for size, unit in UNITS if seconds >= size), UNITS[-1])
+    return f"{_three(seconds / size)} {unit}"
+
+
+def multiple(ratio: float) -> str:
+    """A ratio: ``0.82×``, ``134×``, ``9,400×``."""
+    return f"{ratio:,.0f}×" if ratio >= 99.95 else f"{_three(ratio)}×"
+
+
+def batch(speed: Speed) -> str:
+    """States in a call, and threads where there are several."""
+    return f"{speed.states:,}" + (f", {speed.threads} threads" if speed.threads > 1 else "")
+
+
+def link_words(system: str, n: int) -> str:
+    """The mechanism: ``100 rods``, ``1 leg``."""
+    count, noun = (n - 1, "leg") if system == "n-leg" else (n, "rod")
+    return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
 def printable(text: str) -> str:
@@ -67,3 +98,7 @@ def _written_out(character: str) -> str:
     if character.isspace() and character > "\x9f":  # a no-break space is a space, a form feed is not
         return " "
     return character.encode("unicode_escape").decode()
+
+
+def _three(value: float) -> str:
+    return f"{value:.0f}" if value >= 99.95 else f"{value:.3g}"

@@ -4,7 +4,7 @@ import os
 import time
 
 import numpy as np
-from zoo import Right, about
+from fake_engines import Right, about
 
 from furiko.engines import Integrator
 

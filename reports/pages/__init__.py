@@ -1,1 +1,4 @@
-"""HTML pages that open from disk: nothing fetched, nothing run."""
+"""HTML pages that open from disk, fetch nothing and run nothing: check, bench, stress and Takeno's chain.
+
+Imports records, and of reports what all renderings share.
+"""

@@ -7,19 +7,18 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ...records.bench import Bench, Motion, Point, Reach, Speed
-from ..bench_words import MET, SAME, batch, duration, link_words, times
-from ..words import figure
-from .check_page import TEMPLATES, environment
-from .loglog import KINDS, LogLog, Series, draw
+from ..words import MET, SAME, batch, duration, figure, link_words, multiple
+from .plot import KINDS, LARGE, Plot, Series, draw
+from .rendering import render
 
 FURIKO = "furiko"
-WORST = 1.0  # rad or rad/s: what is further off has nothing to do with the motion, and is not drawn
-FINEST = 1e-18  # errors of zero stand here
+WORST = 1.0  # rad or rad/s: a larger error has nothing to do with the motion, and is not drawn
+FINEST = 1e-18  # errors of zero are drawn here
 
 
 @dataclass(frozen=True)
 class MotionView:
-    """What the page says of one motion."""
+    """One motion, as the page shows it."""
 
     motion: Motion
 
@@ -35,7 +34,7 @@ class MotionView:
 
     @cached_property
     def errors(self) -> list[float]:
-        """Those that times are given for."""
+        """The errors for which times are given."""
         return list(dict.fromkeys(reach.error for reach in self.motion.reaches))
 
     @cached_property
@@ -59,14 +58,15 @@ class MotionView:
         return found
 
     @cached_property
-    def plot(self) -> LogLog | None:
+    def plot(self) -> Plot | None:
         """Time against error."""
         front = sorted(
             ((max(p.error, FINEST), p.median) for p in self.motion.points if p.front and p.error is not None),
             reverse=True,
         )
         shown = [(error, seconds) for error, seconds in front if error <= WORST]
-        return draw(self.series, falling_x=True, front=shown)
+        labels = ("error at the end, θ [rad] and ω [rad/s]", "time [s]")
+        return draw(self.series, *labels, frame=LARGE, log_x=True, log_y=True, falling_x=True, front=shown)
 
     def reach(self, method: tuple[str, str], error: float) -> Reach:
         """A method's time to come within an error."""
@@ -92,7 +92,7 @@ def _points(points: Sequence[Point], engine: str, scheme: str) -> list[tuple[flo
 
 @dataclass(frozen=True)
 class SpeedView:
-    """What the page says of the accelerations of one kind of mechanism."""
+    """The accelerations of one kind of mechanism, as the page shows them."""
 
     system: str
     speeds: list[Speed]
@@ -132,12 +132,12 @@ class SpeedView:
         return found
 
     @cached_property
-    def by_size(self) -> LogLog | None:
+    def by_size(self) -> Plot | None:
         """Time a state against links."""
-        return draw(self.series)
+        return draw(self.series, "links", "time a state [s]", frame=LARGE, log_x=True, log_y=True)
 
     @cached_property
-    def by_error(self) -> LogLog | None:
+    def by_error(self) -> Plot | None:
         """Time a state against error: a point for each size, from the smallest mechanism to the largest."""
         rows = {id(s): [row for row in self.speeds if _said(row) in {p[2] for p in s.points}] for s in self.series}
         lines = [
@@ -149,7 +149,8 @@ class SpeedView:
             )
             for s in self.series
         ]
-        return draw(lines, falling_x=True)
+        labels = ("largest error, relative to a state's largest acceleration", "time a state [s]")
+        return draw(lines, *labels, frame=LARGE, log_x=True, log_y=True, falling_x=True)
 
 
 def _plain(speed: Speed) -> bool:
@@ -174,21 +175,15 @@ def _said(speed: Speed) -> str:
 
 def to_html(found: Bench) -> str:
     """The whole page as text."""
-    from markupsafe import Markup
-
     kinds = dict.fromkeys(speed.system for speed in found.speeds)
-    return (
-        environment()
-        .get_template("bench.html.j2")
-        .render(
-            bench=found,
-            motions=[MotionView(motion) for motion in found.motions],
-            speeds=[SpeedView(kind, [s for s in found.speeds if s.system == kind]) for kind in kinds],
-            style=Markup((TEMPLATES / "style.css").read_text(encoding="utf-8")),
-            duration=duration,
-            ratio=times,
-            batch=batch,
-            met=MET,
-            same=SAME,
-        )
+    return render(
+        "bench.html.j2",
+        bench=found,
+        motions=[MotionView(motion) for motion in found.motions],
+        speeds=[SpeedView(kind, [s for s in found.speeds if s.system == kind]) for kind in kinds],
+        duration=duration,
+        ratio=multiple,
+        batch=batch,
+        met=MET,
+        same=SAME,
     )

@@ -1,31 +1,27 @@
-"""The page: one HTML file that opens from disk, offline, with nothing fetched and nothing to run."""
+"""The page of a check, ``report.html``: one file that opens from disk, fetches nothing and runs nothing."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from functools import cached_property
 
 from ...records.check import Outcome, Result, SceneEntry
-from ..report import Cell, Report, against
-from ..words import GLYPHS, LEGEND, count, few, figure, last_line, printable, tally
-from .check_drawings import ErrorPlot, HorizonPlot, Mechanism, draw_errors, draw_horizons, draw_mechanism
+from ..report import Report, TableCell, against
+from ..words import GLYPHS, LEGEND, count, last_line
+from .error_plots import ErrorPlot, HorizonPlot, draw_errors, draw_horizons
+from .mechanism_drawing import MechanismDrawing, draw_mechanism
+from .rendering import environment, render
 
-if TYPE_CHECKING:
-    from jinja2 import Environment
+DRAWN = ("traceback", "errors over time")  # details that the page shows elsewhere
 
-DRAWN = ("traceback", "errors over time")  # further figures that stand elsewhere on the page
-
-TEMPLATES = Path(__file__).parent / "templates"
 PAGE = "report.html.j2"
-PARTS = ("marks.html.j2", "facts.html.j2", "overview.html.j2", "reasons.html.j2", "scene.html.j2")  # it includes these
+PARTS = ("marks", "facts", "overview", "reasons", "scene", "plot")  # it includes these
 
 
 @dataclass(frozen=True)
 class SceneView:
-    """What the page says of one scene; ``anchor`` is the page's own, since a name may hold anything."""
+    """One scene, as the page shows it; ``anchor`` is a number of the page's own, because a name may hold anything."""
 
     report: Report
     name: str
@@ -33,22 +29,22 @@ class SceneView:
 
     @cached_property
     def entry(self) -> SceneEntry | None:
-        """What the header says of it; None where only results name it."""
+        """The header's entry; None where only results name the scene."""
         return self.report.scene(self.name)
 
     @cached_property
-    def cells(self) -> list[Cell]:
+    def cells(self) -> list[TableCell]:
         """One for each engine."""
         return [self.report.table[self.name, engine] for engine in self.report.engines]
 
     @cached_property
     def results(self) -> list[Result]:
-        """All of them, engine by engine."""
+        """All results, engine by engine."""
         return [result for cell in self.cells for result in cell.results]
 
     @cached_property
     def outcomes(self) -> list[Outcome]:
-        """Which of the four there are."""
+        """The outcomes that occur."""
         return [outcome for outcome in GLYPHS if any(result.outcome == outcome for result in self.results)]
 
     @cached_property
@@ -64,7 +60,7 @@ class SceneView:
 
     @cached_property
     def checks(self) -> list[str]:
-        """Which checks there are, in one order for all scenes."""
+        """The checks of this scene, in the same order for all scenes."""
         found = {result.check for result in self.results}
         return [check for check in self.report.checks if check in found]
 
@@ -85,18 +81,18 @@ class SceneView:
         ]
 
     @cached_property
-    def mechanism(self) -> Mechanism | None:
-        """Its drawing."""
+    def mechanism(self) -> MechanismDrawing | None:
+        """The drawing of the mechanism."""
         return draw_mechanism(self.entry) if self.entry and self.entry.lengths else None
 
     @cached_property
     def errors(self) -> ErrorPlot | None:
-        """Its error plot."""
+        """Its errors relative to their bounds."""
         return draw_errors(self.results, self.report.engines)
 
     @property
     def again(self) -> str:
-        """The command line that runs this row again."""
+        """The command line that runs this scene again."""
         return self.report.again(self.name)
 
     @property
@@ -107,59 +103,25 @@ class SceneView:
 
 
 def to_html(report: Report) -> str:
-    """The whole page as text; everything from the stream is escaped, markup comes from the templates alone."""
-    from markupsafe import Markup
-
-    page = environment().get_template(PAGE)
-    return page.render(
+    """The whole page as text; everything from the stream is escaped."""
+    return render(
+        PAGE,
         report=report,
         scenes=[SceneView(report, name, f"s{i}") for i, name in enumerate(report.scenes, start=1)],
         glyphs=GLYPHS,
         legend=LEGEND,
-        style=Markup((TEMPLATES / "style.css").read_text(encoding="utf-8")),
         in_words=_in_words,
     )
 
 
 def load_templates() -> None:
     """Compile the page's templates ahead of their use; they are kept."""
-    for name in (PAGE, *PARTS):
+    for name in (PAGE, *(f"{part}.html.j2" for part in PARTS)):
         environment().get_template(name)
 
 
-@cache
-def environment() -> Environment:
-    """Where the pages' templates are; what they are given is escaped."""
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
-    made = Environment(
-        loader=FileSystemLoader(TEMPLATES),
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        undefined=StrictUndefined,
-        finalize=_inert,
-        auto_reload=False,
-        optimized=False,  # the templates have nothing to fold, and looking for it takes a fifth of their compilation
-    )
-    made.filters |= {
-        "figure": figure,
-        "count": count,
-        "few": few,
-        "last_line": last_line,
-        "list_of": _list_of,
-        "tally": tally,
-        "value": _value,
-    }
-    return made
-
-
-def _inert(value: Any) -> Any:
-    return printable(value) if type(value) is str else value
-
-
-def _in_words(cell: Cell) -> str:
-    """What a cell of the table says when pointed at: its deciding check, and how many of its others were left out."""
+def _in_words(cell: TableCell) -> str:
+    """The tooltip of a table cell: its deciding check, and how many others were skipped."""
     worst = cell.worst
     if worst is None:
         return f"{cell.scene} × {cell.engine}: no result"
@@ -174,12 +136,3 @@ def _in_words(cell: Cell) -> str:
 
 def _keys(results: Sequence[Result]) -> list[str]:
     return [key for key in dict.fromkeys(key for result in results for key in result.details) if key not in DRAWN]
-
-
-def _value(value: object) -> object:
-    return figure(value) if isinstance(value, float) else value
-
-
-def _list_of(values: Sequence[float], longest: int = 8) -> str:
-    shown = ", ".join(f"{value:.6g}" for value in values[:longest])
-    return shown if len(values) <= longest else f"{shown}, … ({len(values)} in all)"

@@ -3,46 +3,44 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from itertools import groupby
 from pathlib import Path
 from typing import TextIO
 
 from ...records.bench import Bench, Motion, Reach, Skip, Speed, Target
-from ..bench_words import MET, SAME, batch, duration, link_words, times
-from ..words import figure
-from .check import Page
+from ..words import MET, SAME, batch, duration, figure, link_words, multiple
+from .console import PlainConsole
 
 
 def print_bench(found: Bench, path: str | Path | None = None, file: TextIO | None = None) -> None:
-    """Print what was measured, and on what; ``path``: where the page is."""
-    page = Page(file or sys.stdout, None)
-    if page.console.width < 100 and not page.console.is_terminal:
-        page.console.width = 140
+    """Print the measurements and the machine; ``path``: where the HTML page is."""
+    console = PlainConsole(file or sys.stdout, None)
     machine, versions = found.machine, found.versions
-    page.line(f"furiko {found.furiko} bench, {found.seconds:.0f} s")
+    console.line(f"furiko {found.furiko} bench, {found.seconds:.0f} s")
     threads = ", ".join(f"{key}: {value}" for key, value in found.threads.items())
-    page.line(f"{', '.join(machine.values())} cores; {threads}")
-    page.line(", ".join(f"{name} {version}" for name, version in versions.items()), "dim")
+    console.line(f"{', '.join(machine.values())} cores; {threads}")
+    console.line(", ".join(f"{name} {version}" for name, version in versions.items()), "dim")
     for motion in found.motions:
-        _motion(motion, page)
+        _motion(motion, console)
     for _, rows in groupby(found.speeds, key=lambda speed: (speed.system, speed.n)):
-        _speeds(list(rows), page)
+        _speeds(list(rows), console)
     if found.skips:
-        _skips(found.skips, page)
+        _skips(found.skips, console)
     if found.targets:
-        _targets(found.targets, page)
-    page.line()
+        _targets(found.targets, console)
+    console.line()
     for note in found.notes if found.motions or found.speeds else ():
-        page.line(note, "dim")
+        console.line(note, "dim")
     if path is not None:
-        page.line(f"Report: {path}")
+        console.line(f"Report: {path}")
 
 
-def _motion(motion: Motion, page: Page) -> None:
-    page.line()
-    page.line(
-        f"{motion.scene}: {link_words(motion.system, motion.n)}, {motion.duration:g} s: time to come within …", "bold"
+def _motion(motion: Motion, console: PlainConsole) -> None:
+    console.line()
+    console.line(
+        f"{motion.scene}: {link_words(motion.system, motion.n)}, {motion.duration:g} s: time to reach an error of …",
+        "bold",
     )
     errors = list(dict.fromkeys(reach.error for reach in motion.reaches))
     methods = dict.fromkeys((reach.engine, reach.scheme) for reach in motion.reaches)
@@ -52,21 +50,21 @@ def _motion(motion: Motion, page: Page) -> None:
         (
             ("* " if key in on_front else "  ") + key[0],
             key[1],
-            *(reached(at[*key, error]) for error in errors),
-            nearest(motion, key),
+            *(_reached(at[*key, error]) for error in errors),
+            _nearest(motion, key),
         )
         for key in methods
     ]
-    _table(("  engine", "scheme", *(f"{error:g}" for error in errors), "its nearest"), rows, page)
-    page.line("* on the Pareto front; in brackets: how many times furiko's own time", "dim")
+    console.table(("  engine", "scheme", *(f"{error:g}" for error in errors), "smallest error"), rows)
+    console.line("* on the Pareto front; in brackets: the time as a multiple of furiko's", "dim")
     for reason, found in _reasons(motion).items():
-        page.line(f"not reached by {'; '.join(found)}: {reason}", "dim")
+        console.line(f"not reached by {'; '.join(found)}: {reason}", "dim")
     for sentence in motion.left_out:
-        page.line(f"left out: {sentence}", "dim")
+        console.line(f"left out: {sentence}", "dim")
 
 
 def _reasons(motion: Motion) -> dict[str, list[str]]:
-    """Why methods stopped where they did, each reason with the methods that it stopped."""
+    """Each reason for which an error was not reached, with the methods that did not reach it."""
     found: dict[str, list[str]] = {}
     for reach in motion.reaches:
         if reach.seconds is None:
@@ -75,8 +73,8 @@ def _reasons(motion: Motion) -> dict[str, list[str]]:
     return found
 
 
-def nearest(motion: Motion, method: tuple[str, str]) -> str:
-    """The smallest error that a method came to, and what it took."""
+def _nearest(motion: Motion, method: tuple[str, str]) -> str:
+    """The smallest error that a method reached, and the time that it took."""
     found = [
         (point.error, point.median)
         for point in motion.points
@@ -88,17 +86,17 @@ def nearest(motion: Motion, method: tuple[str, str]) -> str:
     return f"{figure(error)} in {duration(seconds)}"
 
 
-def reached(reach: Reach) -> str:
-    """A time and its ratio, or that there is none."""
+def _reached(reach: Reach) -> str:
+    """A time and its ratio to furiko's own, or "not reached"."""
     if reach.seconds is None:
         return "not reached"
-    ratio = f" ({times(reach.ratio)})" if reach.ratio is not None else ""
+    ratio = f" ({multiple(reach.ratio)})" if reach.ratio is not None else ""
     return ("≤ " if reach.at_most else "") + duration(reach.seconds) + ratio
 
 
-def _speeds(speeds: Sequence[Speed], page: Page) -> None:
-    page.line()
-    page.line(f"accelerations, {link_words(speeds[0].system, speeds[0].n)}: time a state", "bold")
+def _speeds(speeds: Sequence[Speed], console: PlainConsole) -> None:
+    console.line()
+    console.line(f"accelerations, {link_words(speeds[0].system, speeds[0].n)}: time a state", "bold")
     rows = [
         (
             speed.engine,
@@ -107,15 +105,15 @@ def _speeds(speeds: Sequence[Speed], page: Page) -> None:
             duration(speed.median),
             duration(speed.minimum),
             figure(speed.error),
-            times(speed.ratio) if speed.ratio is not None else "",
+            multiple(speed.ratio) if speed.ratio is not None else "",
         )
         for speed in speeds
     ]
-    _table(("engine", "call", "states a call", "median", "minimum", "error", "furiko's"), rows, page)
+    console.table(("engine", "call", "states a call", "median", "minimum", "error", "× furiko's"), rows)
 
 
-def _skips(skips: Sequence[Skip], page: Page) -> None:
-    page.line("\nWhat a check leaves out", "bold")
+def _skips(skips: Sequence[Skip], console: PlainConsole) -> None:
+    console.line("\nWork that a check skips", "bold")
     rows = [
         (
             skip.name,
@@ -126,28 +124,17 @@ def _skips(skips: Sequence[Skip], page: Page) -> None:
         )
         for skip in skips
     ]
-    _table(("skip", "verdicts", "with it", "without", "what is left out"), rows, page)
+    console.table(("skip", "verdicts", "with it", "without", "work skipped"), rows)
 
 
-def _targets(targets: Sequence[Target], page: Page) -> None:
-    page.line("\nTargets", "bold")
+def _targets(targets: Sequence[Target], console: PlainConsole) -> None:
+    console.line("\nTargets", "bold")
     for target in targets:
         mark = MET[target.met]
         style = {True: "blue", False: "bold dark_orange", None: "dim"}[target.met]
-        share = f" [{target.share:.2f} of what is asked]" if target.share is not None else ""
-        page.line(f"{mark} {target.name}: asked {target.asked or '–'}, got {target.got or '–'}{share}", style)
+        share = f" [{target.share:.2f} of the target]" if target.share is not None else ""
+        console.line(f"{mark} {target.name}: asked {target.asked or '–'}, got {target.got or '–'}{share}", style)
         if target.says:
-            page.line(f"    {target.says}", "dim")
+            console.line(f"    {target.says}", "dim")
     met = sum(target.met is True for target in targets)
-    page.line(f"{met} of {len(targets)} met")
-
-
-def _table(heading: Sequence[str], rows: Iterable[Sequence[str]], page: Page) -> None:
-    from rich.table import Table
-
-    table = Table(box=None, pad_edge=False, header_style="dim")
-    for title in heading:
-        table.add_column(page.text(title))
-    for row in rows:
-        table.add_row(*(page.text(cell) for cell in row))
-    page.console.print(table)
+    console.line(f"{met} of {len(targets)} met")

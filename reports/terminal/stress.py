@@ -1,96 +1,114 @@
-"""The stress test's summary for a terminal: frontiers, steps, long runs, and what the chain does."""
+"""The summary of a stress test in the terminal: frontiers, step sizes, long runs, and the chain."""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
-from ..words import count, figure, one_line, printable
+from ...records.stress import AxisFrontier, StableStep, StressSummary
+from ..words import count, figure, one_line
+from .console import PlainConsole
 
-Data = dict[str, Any]
+WIDTH = 160  # columns in a pipe: a column for each engine
+
+Rows = Sequence[tuple[str, ...]]
 
 
-def print_stress(found: Data, page: Path) -> None:
-    """Print it; as wide as the terminal, or 160 columns in a pipe."""
-    from rich.console import Console
-
-    console = Console(width=None if sys.stdout.isatty() else 160, highlight=False, markup=False)
-    single = [f for f in found["frontiers"] if not f["pair"]]
-    if single:
-        engines = list(dict.fromkeys(f["engine"] for f in single))
-        at = {(f["axis"], f["engine"]): f for f in single}
-        axes = dict.fromkeys(f["axis"] for f in single)
-        rows = [(axis, *(_cell(at.get((axis, engine))) for engine in engines)) for axis in axes]
-        _table(console, ("half the digits are lost", *engines), rows)
-    failing = [f for f in found["frontiers"] if f["pair"] and f["status"] == "fails"]
-    if failing:
-        rows = [(f["engine"], f["axis"], f["fails at"], f["failure"]) for f in failing]
-        _table(console, ("engine", "two at once", "from", "how"), rows)
-    if found["condition"]:
-        rows = [
-            (r["posture"], r["coordinates"], f"n^{r['power']:.2f}" if r["power"] else "") for r in found["condition"]
-        ]
-        _table(console, ("condition of the mass matrix", "coordinates", "grows as"), rows)
-    for stress in dict.fromkeys(s["stress"] for s in found["steps"]):
-        _table(console, *_steps(stress, found["steps"]))
-    rows = [
-        (f"{r['engine']} {r['integrator']}", f"{r['steps']:,}", r["kind"] or r["failure"] or "not known yet",
-         f"{r['exponent']:.2f}" if "exponent" in r else "", figure(r["largest"]))
-        for r in found["long runs"] if r["steps"]
-    ]  # fmt: skip
-    if rows:
-        _table(console, ("energy in the long run", "steps", "is", "H", "largest |ΔE|/E"), rows)
-    for data in found["chain"]["swings"]:
-        first = data["rows"][0]
-        console.print(
-            f"chain of {data['links']}: first swing's error is {first['coefficient']:.4g}/n^{data['power']}"
-            f" at n = {data['n'][-1]}"
+def print_stress(found: StressSummary, page: Path) -> None:
+    """Print it; as wide as the terminal, or 160 columns in a pipe. ``page``: where the HTML page is."""
+    console = PlainConsole(sys.stdout, None if sys.stdout.isatty() else WIDTH)
+    for heading, rows in _tables(found):
+        if rows:
+            console.table(heading, rows, "bold")
+            console.line()
+    for swings in found.chain.swings:
+        console.line(
+            f"chain of {swings.links}: the error of its first natural frequency is "
+            f"{swings.rows[0].coefficient:.4g}/n^{swings.power} at n = {swings.n[-1]}"
         )
-    for sentence in found["chain"]["verdict"]:
-        console.print(f"- {sentence}")
-    console.print(_end(found, page))
+    for sentence in found.chain.verdict:
+        console.line(f"- {sentence}")
+    console.line(_end(found, page))
 
 
-def _cell(frontier: Data | None) -> str:
-    if frontier is None or not frontier["curve"]:
-        return "not asked yet"
-    if frontier["status"] == "open":
+def _tables(found: StressSummary) -> list[tuple[tuple[str, ...], Rows]]:
+    """Each table: its heading and its rows."""
+    return [
+        _frontiers([f for f in found.frontiers if not f.pair]),
+        _pairs([f for f in found.frontiers if f.pair and f.status == "fails"]),
+        _conditions(found),
+        *(_steps(stress, found.steps) for stress in dict.fromkeys(s.stress for s in found.steps)),
+        _long_runs(found),
+    ]
+
+
+def _frontiers(frontiers: Sequence[AxisFrontier]) -> tuple[tuple[str, ...], Rows]:
+    engines = list(dict.fromkeys(f.engine for f in frontiers))
+    at = {(f.axis, f.engine): f for f in frontiers}
+    axes = dict.fromkeys(f.axis for f in frontiers)
+    rows = [(axis, *(_frontier(at.get((axis, engine))) for engine in engines)) for axis in axes]
+    return ("half the digits are lost from", *engines), rows
+
+
+def _frontier(frontier: AxisFrontier | None) -> str:
+    if frontier is None or not frontier.curve:
+        return "not run yet"
+    if frontier.status == "open":
         return "open"
-    if frontier["status"] == "holds":
-        return f"holds to {frontier['holds at']}"
-    end = "" if frontier["failure"] == "half its digits lost" else f": {frontier['failure']}"
-    return one_line(f"{frontier['fails at']}{end}", 60)
+    if frontier.status == "holds":
+        return f"holds to {frontier.holds_at}"
+    end = "" if frontier.failure == "half its digits lost" else f": {frontier.failure}"
+    return one_line(f"{frontier.fails_at}{end}", 60)
 
 
-def _steps(stress: str, steps: Sequence[Data]) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
-    mine = [s for s in steps if s["stress"] == stress]
-    values = sorted({s["value"] for s in mine})
-    at = {(s["engine"], s["integrator"], s["value"]): s for s in mine}
-    rows = []
-    for engine, integrator in dict.fromkeys((s["engine"], s["integrator"]) for s in mine):
-        cells = [at[engine, integrator, value] for value in values]
-        told = ["open" if not c["closed"] else "none" if c["step"] is None else f"{figure(c['step'])} s" for c in cells]
-        rows.append((f"{engine} {integrator}", *told))
-    unit = mine[0]["unit"]
+def _pairs(failing: Sequence[AxisFrontier]) -> tuple[tuple[str, ...], Rows]:
+    rows = [(f.engine, f.axis, f.fails_at or "", f.failure or "") for f in failing]
+    return ("engine", "two axes at once", "fails from", "failure"), rows
+
+
+def _conditions(found: StressSummary) -> tuple[tuple[str, ...], Rows]:
+    rows = [(c.posture, c.coordinates, f"n^{c.power:.2f}" if c.power else "") for c in found.condition]
+    return ("condition of the mass matrix", "coordinates", "grows as"), rows
+
+
+def _steps(stress: str, steps: Sequence[StableStep]) -> tuple[tuple[str, ...], Rows]:
+    mine = [s for s in steps if s.stress == stress]
+    values = sorted({s.value for s in mine})
+    at = {(s.engine, s.integrator, s.value): s for s in mine}
+    rows = [
+        (f"{engine} {integrator}", *(_step(at[engine, integrator, value]) for value in values))
+        for engine, integrator in dict.fromkeys((s.engine, s.integrator) for s in mine)
+    ]
+    unit = mine[0].unit
     return (f"largest stable step by {stress}", *(f"{value:g} {unit}" for value in values)), rows
 
 
-def _table(console: Any, heading: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> None:
-    from rich.table import Table
-
-    table = Table(*heading, box=None, header_style="bold", pad_edge=False)
-    for row in rows:
-        table.add_row(*map(printable, row))
-    console.print(table)
-    console.print()
+def _step(found: StableStep) -> str:
+    if not found.closed:
+        return "open"
+    return "none" if found.step is None else f"{figure(found.step)} s"
 
 
-def _end(found: Data, page: Path) -> str:
-    broken = len(found["kernels"]["broken"])
-    told = f"{count(found['cases'], 'case')}; "
-    told += f"{count(broken, 'case')} where furiko's own kernels broke their promise; " if broken else ""
-    if found["open"]:
-        told += f"{count(found['open'], 'question')} open: run again with this folder to go on; "
+def _long_runs(found: StressSummary) -> tuple[tuple[str, ...], Rows]:
+    rows = [
+        (
+            f"{run.engine} {run.integrator}",
+            f"{run.steps:,}",
+            run.kind or run.failure or "too few steps yet",
+            "" if run.exponent is None else f"{run.exponent:.2f}",
+            figure(run.largest),
+        )
+        for run in found.long_runs
+        if run.steps
+    ]
+    return ("energy in the long run", "steps", "energy is", "H", "largest |ΔE|/E"), rows
+
+
+def _end(found: StressSummary, page: Path) -> str:
+    broken = len(found.kernels.broken)
+    told = f"{count(found.cases, 'case')}; "
+    told += f"{count(broken, 'case')} in which furiko's own kernels exceed their error bound; " if broken else ""
+    if found.open:
+        told += f"{count(found.open, 'question')} open: run again with the same folder to resume; "
     return f"{told}page: {page}"

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from ...engines import cannot, engine_info, load_engine
 from ...models import NLegPendulum, RodChain
 from ...records.check import Result
+from ...records.stress import HALF_THE_DIGITS
 from ...reference import literal_accelerations
 from ...reference.kernels.forward_dynamics import accelerations as kernel_accelerations
 from ...reference.kernels.forward_dynamics import kernel_of, plain_accelerations
@@ -25,7 +26,7 @@ from ...reference.rounding.bounds import EPSILON, amplitudes, condition
 from ...reference.truth.enclosures import Truth
 from ...reference.truth.newton_euler import close_accelerations, proven_accelerations
 from .axes import Mechanism, find_axes
-from .failures import HALF_THE_DIGITS, Failure, of_answer
+from .failures import Failure, of_answer
 
 Array = NDArray[np.float64]
 

@@ -11,6 +11,8 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from ...records.stress import HALF_THE_DIGITS
+
 Array = NDArray[np.float64]
 
 Failure = Literal[
@@ -27,7 +29,6 @@ Failure = Literal[
 ]
 FAILURES: tuple[Failure, ...] = get_args(Failure)
 
-HALF_THE_DIGITS = 2.0**-26  # of a double's 53 bits 27 are lost
 NO_DIGITS = 0.01  # an error that no one would call rounding: finite, unannounced, and wrong in the second digit
 
 

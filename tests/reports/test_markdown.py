@@ -35,7 +35,7 @@ def test_every_row_of_every_table_has_its_columns(make):
 def test_what_differs_stands_before_the_table(make):
     text = to_markdown(make.large())
     assert text.startswith("## furiko ✗ 2 of")
-    assert text.index("### What differs") < text.index("### What failed") < text.index("### Scene × engine")
+    assert text.index("### Differences") < text.index("### Failures") < text.index("### Scene × engine")
     assert text.count("<details>") == text.count("</details>") == 2
 
 

@@ -92,35 +92,33 @@ def test_scenes_and_engines_that_only_results_name_are_shown(make):
         (["agrees", "differs"], "1 of 2 comparisons differs."),
         (["differs", "differs", "skipped"], "2 of 2 comparisons differ; 1 skipped, each with its reason."),
         (["agrees", "agrees", "error"], "All 2 comparisons agree; 1 failed."),
-        (["error"], "No comparison came to an end; 1 failed."),
+        (["error"], "No comparison finished; 1 failed."),
         (["skipped"], "Nothing was compared; 1 skipped, each with its reason."),
     ],
 )
 def test_verdict(make, outcomes, verdict):
     results = [make.result(outcome, check=str(i)) for i, outcome in enumerate(outcomes)]
     assert make.report(*results).verdict == verdict
-    assert make.report(*results, footer=False).verdict.startswith("As far as it got: ")
+    assert make.report(*results, footer=False).verdict.startswith("Until the cut: ")
 
 
 def test_the_command_that_runs_a_row_again_is_one_shell_command(make):
     report = make.report(make.result(scene="it's"), scenes=[make.scene("it's", source="my scenes/it's.toml")])
-    assert report.again("it's", "mujoco") == (
-        """furiko check 'my scenes/it'"'"'s.toml' --engine mujoco --profile full"""
-    )
+    assert report.again("it's") == ("""furiko check 'my scenes/it'"'"'s.toml' --profile full""")
     assert report.again("not in the header") == "furiko check 'not in the header' --profile full"
 
 
 @pytest.mark.parametrize(
     ("outcomes", "says"),
     [
-        (("differs", "agrees", "agrees"), "one stands alone in rods-2: the equations and the other engines agree."),
-        (("differs", "differs", "differs"), "The equations stand alone in rods-2: all engines differ from them."),
+        (("differs", "agrees", "agrees"), "Only one differs in rods-2: the equations and the other engines agree."),
+        (("differs", "differs", "differs"), "All engines differ from the equations in rods-2."),
         (("differs", "differs", "agrees"), None),  # two against one and the equations: nobody is blamed
         (("differs", "agrees", "skipped"), None),  # one engine is no second witness
         (("agrees", "agrees", "agrees"), None),
     ],
 )
-def test_who_stands_alone_is_put_to_the_vote(make, outcomes, says):
+def test_outliers_are_found_by_a_vote(make, outcomes, says):
     named = zip(("one", "two", "three"), outcomes, strict=True)
     report = make.report(*(make.result(outcome, engine=engine) for engine, outcome in named))
-    assert report.alone == ((says,) if says else ())
+    assert report.outliers == ((says,) if says else ())

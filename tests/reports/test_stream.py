@@ -142,7 +142,7 @@ def written_to_full(make):
 FILLING = """
 import resource, signal, sys, msgspec
 from furiko.models.errors import InvalidInput
-from furiko.models.result import Header, Result
+from furiko.records.check import Header, Result
 from furiko.reports import StreamWriter
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 path, header = sys.argv[1], msgspec.json.decode(sys.argv[2], type=Header)

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from furiko.reports.pages.check_drawings import MOST_LINKS, draw_errors, draw_mechanism
-from furiko.reports.pages.check_page import environment, load_templates, to_html
+from furiko.reports.pages.check_page import load_templates, to_html
+from furiko.reports.pages.rendering import environment
 from furiko.reports.report import Report
 
 VOID = {"meta", "br"}
@@ -164,53 +164,6 @@ def test_any_text_is_only_text(make, text):
     )
 
 
-@pytest.mark.parametrize("n", [1, 2, 3, 33, 100, 5000])
-@pytest.mark.parametrize("system", ["n-leg", "rod-chain", "another"])
-def test_a_mechanism_is_drawn_to_scale_inside_its_box(make, system, n):
-    lengths = [1.0 + 0.5 * (i % 3) for i in range(n)]
-    drawing = draw_mechanism(make.scene("s", system, n, lengths=lengths))
-    assert len(drawing.lines) == min(n, MOST_LINKS)
-    assert drawing.left_out == max(n - MOST_LINKS, 0)
-    drawn = [((x2 - x1) ** 2 + (y2 - y1) ** 2) ** 0.5 for x1, y1, x2, y2 in drawing.lines]
-    scale = drawn[0] / lengths[0]
-    assert drawn == pytest.approx([scale * length for length in lengths[:MOST_LINKS]])
-    for x1, y1, x2, y2 in drawing.lines:
-        assert all(0 <= x <= drawing.width + 1e-9 for x in (x1, x2))
-        assert all(0 <= y <= drawing.height + 1e-9 for y in (y1, y2))
-    assert drawing.lines[0][:2] == drawing.support
-    carriers = (
-        [0] * n if system == "n-leg" else range(n)
-    )  # a leg hangs from the first rod, a rod from the one before it
-    for line, carrier in zip(drawing.lines[1:], carriers, strict=False):
-        assert line[:2] == drawing.lines[carrier][2:]
-
-
-def test_marks_stand_left_of_the_bound_exactly_where_errors_are_within_it(make):
-    shares = [0.0, 1e-300, 1e-3, 0.999, 1.0, 1.001, 1e3, 1e300]
-    results = [make.result(check=str(i), measured=s * 64, allowed=64) for i, s in enumerate(shares)]
-    results.append(make.result("differs", check="nothing allowed", measured=1e-9, allowed=0))
-    plot = draw_errors(results, ["mujoco"])
-    positions = [row.marks[0].x for row in plot.rows]
-    assert positions[:8] == sorted(positions[:8])
-    assert [x < plot.bound - 1e-9 for x in positions[:4]] == [True] * 4
-    assert positions[4] == pytest.approx(plot.bound)
-    assert all(x > plot.bound for x in positions[5:])
-    assert len({(mark.x, mark.y) for row in plot.rows for mark in row.marks}) == len(results)
-    decade = plot.ticks[1][0] - plot.ticks[0][0]
-    assert all(b[0] - a[0] == pytest.approx(decade) for a, b in itertools.pairwise(plot.ticks))
-
-
-def test_engines_have_lanes_of_their_own(make):
-    plot = draw_errors([make.result(engine=e) for e in "abcdef"], list("abcdef"))
-    heights = [mark.y for mark in plot.rows[0].marks]
-    assert heights == sorted(heights)
-    assert min(b - a for a, b in itertools.pairwise(heights)) >= 8  # a mark is 8 high
-
-
-def test_nothing_measured_nothing_drawn(make):
-    assert draw_errors([make.result("skipped")], ["mujoco"]) is None
-
-
 def colours(block):
     return dict(re.findall(r"--([\w-]+): (#[0-9a-f]{3,6});", block))
 
@@ -238,14 +191,3 @@ def test_contrast_in_both_themes(make, theme):
         assert contrast(palette[outcome], palette[f"{outcome}-paper"]) >= 4.5
     for i in range(8):
         assert contrast(palette[f"e{i}"], palette["paper"]) >= 3
-
-
-def test_errors_over_time_are_drawn_once_and_not_listed(make):
-    history = [[1.0, 1e-6, 2e-6], [2.0, 1e-3, None], [3.0, None, "x"], ["no", 1, 1], 7]
-    details = {"errors over time": history, "step": 0.01, "Lyapunov time": 0.5}
-    page = to_html(make.report(make.result(check="horizon RK4", details=details)))
-    line = '<polyline class="{}" points="([^"]*)"'
-    plot = [re.findall(line.format(word), page)[0] for word in ("measured", "predicted")]
-    assert [len(points.split()) for points in plot] == [1, 2]
-    assert "Lyapunov time</dt><dd>0.5 s" in page
-    assert "errors over time</th>" not in page

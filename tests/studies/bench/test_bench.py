@@ -309,7 +309,7 @@ def test_json_and_page_and_table_tell_the_same(found, tmp_path, capsys):
     assert again == found
     html = page.read_text(encoding="utf-8")
     assert html == to_html(again)
-    assert html.count('<svg class="plot"') == 1 + 2
+    assert html.count('<figure class="chart"') == 1 + 2
     assert "http" not in html.replace("http-equiv", "")
     assert "<script" not in html
     assert "NaN" not in html

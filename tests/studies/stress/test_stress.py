@@ -28,7 +28,7 @@ HOLDS, FAILS = 6, 7
 
 def one(engine, **options):
     found = stress(["long-rods"], [f"fake_engines_stress:{engine}"], budget=60, jobs=2, **options)
-    (frontier,) = found["frontiers"]
+    (frontier,) = found.frontiers
     return found, frontier
 
 
@@ -44,36 +44,36 @@ def one(engine, **options):
 )
 def test_the_frontier_is_where_the_engine_breaks_and_says_how(engine, failure):
     found, frontier = one(engine)
-    assert (frontier["holds"], frontier["fails"], frontier["failure"]) == (HOLDS, FAILS, failure)
-    assert frontier["closed"]
-    assert found["open"] == 0
-    assert {f["failure"] for f in found["failures"]} == {failure}
+    assert (frontier.holds, frontier.fails, frontier.failure) == (HOLDS, FAILS, failure)
+    assert frontier.closed
+    assert found.open == 0
+    assert {f.failure for f in found.failures} == {failure}
 
 
 def test_a_hang_is_ended_and_named():
     _, frontier = one("Hangs", timeout=2.0)
-    assert (frontier["holds"], frontier["fails"], frontier["failure"]) == (HOLDS, FAILS, "hang")
+    assert (frontier.holds, frontier.fails, frontier.failure) == (HOLDS, FAILS, "hang")
 
 
 def test_what_an_engine_does_not_take_is_refused_not_failed():
     found = stress(["light-leg"], ["fake_engines_stress:Refuses"], budget=60, jobs=1)
-    (frontier,) = found["frontiers"]
+    (frontier,) = found.frontiers
     # 1e-2 kg is rung 4, which it takes.
-    assert (frontier["fails"], frontier["failure"]) == (5, "refused")
-    assert "too light for me" in frontier["reason"]
+    assert (frontier.fails, frontier.failure) == (5, "refused")
+    assert "too light for me" in frontier.reason
 
 
 def test_a_sound_engine_holds_to_the_end():
     found = stress(["long-rods"], ["fake_engines:Right", "document"], budget=60, jobs=1)
-    frontiers = {f["engine"]: f for f in found["frontiers"] if f["axis"] == "long-rods"}
-    assert {f["status"] for f in frontiers.values()} == {"holds"}
+    frontiers = {f.engine: f for f in found.frontiers if f.axis == "long-rods"}
+    assert {f.status for f in frontiers.values()} == {"holds"}
 
 
 def test_kernels_keep_their_promise_where_engines_do_not():
     found = stress(["long-rods", "aligned-legs"], ["kernels"], budget=60, jobs=1)
-    assert found["kernels"]["cases"] == 10
-    assert found["kernels"]["broken"] == found["kernels"]["exceptions"] == []
-    assert found["kernels"]["worst"] < 1e-13
+    assert found.kernels.cases == 10
+    assert found.kernels.broken == found.kernels.exceptions == []
+    assert found.kernels.worst < 1e-13
 
 
 def test_a_kernel_that_is_off_would_be_told(monkeypatch):
@@ -89,8 +89,8 @@ def test_another_seed_finds_the_same_frontiers_to_one_rung():
     # Of an engine whose errors grow with what is put under stress, not of a fake with a hard edge.
     found = [
         {
-            (f["engine"], f["axis"]): f["fails"]
-            for f in stress(["long-rods", "long-legs", "short-rods"], ["mujoco"], budget=60, seed=seed)["frontiers"]
+            (f.engine, f.axis): f.fails
+            for f in stress(["long-rods", "long-legs", "short-rods"], ["mujoco"], budget=60, seed=seed).frontiers
         }
         for seed in (1, 2)
     ]
@@ -103,15 +103,13 @@ def test_the_budget_is_kept_and_what_is_open_is_said():
     begun = time.monotonic()
     found = stress(None, ["exudyn-tree"], budget=3, jobs=2)
     assert time.monotonic() - begun < 60  # all its questions take many minutes; a busy machine is not a fault
-    assert found["open"] > 0
-    assert found["cases"] > 0
+    assert found.open > 0
+    assert found.cases > 0
 
 
 def test_results_do_not_depend_on_workers_or_order():
     found = [stress(["long-legs", "short-legs"], ["mujoco", "document"], budget=60, jobs=jobs) for jobs in (1, 2)]
-    for summary in found:
-        summary.pop("cases")
-    assert found[0]["frontiers"] == found[1]["frontiers"]
+    assert found[0].frontiers == found[1].frontiers
 
 
 def test_a_resumed_run_asks_for_nothing_twice(tmp_path):
@@ -122,7 +120,7 @@ def test_a_resumed_run_asks_for_nothing_twice(tmp_path):
     assert read_stream(tmp_path / STREAM).results == read_stream_bytes(tmp_path, begun).results
     more = stress(["long-rods", "short-rods"], ["mujoco", "kernels"], budget=60, out=tmp_path)
     names = [key(result) for result in read_stream(tmp_path / STREAM).results]
-    assert len(names) == len(set(names)) == more["cases"] > first["cases"]
+    assert len(names) == len(set(names)) == more.cases > first.cases
 
 
 def read_stream_bytes(folder, content):

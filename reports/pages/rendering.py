@@ -1,0 +1,63 @@
+"""The templates of the pages, and how they write values; all that comes from outside is escaped."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..words import count, few, figure, last_line, printable, tally
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+TEMPLATES = Path(__file__).parent / "templates"
+
+
+def render(template: str, styles: Sequence[str] = ("style.css",), **values: Any) -> str:
+    """A page as text, with its style sheets in it; values are escaped, markup comes from the templates alone."""
+    from markupsafe import Markup
+
+    style = "\n".join((TEMPLATES / name).read_text(encoding="utf-8") for name in styles)
+    return environment().get_template(template).render(style=Markup(style), **values)
+
+
+@cache
+def environment() -> Environment:
+    """The templates' environment, kept; whatever is given to a template is escaped."""
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    made = Environment(
+        loader=FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=StrictUndefined,
+        finalize=_inert,
+        auto_reload=False,
+        optimized=False,  # the templates have nothing to fold, and looking for it takes a fifth of their compilation
+    )
+    made.filters |= {
+        "figure": figure,
+        "count": count,
+        "few": few,
+        "last_line": last_line,
+        "list_of": _list_of,
+        "tally": tally,
+        "value": _value,
+    }
+    return made
+
+
+def _inert(value: Any) -> Any:
+    return printable(value) if type(value) is str else value
+
+
+def _value(value: object) -> object:
+    return figure(value) if isinstance(value, float) else value
+
+
+def _list_of(values: Sequence[float], longest: int = 8) -> str:
+    shown = ", ".join(f"{value:.6g}" for value in values[:longest])
+    return shown if len(values) <= longest else f"{shown}, … ({len(values)} in all)"
