@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Literal
 
 from ..records.check import Result
+from ..records.exit_status import AGREES, DIFFERS, INCOMPLETE
 from .report import Report
 from .words import count, figure, one_line
 
@@ -68,8 +69,8 @@ class Comparison:
     def exit_status(self) -> int:
         """0: nothing broke; 1: something that agreed differs or fails now, or is gone; 3: a run is not whole."""
         if self.marked("!"):
-            return 1
-        return 0 if self.before.complete and self.after.complete else 3
+            return DIFFERS
+        return AGREES if self.before.complete and self.after.complete else INCOMPLETE
 
     def text(self) -> str:
         """What changed, a line each under a heading; unchanged comparisons are only counted."""

@@ -10,12 +10,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ..records.check import OUTCOMES, EngineEntry, Footer, Header, Outcome, Result, SceneEntry
+from ..records.exit_status import AGREES, DIFFERS, INCOMPLETE
 from .words import count, few, figure, last_line
 
 # What a cell of several checks says: the worst of them, where that something differs outweighs that something
 # failed, and that one check was skipped says little where others ran.
 GRAVEST: tuple[Outcome, ...] = ("differs", "error", "agrees", "skipped")
-AGREES, DIFFERS, FAILED = 0, 1, 3  # exit statuses
 
 
 @dataclass(frozen=True)
@@ -150,7 +150,7 @@ class Report:
         if self.counts["differs"]:
             return DIFFERS
         if self.counts["error"] or self.flaws:
-            return FAILED
+            return INCOMPLETE
         return AGREES
 
     @cached_property

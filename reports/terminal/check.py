@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
 from ...records.check import Outcome, Result
-from ..report import AGREES, DIFFERS, Cell, Report, against
+from ...records.exit_status import AGREES, DIFFERS
+from ..report import Cell, Report, against
 from ..words import GLYPHS, LEGEND, count, few, last_line, one_line
 
 if TYPE_CHECKING:

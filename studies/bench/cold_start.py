@@ -20,7 +20,7 @@ PROFILES = {"smoke": 1.0, "quick": 20.0, "full": 180.0}  # s
 # The command's own process, then everything that its workers do, in one process: what is imported by then?
 _IMPORTED = """
 import json, sys
-from furiko.cli import run
+from furiko.cli.main import run
 status = run(["check", "--profile", "smoke", "--no-cache", "--out", sys.argv[1]])
 from furiko.checks.messages import CellJob, FactsJob
 from furiko.checks.plan import make_plan

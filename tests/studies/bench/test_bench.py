@@ -3,7 +3,9 @@
 import itertools
 import json
 import math
+import os
 from contextlib import contextmanager
+from pathlib import Path
 
 import msgspec
 import numpy as np
@@ -347,10 +349,7 @@ def test_an_engine_that_is_asked_for_must_be_there(monkeypatch):
 
 @pytest.fixture
 def fakes_for_subprocesses(monkeypatch):
-    from pathlib import Path
-
-    tests = str(Path(__file__).parents[2])
-    monkeypatch.setenv("PYTHONPATH", tests)
+    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parents[2]), prepend=os.pathsep)
 
 
 @pytest.mark.slow
