@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import os
-import platform
-import shlex
-import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
-from datetime import UTC, datetime
 from pathlib import Path
 
 from . import __version__
 from .engines import engine_info, engine_names, engine_version
 from .models import EngineMissing, InvalidInput, Scene, find_scene
 from .models.benchmark_scenes import BENCHMARKS
+from .records import provenance
 from .records.bench import Bench, Motion, Skip, Speed, Target
-from .run import PACKAGES, machine, version_of
 
 SKIP_SCENES = ("double-pendulum", "rods-5")
 THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
@@ -48,7 +44,7 @@ def bench(
     it takes. Raises :class:`InvalidInput` for unknown names and :class:`EngineMissing`, before anything runs.
     """
     begun = time.monotonic()
-    started = datetime.now(UTC).isoformat(timespec="seconds")
+    started = provenance.now()
     chosen = [] if skips or targets else [_scene(name) for name in (BENCHMARKS if scenes is None else scenes)]
     from .studies.bench.methods import ENGINES
 
@@ -73,10 +69,10 @@ def bench(
     return Bench(
         furiko=__version__,
         started=started,
-        command=shlex.join(["furiko", *sys.argv[1:]]),
-        machine=machine(),
+        command=provenance.command(),
+        machine=provenance.machine(),
         threads={"each call": "1 thread unless a row says more", **_threads()},
-        versions={"python": platform.python_version(), **{name: version_of(name) for name in PACKAGES}},
+        versions=provenance.versions(),
         budget=budget,
         seconds=time.monotonic() - begun,
         notes=list(NOTES),

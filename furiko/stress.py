@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import os
-import platform
-import shlex
-import sys
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 from . import __version__
 from .engines import EngineInfo, engine_info, engine_names, engine_version
 from .models import EngineMissing, InvalidInput
+from .records import provenance
 from .records.check import EngineEntry, Header
 from .reports.journal import Journal
 from .studies.stress.accelerations import DOCUMENT, KERNELS, OWN
@@ -143,16 +140,14 @@ def chosen_axes(axes: Sequence[str] | None) -> tuple[tuple[Ladder, ...], tuple[s
 
 def make_header(plan: Plan, seed: int) -> Header:
     """What the stream's first line says of this run."""
-    from .run import PACKAGES, machine, version_of
-
     return Header(
         furiko=__version__,
-        started=datetime.now(UTC).isoformat(timespec="seconds"),
-        command=shlex.join(["furiko", *sys.argv[1:]]),
+        started=provenance.now(),
+        command=provenance.command(),
         profile=PROFILE,
         seed=str(seed),
-        machine=machine(),
-        versions={"python": platform.python_version(), **{name: version_of(name) for name in PACKAGES}},
+        machine=provenance.machine(),
+        versions=provenance.versions(),
         scenes=[],
         engines=[
             *(
