@@ -14,16 +14,19 @@ from .output import print_json
 @json_option
 def cache(clear: bool, as_json: bool) -> int:
     """Show or clear the results kept from earlier runs."""
+    import msgspec
+
     from ..checks.cache import user_cache
+    from ..records.listings import CacheContents
 
     kept = user_cache()
-    size = sum(path.stat().st_size for path in kept.entries())
-    found = {"folder": str(kept.folder), "entries": len(kept.entries()), "bytes": size}
-    if clear:
-        found["deleted"] = kept.clear()
+    entries = kept.entries()
+    size = sum(path.stat().st_size for path in entries)
+    deleted = kept.clear() if clear else msgspec.UNSET
+    found = CacheContents(folder=str(kept.folder), entries=len(entries), bytes=size, deleted=deleted)
     if as_json:
         print_json(found)
     else:
         done = ", deleted now" if clear else ""
-        click.echo(f"{found['entries']} entries, {size / 1e6:.1f} MB in {found['folder']}{done}")
+        click.echo(f"{found.entries} entries, {size / 1e6:.1f} MB in {found.folder}{done}")
     return AGREES

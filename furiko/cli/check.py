@@ -62,7 +62,9 @@ def check(
             )
     status = report.exit_status
     if as_json:
-        print_json({"header": report.header, "results": report.results, "footer": report.footer})
+        from ..records.check import CheckReport
+
+        print_json(CheckReport(header=report.header, results=list(report.results), footer=report.footer))
     else:
         from ..reports.terminal.check import print_report
 

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
 from ..records.exit_status import AGREES
 from .options import json_option
 from .output import print_json, print_table
+
+if TYPE_CHECKING:
+    from ..engines import EngineInfo
+    from ..records.listings import EngineRow
 
 
 @click.command()
@@ -17,22 +23,7 @@ def engines(as_json: bool) -> int:
 
     infos = [engine_info(name) for name in engine_names()]
     if as_json:
-        print_json(
-            [
-                {
-                    "name": info.name,
-                    "formulation": info.formulation,
-                    "package": info.package,
-                    "version": engine_version(info.name) or None,
-                    "coordinates": info.coordinates,
-                    "integrators": [{"name": i.name, "order": i.order} for i in info.integrators],
-                    "missing": dict(info.missing),
-                    "largest_n": info.largest_n,
-                    "homepage": info.homepage,
-                }
-                for info in infos
-            ]
-        )
+        print_json([_row(info, engine_version(info.name)) for info in infos])
     else:
         rows = [
             (
@@ -46,3 +37,19 @@ def engines(as_json: bool) -> int:
         ]
         print_table(("engine", "version", "formulation", "integrators", "does not give"), rows)
     return AGREES
+
+
+def _row(info: EngineInfo, version: str) -> EngineRow:
+    from ..records.listings import EngineRow, IntegratorRow
+
+    return EngineRow(
+        name=info.name,
+        formulation=info.formulation,
+        package=info.package,
+        version=version or None,
+        coordinates=info.coordinates,
+        integrators=[IntegratorRow(name=i.name, order=i.order) for i in info.integrators],
+        missing=dict(info.missing),
+        largest_n=info.largest_n,
+        homepage=info.homepage,
+    )

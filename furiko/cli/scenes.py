@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
 from ..records.exit_status import AGREES
 from .options import json_option
 from .output import print_json, print_table
+
+if TYPE_CHECKING:
+    from ..models import Scene
+    from ..records.listings import SceneRow
 
 
 @click.command()
@@ -17,21 +23,22 @@ def scenes(as_json: bool) -> int:
 
     found = find_scenes(None)
     if as_json:
-        print_json(
-            [
-                {
-                    "name": scene.name,
-                    "system": scene.system.kind,
-                    "n": scene.system.n,
-                    "duration": scene.duration,
-                    "description": scene.description,
-                    "equations": scene.equations,
-                    "tags": scene.tags,
-                }
-                for scene in found
-            ]
-        )
+        print_json([_row(scene) for scene in found])
     else:
         rows = [(s.name, s.system.kind, str(s.system.n), f"{s.duration:g}", s.description) for s in found]
         print_table(("scene", "system", "angles", "seconds", "description"), rows)
     return AGREES
+
+
+def _row(scene: Scene) -> SceneRow:
+    from ..records.listings import SceneRow
+
+    return SceneRow(
+        name=scene.name,
+        system=scene.system.kind,
+        n=scene.system.n,
+        duration=scene.duration,
+        description=scene.description,
+        equations=list(scene.equations),
+        tags=list(scene.tags),
+    )

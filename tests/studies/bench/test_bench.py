@@ -7,6 +7,7 @@ import os
 from contextlib import contextmanager
 from pathlib import Path
 
+import jsonschema
 import msgspec
 import numpy as np
 import pytest
@@ -18,6 +19,7 @@ from furiko.engines import engine_names, engine_version, load_engine
 from furiko.models import EngineMissing, InvalidInput, RodChain, Scene
 from furiko.models.benchmark_scenes import BENCHMARKS
 from furiko.records.bench import Bench, Point
+from furiko.records.schema import FOLDER
 from furiko.reference.truth import closed_forms as exact
 from furiko.reports.pages.bench_page import to_html
 from furiko.reports.terminal.bench import print_bench
@@ -307,8 +309,11 @@ def test_accelerations_are_held_against_balls(found):
 
 def test_json_and_page_and_table_tell_the_same(found, tmp_path, capsys):
     page = write(tmp_path / "out", found)
-    again = msgspec.json.decode((tmp_path / "out" / "bench.json").read_bytes(), type=Bench)
+    content = (tmp_path / "out" / "bench.json").read_bytes()
+    again = msgspec.json.decode(content, type=Bench)
     assert again == found
+    schema = json.loads((FOLDER / "bench.json").read_text(encoding="utf-8"))
+    jsonschema.Draft202012Validator(schema).validate(json.loads(content))
     html = page.read_text(encoding="utf-8")
     assert html == to_html(again)
     assert html.count('<svg class="plot"') == 1 + 2
