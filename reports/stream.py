@@ -33,6 +33,14 @@ LONGEST_REASON = 20_000  # characters; a traceback fits
 _decoder = msgspec.json.Decoder(Header | Result | Footer)
 
 
+class _Head(msgspec.Struct):
+    """What every format of a header has."""
+
+    kind: Any = None
+    format: Any = FORMAT
+    furiko: Any = None
+
+
 class StreamWriter:
     """Writes one stream: the header on entering, each result at once, the footer only on :meth:`finish`.
 
@@ -139,6 +147,8 @@ def _read(file: BinaryIO, name: str) -> Report:
     results: list[Result] = []
     for number, line in enumerate(_whole_lines(file, name), start=1):
         where = f"{name}, line {number}"
+        if number == 1:
+            _require_this_format(line, where)
         record = _decode(line, where)
         if header is None:
             if not isinstance(record, Header):
@@ -177,23 +187,24 @@ def _decode(line: bytes, where: str) -> Record:
     try:
         record: Record = _decoder.decode(line)
     except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as error:
-        _refuse_other_formats(line, where)
         raise InvalidInput(f"{where}: {_told(error)}") from None
-    if isinstance(record, Header):
-        _refuse_other_formats(line, where)
     return record
 
 
-def _refuse_other_formats(line: bytes, where: str) -> None:
-    """Say that a header is of another format, before saying that it lacks some field of this one."""
+def _require_this_format(line: bytes, where: str) -> None:
+    """Refuse a first line of another format, whatever else that format has in it.
+
+    A line in which no format can be found is left to the decoder, which says what is wrong with it.
+    """
     try:
-        head = msgspec.json.decode(line)
+        head = msgspec.json.decode(line, type=_Head)
     except (ValueError, RecursionError):
         return
-    if isinstance(head, dict) and head.get("kind") == "header" and head.get("format", FORMAT) != FORMAT:
+    if head.kind == "header" and head.format != FORMAT:
+        writer = f"furiko {head.furiko:.40}" if isinstance(head.furiko, str) else "the furiko"
         raise InvalidInput(
-            f"{where}: format {head['format']!r:.40} is not known here; "
-            f"this furiko reads format {FORMAT}, another release of it may read this one"
+            f"{where}: this stream has format {head.format!r:.40}, and this furiko reads format {FORMAT}; "
+            f"read it with {writer} that wrote it, or make the run again with this one"
         )
 
 

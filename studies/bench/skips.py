@@ -33,7 +33,7 @@ REPEATS = 3  # runs each way, in turn; the fastest counts
 _FRESH = """
 import json, sys, time
 begun = time.perf_counter()
-from furiko.checks.skips import check_task
+from furiko.studies.bench.skips import check_task
 scene, engine, others = sys.argv[1], sys.argv[2], sys.argv[3:]
 print(json.dumps([check_task(scene, engine, others), time.perf_counter() - begun]))
 """

@@ -15,6 +15,8 @@ import pytest
 import furiko
 from furiko.cli.main import COMMANDS, cli
 from furiko.cli.main import run as cli_run
+from furiko.records.check import Header
+from furiko.reports import StreamWriter
 
 TESTS = Path(__file__).parent.parent
 # The fake engines by name; and where furiko itself is, if that is told by PYTHONPATH.
@@ -176,6 +178,38 @@ def test_a_baseline_shows_what_got_worse(tmp_path):
     worse = run("diff", "before", "after", cwd=tmp_path)
     assert worse.returncode == 1
     assert "rods-2" in worse.stdout
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["diff", "old.jsonl", "now.jsonl"],
+        ["diff", "now.jsonl", "old.jsonl"],
+        ["check", "rods-1", "--baseline", "old.jsonl"],
+        ["check", "rods-1", "--baseline", "old.jsonl", "--json"],
+    ],
+)
+def test_a_stream_of_another_format_is_one_clear_line(make_stream, tmp_path, arguments):
+    make_stream(tmp_path / "now.jsonl")
+    # of that format nothing is known but how it says that it is another
+    (tmp_path / "old.jsonl").write_text('{"kind":"header","format":99,"furiko":"9.9"}\n{"kind":"row"}\n')
+    line = one_clear_line(run(*arguments, cwd=tmp_path), 2)
+    assert line.startswith("furiko: old.jsonl, line 1: this stream has format 99, and this furiko reads format ")
+    assert line.endswith("read it with furiko 9.9 that wrote it, or make the run again with this one")
+    assert not (tmp_path / "furiko-report").exists()
+
+
+@pytest.fixture
+def make_stream():
+    header = Header(
+        furiko="1", started="", command="", profile="smoke", seed="", machine={}, versions={}, scenes=[], engines=[]
+    )
+
+    def make(path):
+        with StreamWriter(path, header) as stream:
+            stream.finish()
+
+    return make
 
 
 @pytest.mark.parametrize("arguments", [["--help"], ["check", "-h"]])
