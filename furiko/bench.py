@@ -128,18 +128,19 @@ def _threads() -> dict[str, str]:
 
 
 def write(folder: Path, found: Bench) -> Path:
-    """Write ``bench.json`` and ``bench.html``; returns the page's path. Raises :class:`InvalidInput`."""
+    """Write ``bench.json`` and ``bench.html``, each completely or not at all; returns the page's path.
+
+    Raises :class:`InvalidInput` where they cannot be written.
+    """
     import msgspec
 
+    from .models.writers.whole_file import write_whole
     from .reports.pages.bench_page import to_html
 
+    page = to_html(found)
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        for name, text in (
-            ("bench.json", msgspec.json.format(msgspec.json.encode(found), indent=1).decode() + "\n"),
-            ("bench.html", to_html(found)),
-        ):
-            (folder / name).write_text(text, encoding="utf-8")
     except OSError as error:
         raise InvalidInput(f"{folder}: cannot be written: {error.strerror or error}") from None
-    return folder / "bench.html"
+    write_whole(folder / "bench.json", msgspec.json.format(msgspec.json.encode(found), indent=1).decode() + "\n")
+    return write_whole(folder / "bench.html", page)

@@ -16,7 +16,8 @@ from ..records.exit_status import AGREES
 @click.option("--out", "-o", type=click.Path(path_type=Path), help="File to write; standard output if not given.")
 def export(scene: str, language: str | None, out: Path | None) -> int:
     """Write a scene's mechanism as an MJCF or URDF file."""
-    from ..models import InvalidInput, find_scene, to_mjcf, to_urdf
+    from ..models import find_scene, to_mjcf, to_urdf
+    from ..models.writers.whole_file import write_whole
 
     if language is None:
         raise click.UsageError("one of --mjcf and --urdf is needed")
@@ -24,9 +25,6 @@ def export(scene: str, language: str | None, out: Path | None) -> int:
     text = to_mjcf(system) if language == "mjcf" else to_urdf(system)
     if out is None:
         click.echo(text, nl=False)
-        return AGREES
-    try:
-        out.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise InvalidInput(f"{out}: cannot be written: {error.strerror or error}") from None
+    else:
+        write_whole(out, text)
     return AGREES

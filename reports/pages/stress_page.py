@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from ...models.writers.whole_file import write_whole
 from ...records.check import Header
-from ..write import write_whole
 from .check_page import TEMPLATES, environment
 from .stress_drawings import Map, Picture, Plot, draw, draw_curves, draw_map
 

@@ -94,6 +94,7 @@ def test_json_is_one_document_and_nothing_else(tmp_path):
         (["chekc"], "chekc"),
         (["export", "rods-2"], "--mjcf"),
         (["export", "rods-2", "--mjcf", "-o", "no/such/folder/x.xml"], "cannot be written"),
+        (["export", "rods-2", "--urdf", "-o", "."], ".: cannot be written: Is a directory"),
         (["diff", "a", "b"], "a: cannot be read"),
         (["check", "bad.toml"], "bad.toml: system.lengths[0]: must be positive"),
         (["check", "huge.toml", "-e", "pinocchio-aba"], ""),
@@ -165,6 +166,7 @@ def test_export_writes_what_the_library_writes(tmp_path):
     assert run("export", "rods-2-equal", "--mjcf", cwd=tmp_path).stdout == furiko.to_mjcf(system)
     run("export", "rods-2-equal", "--urdf", "-o", "model.urdf", cwd=tmp_path)
     assert (tmp_path / "model.urdf").read_text() == furiko.to_urdf(system)
+    assert run("export", "rods-2-equal", "--urdf", "-o", "/dev/stdout", cwd=tmp_path).stdout == furiko.to_urdf(system)
 
 
 def test_a_baseline_shows_what_got_worse(tmp_path):

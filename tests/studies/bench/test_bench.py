@@ -7,6 +7,7 @@ import os
 from contextlib import contextmanager
 from pathlib import Path
 
+import jinja2
 import jsonschema
 import msgspec
 import numpy as np
@@ -327,6 +328,15 @@ def test_json_and_page_and_table_tell_the_same(found, tmp_path, capsys):
         assert word in html or word in ("1e-09", "times")
     assert "not reached" in printed
     assert "not reached" in html
+
+
+def test_nothing_is_written_where_the_page_cannot_be_made(found, tmp_path):
+    with pytest.raises(jinja2.UndefinedError):
+        write(tmp_path, msgspec.structs.replace(found, motions=[None]))
+    assert not list(tmp_path.iterdir())
+    (tmp_path / "file").write_text("in the way")
+    with pytest.raises(InvalidInput, match="file: cannot be written"):
+        write(tmp_path / "file", found)
 
 
 def test_what_comes_from_a_scene_is_escaped(found):
