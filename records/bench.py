@@ -76,17 +76,6 @@ class Skip(msgspec.Struct, frozen=True, kw_only=True):
     seconds_without: float
 
 
-class Target(msgspec.Struct, frozen=True, kw_only=True):
-    """A figure that furiko is to reach, and what this run got."""
-
-    name: str
-    asked: str
-    got: str
-    met: bool | None  # None: could not be measured, ``says`` tells why
-    share: float | None = None  # got over asked, so that 1 or more is met
-    says: str = ""
-
-
 class Bench(msgspec.Struct, frozen=True, kw_only=True):
     """One run of ``furiko bench``."""
 
@@ -103,4 +92,3 @@ class Bench(msgspec.Struct, frozen=True, kw_only=True):
     motions: list[Motion] = []
     speeds: list[Speed] = []
     skips: list[Skip] = []
-    targets: list[Target] = []

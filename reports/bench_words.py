@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from ..records.bench import Speed
 
-MET = {True: "✓", False: "✗", None: "–"}
 SAME = {True: "the same {}", False: "NOT the same ({})"}
 UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs"), (1e-9, "ns"))
 

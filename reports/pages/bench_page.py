@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ...records.bench import Bench, Motion, Point, Reach, Speed
-from ..bench_words import MET, SAME, batch, duration, link_words, times
+from ..bench_words import SAME, batch, duration, link_words, times
 from ..words import figure
 from .check_page import TEMPLATES, environment
 from .loglog import KINDS, LogLog, Series, draw
@@ -188,7 +188,6 @@ def to_html(found: Bench) -> str:
             duration=duration,
             ratio=times,
             batch=batch,
-            met=MET,
             same=SAME,
         )
     )

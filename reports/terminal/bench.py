@@ -8,8 +8,8 @@ from itertools import groupby
 from pathlib import Path
 from typing import TextIO
 
-from ...records.bench import Bench, Motion, Reach, Skip, Speed, Target
-from ..bench_words import MET, SAME, batch, duration, link_words, times
+from ...records.bench import Bench, Motion, Reach, Skip, Speed
+from ..bench_words import SAME, batch, duration, link_words, times
 from ..words import figure
 from .check import Page
 
@@ -30,8 +30,6 @@ def print_bench(found: Bench, path: str | Path | None = None, file: TextIO | Non
         _speeds(list(rows), page)
     if found.skips:
         _skips(found.skips, page)
-    if found.targets:
-        _targets(found.targets, page)
     page.line()
     for note in found.notes if found.motions or found.speeds else ():
         page.line(note, "dim")
@@ -127,19 +125,6 @@ def _skips(skips: Sequence[Skip], page: Page) -> None:
         for skip in skips
     ]
     _table(("skip", "verdicts", "with it", "without", "what is left out"), rows, page)
-
-
-def _targets(targets: Sequence[Target], page: Page) -> None:
-    page.line("\nTargets", "bold")
-    for target in targets:
-        mark = MET[target.met]
-        style = {True: "blue", False: "bold dark_orange", None: "dim"}[target.met]
-        share = f" [{target.share:.2f} of what is asked]" if target.share is not None else ""
-        page.line(f"{mark} {target.name}: asked {target.asked or '–'}, got {target.got or '–'}{share}", style)
-        if target.says:
-            page.line(f"    {target.says}", "dim")
-    met = sum(target.met is True for target in targets)
-    page.line(f"{met} of {len(targets)} met")
 
 
 def _table(heading: Sequence[str], rows: Iterable[Sequence[str]], page: Page) -> None:

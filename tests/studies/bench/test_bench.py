@@ -27,7 +27,6 @@ from furiko.reports.terminal.bench import print_bench
 from furiko.studies.bench.acceleration_speed import speeds
 from furiko.studies.bench.methods import Method, dop853, end_error, methods, taylor
 from furiko.studies.bench.skips import skips
-from furiko.studies.bench.targets import five_rods, own_tolerance
 from furiko.studies.bench.timing import Subject, Times, interleaved
 from furiko.studies.bench.work_precision import front, reach, reaches, refine
 
@@ -394,7 +393,7 @@ def test_a_skip_that_changes_a_verdict_is_seen(monkeypatch):
     assert not module._trajectory(plan).same
 
 
-# --- targets
+# --- reference solutions kept for the benchmark's motions
 
 
 def test_benchmarks_have_kept_ends():
@@ -418,19 +417,3 @@ def test_kept_ends_of_a_benchmark_are_computed_again():
     (same,) = [old for old in kept.values() if old["scene"] == scene.name]
     new, old = (np.array(e["states"], dtype=np.longdouble) for e in (entry, same))
     assert np.abs(new - old).max() < 1e-18  # a long double's own rounding of the decimals
-
-
-def test_a_target_out_of_reach_is_not_met(monkeypatch):
-    assert own_tolerance(RODS, 1e-30).startswith("no nearer than")
-    monkeypatch.setattr("furiko.studies.bench.targets.own_tolerance", lambda scene, error: "no nearer than 1e-3")
-    if engine_version("pinocchio-aba"):
-        target = five_rods()
-        assert target.met is False
-        assert target.got == "no nearer than 1e-3"
-
-
-def test_a_target_without_its_engine_is_not_measured(monkeypatch):
-    monkeypatch.setattr("furiko.studies.bench.targets.engine_version", lambda name: "")
-    target = five_rods()
-    assert target.met is None
-    assert "not installed" in target.says
