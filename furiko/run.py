@@ -33,9 +33,9 @@ def check(
     place: Workshop | None = None,
     watch: Callable[[Plan, Result], None] | None = None,
 ) -> Report:
-    """Hold engines against the documents' equations.
+    """Check engines against the documents' equations.
 
-    ``scenes``: names of the catalogue's or paths of TOML files, None for those of the profile; ``engines``: names,
+    ``scenes``: names from the catalogue or paths of TOML files, None for those of the profile; ``engines``: names,
     None for all; ``profile``: ``smoke``, ``quick`` or ``full``; ``out``: folder for ``report.jsonl`` and its
     renderings, None for none; ``jobs``: worker processes, None for one a core; ``timeout`` [s] of one check;
     ``use_cache``: take results of an earlier run with the very same inputs; ``place``: workers started ahead;
@@ -51,10 +51,10 @@ def check(
     with ExitStack() as open_until_done:
         workers = place or open_until_done.enter_context(workshop())
         running = run(plan, cache=cache, place=workers, jobs=jobs, timeout=timeout)
-        header = make_header(plan, given)  # while they work: the formulas in it need numpy
+        header = make_header(plan, given)  # while the workers run: the formulas in it need numpy
         stream = None if out is None else open_until_done.enter_context(open_report(out, header))
         if stream is not None:
-            prepare_reports()  # likewise: at the end of a small run nothing else would be left to do
+            prepare_reports()  # likewise: at the end of a small run it would add to its time
         for result in running:
             results.append(result if stream is None else stream.write(result))
             if watch is not None:
@@ -74,7 +74,7 @@ def _footer(stream: StreamWriter | None, results: Sequence[Result], seconds: flo
 
 
 def make_header(plan: Plan, given: Sequence[str] | None) -> Header:
-    """What a stream's first line says of this run."""
+    """The first line of the stream: what runs, where, with what. ``given``: scenes as the user named them, or None."""
     sources = {} if given is None else dict(zip((scene.name for scene in plan.scenes), given, strict=False))
     return Header(
         furiko=__version__,
@@ -95,7 +95,7 @@ def make_header(plan: Plan, given: Sequence[str] | None) -> Header:
 
 
 def scene_entry(scene: Scene, plan: Plan, source: str) -> SceneEntry:
-    """What the header says of a scene."""
+    """One scene in the header. ``source``: what to pass to ``furiko check`` to run it again."""
     from .reference import EQUATIONS
 
     system = scene.system

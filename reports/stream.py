@@ -1,6 +1,6 @@
 """The result stream, ``report.jsonl``: written line by line as results come, read back with every line checked.
 
-A stream is whole only with its footer, and only :meth:`StreamWriter.finish` writes one. JSON has no NaN and no
+A stream is complete only with its footer, and only :meth:`StreamWriter.finish` writes one. JSON has no NaN and no
 infinity: a figure that is not finite is written as null, and the result's reason says which it was.
 """
 
@@ -24,7 +24,7 @@ from .report import Report
 
 STREAM = "report.jsonl"
 
-# Bounds for what is read and written, so that a hostile or runaway file costs a message and not the memory. A full
+# Bounds for what is read and written, so that a huge file gives a message and does not fill the memory. A full
 # run of the catalogue is 2 MB, and the header of a scene with ten thousand links half a megabyte.
 LARGEST_LINE = 8_000_000  # bytes
 LARGEST_STREAM = 256_000_000  # bytes
@@ -69,7 +69,7 @@ class StreamWriter:
         return self
 
     def write(self, result: Result) -> Result:
-        """Append one result, on disk when this returns. Returns it as it was written: with figures that are finite."""
+        """Append one result, on disk when this returns. Returns it as it was written, with finite figures only."""
         written = _finite(result)
         self._line(written)
         self._counts[written.outcome] += 1
@@ -127,8 +127,8 @@ def read_stream(source: str | Path | BinaryIO) -> Report:
     """Read a stream from its path, the folder it is in, or an open binary file, checking every line.
 
     A stream that was cut off is read as far as it goes and is not ``complete``. Raises :class:`InvalidInput` naming
-    file and line for one that cannot be read, is no such stream, has a line that is none of its records or stands
-    where it must not, or is of a format not known here.
+    file and line for one that cannot be read, is no such stream, is of another format, or has a line that is none of
+    its records or is out of order.
     """
     if not isinstance(source, str | Path):
         return _read(source, str(getattr(source, "name", "stream")))
@@ -168,7 +168,7 @@ def _read(file: BinaryIO, name: str) -> Report:
 
 
 def _whole_lines(file: BinaryIO, name: str) -> Iterator[bytes]:
-    """Lines that have their line end; what a cut-off run left after the last of them is passed over."""
+    """Lines that have their line end; half a line at the end of a cut-off run is left out."""
     size = number = 0
     while line := file.readline(LARGEST_LINE + 1):
         number += 1
@@ -218,7 +218,7 @@ def _told(error: Exception) -> str:
 
 
 def _alone(path: Path) -> FileIO:
-    """The file, emptied, that this process alone writes until it closes it."""
+    """Open the file, empty, so that only this process writes it until it closes it."""
     descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o666)
     file = FileIO(descriptor, "wb")
     try:
@@ -234,7 +234,7 @@ def _alone(path: Path) -> FileIO:
 def _finite(result: Result) -> Result:
     """The result with null for a figure that is not finite, and the reason saying so.
 
-    Nothing agrees by not being a number: a result that claims so is an error of the check's.
+    A result that agrees with a figure that is not finite becomes an error.
     """
     said = [
         f"{field} is {float(value)}"

@@ -127,8 +127,8 @@ def test_ratios_are_to_furikos_own_and_not_reached_has_a_reason():
     assert found["other", 1e-6].ratio == pytest.approx(100 / 2**0.2)
     assert found["other", 1e-9].seconds is None
     assert found["other", 1e-9].ratio is None
-    assert found["other", 1e-9].reason == "nearest 1.0e-07; rounding"
-    assert found["lost", 1e-6].reason == "no run came to its end; time"
+    assert found["other", 1e-9].reason == "smallest error 1.0e-07; rounding"
+    assert found["lost", 1e-6].reason == "no run finished; time"
     assert found["furiko", 1e-12].seconds is None
 
 
