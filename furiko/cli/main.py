@@ -74,10 +74,8 @@ def run(arguments: list[str]) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return INTERRUPTED
     except (ValueError, RuntimeError) as error:
-        from ..models import (
-            EngineMissing,
-            InvalidInput,
-        )  # not before: a check starts its workers before it imports numpy
+        # Imported here, not above: a check starts its workers before it imports numpy.
+        from ..models import EngineMissing, InvalidInput
 
         if isinstance(error, InvalidInput):
             return _fail(str(error), BAD_INPUT)
