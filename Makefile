@@ -17,7 +17,7 @@ lint: $(VENV)/.test  ## ruff and mypy --strict
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
-models:  ## write the catalogue's model files and the stream's schema again
+models:  ## write the catalogue's model files and the JSON schemas again
 	$(BIN)/python -m furiko.models.writers.catalogue_files
 	$(BIN)/python -m furiko.records.schema
 

@@ -1,6 +1,6 @@
 """furiko: cross-checks hand-derived equations of motion and physics engines, and names the cause where they differ.
 
-Names are imported where they are first used: ``import furiko`` alone loads neither an engine nor numpy.
+A name is imported when it is first used: ``import furiko`` alone imports neither an engine nor numpy.
 """
 
 from __future__ import annotations

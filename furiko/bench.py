@@ -1,33 +1,29 @@
-"""One run of the benchmark: what is measured, on what, and the files it leaves."""
+"""One run of the benchmark: its parts, its record, and its files."""
 
 from __future__ import annotations
 
 import os
-import platform
-import shlex
-import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
-from datetime import UTC, datetime
 from pathlib import Path
 
 from . import __version__
 from .engines import engine_info, engine_names, engine_version
 from .models import EngineMissing, InvalidInput, Scene, find_scene
 from .models.benchmark_scenes import BENCHMARKS
-from .records.bench import Bench, Motion, Skip, Speed, Target
-from .run import PACKAGES, machine, version_of
+from .records import provenance
+from .records.bench import Bench, Motion, Skip, Speed
 
 SKIP_SCENES = ("double-pendulum", "rods-5")
 THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 NOTES = (
-    "All methods of a motion, and all calls of a table, ran in turn in one process, to and fro, after a warm-up; "
-    "times are the median of the rounds, ratios those of the medians or of the rounds themselves.",
-    "MuJoCo's Python package lets the C library read a clock again and again in every step; 'timer off' is without.",
-    "Engines' accelerations are timed by their barest calls, input in place; what furiko's adapters add is not.",
+    "All methods of a motion, and all calls of a table, ran in turn in one process, forwards and backwards, after a "
+    "warm-up; times are the median of the rounds, ratios are ratios of medians or the median of the rounds' ratios.",
+    "MuJoCo's Python package makes the C library read a clock several times in every step; 'timer off' is without it.",
+    "Engines' accelerations are timed by their most direct calls, with the input in place, without furiko's adapters.",
     "Errors of motions: the largest of θ [rad] and ω [rad/s] at the end, against a run in quadruple precision. Errors "
     "of accelerations: relative to a state's largest, against enclosures in ball arithmetic.",
-    "Where a method did not come as near as asked, it says 'not reached'; nothing is extrapolated.",
+    "'not reached': no run of the method had so small an error. Nothing is extrapolated.",
 )
 Watch = Callable[[str], None]
 
@@ -38,52 +34,47 @@ def bench(
     *,
     budget: float = 60.0,
     skips: bool = False,
-    targets: bool = False,
     watch: Watch = lambda _: None,
 ) -> Bench:
-    """Measure time against error: motions of ``scenes``, and accelerations where none are named.
+    """Measure time against error: motions of ``scenes``, and accelerations where no scenes are named.
 
-    ``scenes``: names or TOML files, of the benchmark's own motions or the catalogue; ``engines``: names, None for all
-    that are installed; ``budget``: about so many seconds. ``skips`` and ``targets`` are measured instead, as long as
-    it takes. Raises :class:`InvalidInput` for unknown names and :class:`EngineMissing`, before anything runs.
+    ``scenes``: the benchmark's own motions, scenes of the catalogue or TOML files; None for all of the benchmark's.
+    ``engines``: names, None for all that are installed. ``budget`` [s]: about the time of the run. ``skips``: measure
+    what a check skips instead, without a limit of time. ``watch`` is called with what is measured next.
+
+    Raises :class:`InvalidInput` for unknown names and :class:`EngineMissing`, before anything runs.
     """
     begun = time.monotonic()
-    started = datetime.now(UTC).isoformat(timespec="seconds")
-    chosen = [] if skips or targets else [_scene(name) for name in (BENCHMARKS if scenes is None else scenes)]
-    from .studies.bench.methods import ENGINES
-
+    started = provenance.now()
     names = _engines(engines)
-    moving = names if engines is not None else [name for name in names if name in ENGINES]
     motions: list[Motion] = []
     speeds: list[Speed] = []
     skipped: list[Skip] = []
-    reached: list[Target] = []
     if skips:
-        from .studies.bench.skips import skips as prove
+        from .studies.bench.skips import skips as measure_skips
 
-        skipped = list(prove(list(scenes or SKIP_SCENES), names, watch))
-    if targets:
-        from .studies.bench.targets import targets as measure
+        skipped = list(measure_skips(list(scenes or SKIP_SCENES), names, watch))
+    else:
+        from .studies.bench.methods import ENGINES
 
-        reached = list(measure(watch))
-    if not (skips or targets):
-        both = scenes is None  # what making models and proving truths takes is no part of these shares
+        chosen = [_scene(name) for name in (BENCHMARKS if scenes is None else scenes)]
+        moving = names if engines is not None else [name for name in names if name in ENGINES]
+        both = scenes is None  # the rest of the budget goes into making models and reference solutions
         motions = list(_motions(chosen, moving, 0.55 * budget if both else budget, watch))
         speeds = list(_speeds(names, 0.3 * budget, watch)) if both else []
     return Bench(
         furiko=__version__,
         started=started,
-        command=shlex.join(["furiko", *sys.argv[1:]]),
-        machine=machine(),
+        command=provenance.command(),
+        machine=provenance.machine(),
         threads={"each call": "1 thread unless a row says more", **_threads()},
-        versions={"python": platform.python_version(), **{name: version_of(name) for name in PACKAGES}},
+        versions=provenance.versions(),
         budget=budget,
         seconds=time.monotonic() - begun,
         notes=list(NOTES),
         motions=motions,
         speeds=speeds,
         skips=skipped,
-        targets=reached,
     )
 
 
@@ -105,7 +96,7 @@ def _speeds(engines: Sequence[str], budget: float, watch: Watch) -> Iterator[Spe
 
 
 def _scene(name: str) -> Scene:
-    """A motion of the benchmark's own or of a scene. Raises :class:`InvalidInput` where nothing moves."""
+    """A motion of the benchmark, or a scene. Raises :class:`InvalidInput` where it has no state or no duration."""
     scene = BENCHMARKS[name] if name in BENCHMARKS else find_scene(name)
     if scene.theta is None or not scene.duration:
         raise InvalidInput(f"scene {name!r}: it has no [state] with a duration, so there is no motion to time")
@@ -113,7 +104,7 @@ def _scene(name: str) -> Scene:
 
 
 def _engines(given: Sequence[str] | None) -> list[str]:
-    """The engines by name; those asked for must be there."""
+    """The engines by name. Raises :class:`EngineMissing` for one that was asked for and is not installed."""
     if given is None:
         return [name for name in engine_names() if engine_version(name)]
     for name in given:
@@ -132,18 +123,19 @@ def _threads() -> dict[str, str]:
 
 
 def write(folder: Path, found: Bench) -> Path:
-    """Write ``bench.json`` and ``bench.html``; returns the page's path. Raises :class:`InvalidInput`."""
+    """Write ``bench.json`` and ``bench.html``, each completely or not at all; returns the page's path.
+
+    Raises :class:`InvalidInput` where they cannot be written.
+    """
     import msgspec
 
+    from .models.writers.whole_file import write_whole
     from .reports.pages.bench_page import to_html
 
+    page = to_html(found)
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        for name, text in (
-            ("bench.json", msgspec.json.format(msgspec.json.encode(found), indent=1).decode() + "\n"),
-            ("bench.html", to_html(found)),
-        ):
-            (folder / name).write_text(text, encoding="utf-8")
     except OSError as error:
         raise InvalidInput(f"{folder}: cannot be written: {error.strerror or error}") from None
-    return folder / "bench.html"
+    write_whole(folder / "bench.json", msgspec.json.format(msgspec.json.encode(found), indent=1).decode() + "\n")
+    return write_whole(folder / "bench.html", page)

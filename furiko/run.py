@@ -2,15 +2,9 @@
 
 from __future__ import annotations
 
-import os
-import platform
-import shlex
-import sys
 import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
-from datetime import UTC, datetime
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from . import __version__
@@ -22,10 +16,10 @@ from .checks.runner import TIMEOUT, run
 from .engines import engine_version
 from .engines.workers.processes import Workers, worker_processes
 from .models import Scene, catalogue
+from .records import provenance
 from .records.check import OUTCOMES, EngineEntry, Footer, Header, Result, SceneEntry
 from .reports import Report, StreamWriter, open_report, prepare_reports, write_reports
 
-PACKAGES = ("numpy", "scipy", "mujoco", "pin", "exudyn", "python-flint", "heyoka", "numba")
 SEED = "sha256 of the scene's name, PCG64"
 
 
@@ -41,9 +35,9 @@ def check(
     source: Workers | None = None,
     watch: Callable[[Plan, Result], None] | None = None,
 ) -> Report:
-    """Hold engines against the documents' equations.
+    """Check engines against the documents' equations.
 
-    ``scenes``: names of the catalogue's or paths of TOML files, None for those of the profile; ``engines``: names,
+    ``scenes``: names from the catalogue or paths of TOML files, None for those of the profile; ``engines``: names,
     None for all; ``profile``: ``smoke``, ``quick`` or ``full``; ``out``: folder for ``report.jsonl`` and its
     renderings, None for none; ``jobs``: worker processes, None for one a core; ``timeout`` [s] of one check;
     ``use_cache``: take results of an earlier run with the very same inputs; ``source``: workers started ahead;
@@ -89,16 +83,16 @@ def _footer(stream: StreamWriter | None, results: Sequence[Result], seconds: flo
 
 
 def make_header(plan: Plan, given: Sequence[str] | None) -> Header:
-    """What a stream's first line says of this run."""
+    """The first line of the stream: what runs, where, with what. ``given``: scenes as the user named them, or None."""
     sources = {} if given is None else dict(zip((scene.name for scene in plan.scenes), given, strict=False))
     return Header(
         furiko=__version__,
-        started=datetime.now(UTC).isoformat(timespec="seconds"),
-        command=shlex.join(["furiko", *sys.argv[1:]]),
+        started=provenance.now(),
+        command=provenance.command(),
         profile=plan.profile.name,
         seed=SEED,
-        machine=machine(),
-        versions={"python": platform.python_version(), **{name: version_of(name) for name in PACKAGES}},
+        machine=provenance.machine(),
+        versions=provenance.versions(),
         scenes=[scene_entry(scene, plan, sources.get(scene.name, scene.name)) for scene in plan.scenes],
         engines=[
             EngineEntry(
@@ -110,7 +104,7 @@ def make_header(plan: Plan, given: Sequence[str] | None) -> Header:
 
 
 def scene_entry(scene: Scene, plan: Plan, source: str) -> SceneEntry:
-    """What the header says of a scene."""
+    """One scene in the header. ``source``: what to pass to ``furiko check`` to run it again."""
     from .reference import EQUATIONS
 
     system = scene.system
@@ -129,29 +123,3 @@ def scene_entry(scene: Scene, plan: Plan, source: str) -> SceneEntry:
         tags=list(scene.tags),
         source=scene.name if scene.name in catalogue() else source,
     )
-
-
-def machine() -> dict[str, str]:
-    """This machine in words."""
-    return {
-        "system": f"{platform.system()} {platform.machine()}",
-        "processor": _processor(),
-        "cores": str(os.cpu_count() or 1),
-    }
-
-
-def _processor() -> str:
-    try:
-        with open("/proc/cpuinfo", encoding="utf-8", errors="replace") as lines:
-            names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
-    except OSError:
-        names = []
-    return names[0] if names else platform.processor() or "unknown"
-
-
-def version_of(package: str) -> str:
-    """The installed version of a package, in words where there is none."""
-    try:
-        return version(package)
-    except PackageNotFoundError:
-        return "not installed"

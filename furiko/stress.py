@@ -1,21 +1,18 @@
-"""One stress test: the questions, what is known of them already, workers, stream and pages, tied together."""
+"""One run of the stress test: plan, results of an earlier run, workers, stream and pages, tied together."""
 
 from __future__ import annotations
 
 import os
-import platform
-import shlex
-import sys
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 from . import __version__
 from .engines import EngineInfo, engine_info, engine_names, engine_version
 from .models import EngineMissing, InvalidInput
+from .records import provenance
 from .records.check import EngineEntry, Header
 from .records.stress import StressSummary
 from .reports.journal import Journal
@@ -34,18 +31,16 @@ Watch = Callable[["Progress"], None]
 
 @dataclass(frozen=True)
 class Progress:
-    """Where a run stands: cases done in all and in this run, questions that are open, and what runs now."""
+    """Progress of a run: cases done, questions open, and the case that runs now."""
 
     done: int
-    new: int
     open: int
     now: str
-    elapsed: float
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What a run is about."""
+    """The searches of a run, and the engines that take part."""
 
     searches: list[Search]
     engines: list[EngineInfo]
@@ -64,12 +59,12 @@ def stress(
     long_steps: int = 10_000_000,
     watch: Watch | None = None,
 ) -> StressSummary:
-    """Find out where engines, integrators and formulas break.
+    """Find where engines, integrators and formulas break; returns the summary.
 
     ``axes``: names of ladders, of pairs (``A x B``) or of families (``steps``, ``chain``, …), None for all but pairs;
     ``engines``: names, ``document`` and ``kernels`` among them, None for all; ``budget`` [s] of the whole; ``out``:
-    folder of the stream and the pages, where a run that was cut off is gone on with unless ``fresh``; None keeps
-    nothing. ``jobs``: worker processes; ``timeout`` [s] of one case; ``long_steps``: of a long run.
+    folder of the stream and the pages, where an earlier run is resumed unless ``fresh``; None writes nothing. ``jobs``:
+    worker processes; ``timeout`` [s] of one case; ``long_steps``: number of steps of a long run.
     Raises :class:`InvalidInput` for unknown names and for a folder that holds another run.
     """
     begun = time.monotonic()
@@ -91,7 +86,7 @@ def stress(
 def summarise(
     searches: Sequence[Search], results: Results, header: Header, seed: int, folder: Path | None
 ) -> StressSummary:
-    """The summary, and its pages in the folder."""
+    """The summary; its pages are written into the folder, if there is one."""
     from .studies.stress.summary import summary
 
     found = summary(searches, results, seed=seed)
@@ -105,11 +100,11 @@ def summarise(
 def make_plan(
     axes: Sequence[str] | None, engines: Sequence[str] | None, *, seed: int, long_steps: int = 10_000_000
 ) -> Plan:
-    """The questions; raises :class:`InvalidInput` for unknown names, EngineMissing for engines not installed."""
+    """The searches. Raises :class:`InvalidInput` for unknown names, :class:`EngineMissing` for a missing engine."""
     ladders, families = chosen_axes(axes)
     names = list(dict.fromkeys((*OWN, *engine_names()) if engines is None else engines))
     own = [name for name in names if name in OWN]
-    # One from elsewhere goes by the path that finds it again.
+    # An engine of the user's keeps the path by which it was loaded as its name.
     infos = [replace(engine_info(name), name=name) for name in names if name not in OWN]
     missing = [info for info in infos if info.package and not engine_version(info.name)]
     if missing and engines is not None:
@@ -117,12 +112,12 @@ def make_plan(
     infos = [info for info in infos if info not in missing]
     searches = make_searches(ladders, infos, own, seed=seed, families=families, long_steps=long_steps)
     if not searches:
-        raise InvalidInput(f"stress: nothing to ask: {', '.join(names)} has no part in {', '.join(axes or ())}")
+        raise InvalidInput(f"stress: nothing to run: {', '.join(names)} takes no part in {', '.join(axes or ())}")
     return Plan(searches, infos)
 
 
 def chosen_axes(axes: Sequence[str] | None) -> tuple[tuple[Ladder, ...], tuple[str, ...]]:
-    """Ladders and families that were asked for."""
+    """Ladders and families by name; None: all but pairs. Raises :class:`InvalidInput` for unknown names."""
     if axes is None:
         return AXES, tuple(family for family in FAMILIES if family != "pairs")
     families = [name for name in FAMILIES if name in axes]
@@ -143,17 +138,15 @@ def chosen_axes(axes: Sequence[str] | None) -> tuple[tuple[Ladder, ...], tuple[s
 
 
 def make_header(plan: Plan, seed: int) -> Header:
-    """What the stream's first line says of this run."""
-    from .run import PACKAGES, machine, version_of
-
+    """The first line of the stream."""
     return Header(
         furiko=__version__,
-        started=datetime.now(UTC).isoformat(timespec="seconds"),
-        command=shlex.join(["furiko", *sys.argv[1:]]),
+        started=provenance.now(),
+        command=provenance.command(),
         profile=PROFILE,
         seed=str(seed),
-        machine=machine(),
-        versions={"python": platform.python_version(), **{name: version_of(name) for name in PACKAGES}},
+        machine=provenance.machine(),
+        versions=provenance.versions(),
         scenes=[],
         engines=[
             *(
@@ -180,12 +173,9 @@ def _work(
     watch: Watch | None,
     journal: Journal | None,
 ) -> None:
-    begun, before = time.monotonic(), len(results)
-
     def begins(case: Any, waiting: int) -> None:
         if watch is not None:
-            done, now = len(results), f"{case.engine}: {case.scene}, {case.check}"
-            watch(Progress(done, done - before, waiting, now, time.monotonic() - begun))
+            watch(Progress(len(results), waiting, f"{case.engine}: {case.scene}, {case.check}"))
 
     number = jobs or min(os.cpu_count() or 1, 8)
     for result in run_cases(searches, results, budget=budget, jobs=number, timeout=timeout, watch=begins):

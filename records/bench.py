@@ -1,7 +1,7 @@
-"""What ``furiko bench`` measured: the records of its JSON document, which the page is drawn from.
+"""The records of ``furiko bench``: its JSON document, from which the page and the tables are made.
 
 Times are in seconds, the minimum and the median of several; errors are absolute in rad and rad/s for trajectories,
-relative to the largest acceleration of a state for accelerations. None stands for what could not be had.
+relative to the largest acceleration of a state for accelerations. None: not measured, or not reached.
 """
 
 from __future__ import annotations
@@ -12,28 +12,28 @@ FORMAT = 1
 
 
 class Point(msgspec.Struct, frozen=True, kw_only=True):
-    """One run of one method: what it was set to, what it took, and how far off it ended."""
+    """One run of one method: its setting, its time, and its error at the end."""
 
     engine: str
     scheme: str
     setting: float
-    by: str  # what the setting is: "step [s]" or "tolerance"
-    error: float | None  # None: it did not come to its end
+    by: str  # the kind of setting: "step [s]" or "tolerance"
+    error: float | None  # None: the run did not finish
     minimum: float
     median: float
-    rounds: int  # how often it was timed, in turn with all the others; 1: a coarser run of its own beats it
-    front: bool  # on the Pareto front: no other run was both faster and nearer
+    rounds: int  # number of timings, in turn with all others; 1: a coarser run of the same method is better
+    front: bool  # on the Pareto front: no other run was both faster and more accurate
 
 
 class Reach(msgspec.Struct, frozen=True, kw_only=True):
-    """What a method takes to come within ``error``, between two of its measured runs; never beyond them."""
+    """The time of a method to an error of ``error``, interpolated between two of its runs; never extrapolated."""
 
     error: float
     engine: str
     scheme: str
     seconds: float | None  # None: not reached
-    at_most: bool = False  # its coarsest run is already nearer than asked
-    ratio: float | None = None  # to furiko's own
+    at_most: bool = False  # its coarsest run already has a smaller error
+    ratio: float | None = None  # to furiko's time
     reason: str = ""  # why it was not reached
 
 
@@ -44,14 +44,14 @@ class Motion(msgspec.Struct, frozen=True, kw_only=True):
     system: str
     n: int
     duration: float
-    truth: float  # estimated error of the truth that all are held against
+    truth: float  # estimated error of the reference solution
     points: list[Point]
     reaches: list[Reach]
-    left_out: list[str]  # sentences: which engine, and why
+    left_out: list[str]  # engines without a method, and why
 
 
 class Speed(msgspec.Struct, frozen=True, kw_only=True):
-    """Accelerations by one call: time a state, and the largest error in a few states."""
+    """Accelerations by one call: time per state, and the largest error in a few states."""
 
     system: str
     n: int
@@ -62,33 +62,22 @@ class Speed(msgspec.Struct, frozen=True, kw_only=True):
     minimum: float
     median: float
     error: float | None
-    ratio: float | None  # median of its time over furiko's, a state, round by round; None for furiko itself
+    ratio: float | None  # its time per state over furiko's, the median over rounds; None for furiko itself
 
 
 class Skip(msgspec.Struct, frozen=True, kw_only=True):
-    """Something that a run leaves out: what it saves, and whether the verdicts are the same with it and without."""
+    """Something that a check skips: the time it saves, and whether the verdicts are the same with and without."""
 
     name: str
     says: str
     same: bool
-    verdicts: int  # how many were compared
+    verdicts: int  # number compared
     seconds_with: float
     seconds_without: float
 
 
-class Target(msgspec.Struct, frozen=True, kw_only=True):
-    """A figure that furiko is to reach, and what this run got."""
-
-    name: str
-    asked: str
-    got: str
-    met: bool | None  # None: could not be measured, ``says`` tells why
-    share: float | None = None  # got over asked, so that 1 or more is met
-    says: str = ""
-
-
 class Bench(msgspec.Struct, frozen=True, kw_only=True):
-    """All of one run."""
+    """One run of ``furiko bench``."""
 
     format: int = FORMAT
     furiko: str
@@ -103,4 +92,3 @@ class Bench(msgspec.Struct, frozen=True, kw_only=True):
     motions: list[Motion] = []
     speeds: list[Speed] = []
     skips: list[Skip] = []
-    targets: list[Target] = []

@@ -1,6 +1,6 @@
 """The result stream's records: one header, a result for each comparison, one footer.
 
-They stand here so that the checks, which make them, and the reports, which read them, need not know each other.
+The checks make them and the reports read them; neither imports the other.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ OUTCOMES: tuple[Outcome, ...] = ("agrees", "differs", "skipped", "error")
 
 
 class SceneEntry(msgspec.Struct, frozen=True, kw_only=True):
-    """What the header says of a scene, so that a report needs nothing but the stream."""
+    """One scene in the header, so that a report needs nothing but the stream."""
 
     name: str
     system: str  # n-leg or rod-chain
@@ -32,7 +32,7 @@ class SceneEntry(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class EngineEntry(msgspec.Struct, frozen=True, kw_only=True):
-    """What the header says of an engine."""
+    """One engine in the header."""
 
     name: str
     formulation: str
@@ -89,3 +89,11 @@ class Footer(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag="f
 
 
 Record = Header | Result | Footer
+
+
+class CheckReport(msgspec.Struct, frozen=True, kw_only=True):
+    """One run of ``furiko check``: what ``--json`` prints."""
+
+    header: Header
+    results: list[Result]
+    footer: Footer | None  # None: the run was cut off

@@ -1,4 +1,7 @@
-"""The JSON Schema of a line of a result stream, from the records; ``python -m furiko.records.schema`` writes it."""
+"""The JSON Schemas of everything that furiko prints or writes as JSON, made from the records.
+
+``python -m furiko.records.schema`` writes them into ``records/schemas/``.
+"""
 
 from __future__ import annotations
 
@@ -9,32 +12,52 @@ from typing import Any
 
 import msgspec
 
-from .check import FORMAT, Footer, Header, Result
+from . import bench, check, findings, listings
 
-FILE = Path(__file__).parent / "schemas" / "check.json"
+FOLDER = Path(__file__).parent / "schemas"
+
+# Name of the schema's file: its title and its type.
+SCHEMAS: dict[str, tuple[str, Any]] = {
+    "check": (f"furiko result stream, format {check.FORMAT}: one line of report.jsonl", check.Record),
+    "check-report": ("furiko check --json", check.CheckReport),
+    "scenes": ("furiko scenes --json", list[listings.SceneRow]),
+    "engines": ("furiko engines --json", list[listings.EngineRow]),
+    "cache": ("furiko cache --json", listings.CacheContents),
+    "bench": (f"furiko bench --json, and bench.json, format {bench.FORMAT}", bench.Bench),
+    "grade": ("furiko grade --json", findings.GradeDocument),
+    "audit": ("furiko audit --json", findings.AuditDocument),
+    "diagnose": ("furiko diagnose --json", findings.DiagnoseDocument),
+}
 
 
-def schema() -> str:
-    """The schema as text: a line is a header, a result or a footer, told apart by ``kind``."""
-    described = _one_wording(
-        {
-            "$schema": "https://json-schema.org/draft/2020-12/schema",
-            "title": f"furiko result stream, format {FORMAT}: one line of report.jsonl",
-            **msgspec.json.schema(Header | Result | Footer),
-        }
+def schema(name: str) -> str:
+    """The schema of this name as text. Raises :class:`KeyError` for a name that is not in :data:`SCHEMAS`."""
+    title, kind = SCHEMAS[name]
+    described = _clean_descriptions(
+        {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": title, **msgspec.json.schema(kind)}
     )
     return json.dumps(described, indent=2, ensure_ascii=False) + "\n"
 
 
-def _one_wording(value: Any) -> Any:
-    """Descriptions as Python 3.13 has docstrings, without the source's indentation, in every Python."""
+def _clean_descriptions(value: Any) -> Any:
+    """Docstrings without the indentation of the source, as Python 3.13 has them, in every Python."""
     if isinstance(value, dict):
         return {
-            key: cleandoc(v) if key == "description" and isinstance(v, str) else _one_wording(v)
+            key: cleandoc(v) if key == "description" and isinstance(v, str) else _clean_descriptions(v)
             for key, v in value.items()
         }
-    return [_one_wording(v) for v in value] if isinstance(value, list) else value
+    return [_clean_descriptions(v) for v in value] if isinstance(value, list) else value
+
+
+def main(folder: Path = FOLDER) -> None:
+    """Write all schemas, and delete those of names that are no more."""
+    folder.mkdir(exist_ok=True)
+    for path in folder.glob("*.json"):
+        if path.stem not in SCHEMAS:
+            path.unlink()
+    for name in SCHEMAS:
+        (folder / f"{name}.json").write_text(schema(name), encoding="utf-8")
 
 
 if __name__ == "__main__":
-    FILE.write_text(schema(), encoding="utf-8")
+    main()

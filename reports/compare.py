@@ -1,4 +1,4 @@
-"""Two runs side by side: what began to differ, what agrees again, and where errors grew or shrank."""
+"""Compares two runs: changed outcomes, errors that grew or shrank, comparisons that only one run has."""
 
 from __future__ import annotations
 
@@ -8,30 +8,31 @@ from functools import cached_property
 from typing import Literal
 
 from ..records.check import Result
+from ..records.exit_status import AGREES, DIFFERS, INCOMPLETE
 from .report import Report
 from .words import count, figure, one_line
 
-# ! agreed, or was not there, and now differs or fails     * differed or failed and now agrees
-# + error grew     - error shrank     x the bound or the unit is another, so errors cannot be compared
-# ~ the outcome is another in some other way (to or from skipped)     > only in the second run     < only in the first
+# ! agreed, or was missing, and now differs or fails     * differed or failed and now agrees
+# + error grew     - error shrank     x bound or unit changed, so the errors cannot be compared
+# ~ the outcome changed in another way (to or from skipped)     > only in the second run     < only in the first
 Mark = Literal["!", "*", "+", "-", "x", "~", ">", "<", " "]
 SAYS: dict[Mark, str] = {
     "!": "broke",
     "+": "error grew",
     "x": "not comparable",
     "~": "outcome changed",
-    "*": "mended",
+    "*": "fixed",
     "-": "error shrank",
     ">": "appeared",
     "<": "disappeared",
 }
 BAD = ("differs", "error")
-FACTOR = 2.0  # errors of two machines, or of two orders of summation, lie this far apart with nothing wrong
+FACTOR = 2.0  # two machines, or two orders of summation, may change an error by this factor with nothing wrong
 
 
 @dataclass(frozen=True)
 class Change:
-    """One comparison in both runs; ``before`` or ``after`` is None where a run has no such comparison."""
+    """One comparison in both runs; ``before`` or ``after`` is None where that run does not have it."""
 
     before: Result | None
     after: Result | None
@@ -39,14 +40,14 @@ class Change:
 
     @property
     def result(self) -> Result:
-        """Whichever there is, the later first: for names."""
+        """The later result, or the earlier one where there is no later: for names."""
         result = self.after or self.before
         assert result is not None
         return result
 
     @property
     def ratio(self) -> float | None:
-        """Error after as a multiple of error before; None where either is missing or there was none before."""
+        """The later error over the earlier one; None where either is missing or the earlier one is zero."""
         if self.before is None or self.after is None or self.before.measured is None or self.after.measured is None:
             return None
         return abs(self.after.measured / self.before.measured) if self.before.measured else None
@@ -54,7 +55,7 @@ class Change:
 
 @dataclass(frozen=True)
 class Comparison:
-    """All comparisons of two runs, those of the second run in its order, then those that it no longer has."""
+    """All comparisons of two runs: those of the second run in its order, then those that only the first has."""
 
     before: Report
     after: Report
@@ -66,13 +67,13 @@ class Comparison:
 
     @cached_property
     def exit_status(self) -> int:
-        """0: nothing broke; 1: something that agreed differs or fails now, or is gone; 3: a run is not whole."""
+        """0: nothing broke; 1: something differs or fails now that did not before; 3: a run is incomplete."""
         if self.marked("!"):
-            return 1
-        return 0 if self.before.complete and self.after.complete else 3
+            return DIFFERS
+        return AGREES if self.before.complete and self.after.complete else INCOMPLETE
 
     def text(self) -> str:
-        """What changed, a line each under a heading; unchanged comparisons are only counted."""
+        """One line for each change, under headings; unchanged comparisons are only counted."""
         lines = [
             f"{name} run: {flaw}"
             for name, run in (("first", self.before), ("second", self.after))
@@ -100,7 +101,7 @@ def compare(before: Report, after: Report, factor: float = FACTOR) -> Comparison
 
 
 def _keyed(report: Report) -> dict[tuple[str, str, str, int], Result]:
-    """Results by scene, engine, check, and how many of that name came before."""
+    """Results by scene, engine, check, and the number of earlier results with the same three."""
     seen: Counter[tuple[str, str, str]] = Counter()
     found = {}
     for result in report.results:

@@ -1,8 +1,8 @@
-"""A result stream that may be gone on with: what stands there is read, and new lines are appended after it.
+"""A result stream that can be resumed: the earlier results are read, and new lines are appended after them.
 
-A run that was killed leaves its header, the results that it had, and perhaps half a line. The half line is cut off; a
-footer of a run that came to an end is taken off too, and a new one written when this one does. Each line is appended
-by one write to a file that this process alone has open for writing, so that nobody ever reads two lines mixed.
+A run that was killed leaves its header, its results so far, and perhaps half a line. The half line is cut off. The
+footer of a finished run is removed too, and a new one is written at the end of this run. Each line is appended by one
+write to a file that only this process has open for writing, so that lines of two runs never mix.
 """
 
 from __future__ import annotations
@@ -17,12 +17,14 @@ from ..records.check import Header, Result
 from .report import Report
 from .stream import StreamWriter, read_stream
 
+HEADER_START = b'{"kind":"header"'
+
 
 class Journal:
-    """A stream to go on with: ``results`` are those that stand there already.
+    """A stream to resume, or to begin where the file is missing or empty; ``results``: those of the earlier run.
 
-    Raises :class:`InvalidInput` where the file cannot be written, holds the run of another command (``same`` tells what
-    must not have changed), or another process is writing it.
+    Raises :class:`InvalidInput` where the file cannot be written, is no stream of this format, holds a run with another
+    seed, profile or version, or another process is writing it.
     """
 
     def __init__(self, path: str | Path, header: Header) -> None:
@@ -50,7 +52,7 @@ class Journal:
         return self._writer.write(result)
 
     def finish(self, seconds: float) -> None:
-        """Append the footer: this run came to its end."""
+        """Append the footer: this run is complete."""
         if self._writer is not None:
             self._writer.finish(seconds)
 
@@ -61,7 +63,10 @@ class Journal:
             self._writer.__exit__(kind, error, trace)
 
     def _cut_back(self) -> Report | None:
-        """The run that stands there, the file cut back to its last whole result; None where not even a header is."""
+        """The earlier run, its file cut back to the last whole result; None where it has no whole header.
+
+        The file is changed only when it is known to be a stream of this format, of the same run.
+        """
         with self.path.open("r+b") as file:
             try:
                 fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -70,18 +75,17 @@ class Journal:
                     f"{self.path}: another run is writing it; give this one a folder of its own"
                 ) from None
             content = file.read()
-            whole = content.rfind(b"\n") + 1
-            last = content.rfind(b"\n", 0, max(whole - 1, 0)) + 1
-            if b'"kind":"footer"' in content[last:whole][:40]:
-                whole = last
-            file.truncate(whole)
-        if not whole:
-            return None
-        before = read_stream(self.path)
-        self._same(before.header)
+            if b"\n" not in content:
+                if content[: len(HEADER_START)] != HEADER_START[: len(content)]:
+                    raise InvalidInput(f"{self.path}: not a result stream; give this run a folder of its own")
+                return None  # cut off within its header: begun anew
+            file.seek(0)
+            before = read_stream(file)
+            self._require_same_run(before.header)
+            file.truncate(_end_of_results(content))
         return before
 
-    def _same(self, found: Header) -> None:
+    def _require_same_run(self, found: Header) -> None:
         for what, there, here in (
             ("seed", found.seed, self.header.seed),
             ("profile", found.profile, self.header.profile),
@@ -90,13 +94,20 @@ class Journal:
         ):
             if there != here:
                 raise InvalidInput(
-                    f"{self.path}: begun with {what} {there}, this is {here}; go on as it was begun, start anew with "
-                    f"--fresh, or give another --out"
+                    f"{self.path}: that run has {what} {there}, this one {here}; use the same, "
+                    f"start anew with --fresh, or give another --out"
                 )
 
 
+def _end_of_results(content: bytes) -> int:
+    """Bytes up to the last whole line that is no footer."""
+    whole = content.rfind(b"\n") + 1
+    last = content.rfind(b"\n", 0, whole - 1) + 1
+    return last if b'"kind":"footer"' in content[last:whole][:40] else whole
+
+
 class _Appending(StreamWriter):
-    """Goes on with a stream that has its header and results."""
+    """Appends to a stream that has its header and results already."""
 
     def __init__(self, path: Path, before: Report) -> None:
         super().__init__(path, before.header)

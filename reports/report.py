@@ -10,12 +10,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ..records.check import OUTCOMES, EngineEntry, Footer, Header, Outcome, Result, SceneEntry
+from ..records.exit_status import AGREES, DIFFERS, INCOMPLETE
 from .words import count, few, figure, last_line
 
 # The outcome of a cell with several checks is the first of these that occurs: a difference outweighs a failure, and one
 # skipped check says little where others ran.
 GRAVEST: tuple[Outcome, ...] = ("differs", "error", "agrees", "skipped")
-AGREES, DIFFERS, FAILED = 0, 1, 3  # exit statuses
 
 
 @dataclass(frozen=True)
@@ -150,7 +150,7 @@ class Report:
         if self.counts["differs"]:
             return DIFFERS
         if self.counts["error"] or self.flaws:
-            return FAILED
+            return INCOMPLETE
         return AGREES
 
     @cached_property

@@ -1,6 +1,6 @@
 """The result stream, ``report.jsonl``: written line by line as results come, read back with every line checked.
 
-A stream is whole only with its footer, and only :meth:`StreamWriter.finish` writes one. JSON has no NaN and no
+A stream is complete only with its footer, and only :meth:`StreamWriter.finish` writes one. JSON has no NaN and no
 infinity: a figure that is not finite is written as null, and the result's reason says which it was.
 """
 
@@ -24,13 +24,21 @@ from .report import Report
 
 STREAM = "report.jsonl"
 
-# Bounds for what is read and written, so that a hostile or runaway file costs a message and not the memory. A full
+# Bounds for what is read and written, so that a huge file gives a message and does not fill the memory. A full
 # run of the catalogue is 2 MB, and the header of a scene with ten thousand links half a megabyte.
 LARGEST_LINE = 8_000_000  # bytes
 LARGEST_STREAM = 256_000_000  # bytes
 LONGEST_REASON = 20_000  # characters; a traceback fits
 
 _decoder = msgspec.json.Decoder(Header | Result | Footer)
+
+
+class _Head(msgspec.Struct):
+    """What every format of a header has."""
+
+    kind: Any = None
+    format: Any = FORMAT
+    furiko: Any = None
 
 
 class StreamWriter:
@@ -61,7 +69,7 @@ class StreamWriter:
         return self
 
     def write(self, result: Result) -> Result:
-        """Append one result, on disk when this returns. Returns it as it was written: with figures that are finite."""
+        """Append one result, on disk when this returns. Returns it as it was written, with finite figures only."""
         written = _finite(result)
         self._line(written)
         self._counts[written.outcome] += 1
@@ -119,8 +127,8 @@ def read_stream(source: str | Path | BinaryIO) -> Report:
     """Read a stream from its path, the folder it is in, or an open binary file, checking every line.
 
     A stream that was cut off is read as far as it goes and is not ``complete``. Raises :class:`InvalidInput` naming
-    file and line for one that cannot be read, is no such stream, has a line that is none of its records or stands
-    where it must not, or is of a format not known here.
+    file and line for one that cannot be read, is no such stream, is of another format, or has a line that is none of
+    its records or is out of order.
     """
     if not isinstance(source, str | Path):
         return _read(source, str(getattr(source, "name", "stream")))
@@ -139,6 +147,8 @@ def _read(file: BinaryIO, name: str) -> Report:
     results: list[Result] = []
     for number, line in enumerate(_whole_lines(file, name), start=1):
         where = f"{name}, line {number}"
+        if number == 1:
+            _require_this_format(line, where)
         record = _decode(line, where)
         if header is None:
             if not isinstance(record, Header):
@@ -158,7 +168,7 @@ def _read(file: BinaryIO, name: str) -> Report:
 
 
 def _whole_lines(file: BinaryIO, name: str) -> Iterator[bytes]:
-    """Lines that have their line end; what a cut-off run left after the last of them is passed over."""
+    """Lines that have their line end; half a line at the end of a cut-off run is left out."""
     size = number = 0
     while line := file.readline(LARGEST_LINE + 1):
         number += 1
@@ -177,23 +187,24 @@ def _decode(line: bytes, where: str) -> Record:
     try:
         record: Record = _decoder.decode(line)
     except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as error:
-        _refuse_other_formats(line, where)
         raise InvalidInput(f"{where}: {_told(error)}") from None
-    if isinstance(record, Header):
-        _refuse_other_formats(line, where)
     return record
 
 
-def _refuse_other_formats(line: bytes, where: str) -> None:
-    """Say that a header is of another format, before saying that it lacks some field of this one."""
+def _require_this_format(line: bytes, where: str) -> None:
+    """Refuse a first line of another format, whatever else that format has in it.
+
+    A line in which no format can be found is left to the decoder, which says what is wrong with it.
+    """
     try:
-        head = msgspec.json.decode(line)
+        head = msgspec.json.decode(line, type=_Head)
     except (ValueError, RecursionError):
         return
-    if isinstance(head, dict) and head.get("kind") == "header" and head.get("format", FORMAT) != FORMAT:
+    if head.kind == "header" and head.format != FORMAT:
+        writer = f"furiko {head.furiko:.40}" if isinstance(head.furiko, str) else "the furiko"
         raise InvalidInput(
-            f"{where}: format {head['format']!r:.40} is not known here; "
-            f"this furiko reads format {FORMAT}, another release of it may read this one"
+            f"{where}: this stream has format {head.format!r:.40}, and this furiko reads format {FORMAT}; "
+            f"read it with {writer} that wrote it, or make the run again with this one"
         )
 
 
@@ -207,7 +218,7 @@ def _told(error: Exception) -> str:
 
 
 def _alone(path: Path) -> FileIO:
-    """The file, emptied, that this process alone writes until it closes it."""
+    """Open the file, empty, so that only this process writes it until it closes it."""
     descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o666)
     file = FileIO(descriptor, "wb")
     try:
@@ -223,7 +234,7 @@ def _alone(path: Path) -> FileIO:
 def _finite(result: Result) -> Result:
     """The result with null for a figure that is not finite, and the reason saying so.
 
-    Nothing agrees by not being a number: a result that claims so is an error of the check's.
+    A result that agrees with a figure that is not finite becomes an error.
     """
     said = [
         f"{field} is {float(value)}"

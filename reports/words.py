@@ -15,7 +15,6 @@ GLYPHS: dict[Outcome, str] = {"agrees": "✓", "differs": "✗", "skipped": "–
 LEGEND = "ε: worst error as a multiple of rounding; ×: as a multiple of what is allowed"
 
 # A benchmark: whether a target is met, and whether verdicts are the same with a skip and without.
-MET = {True: "✓", False: "✗", None: "–"}
 SAME = {True: "the same {}", False: "NOT the same ({})"}
 UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs"), (1e-9, "ns"))
 

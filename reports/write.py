@@ -1,11 +1,11 @@
-"""The folder of a run: ``report.jsonl`` while it runs, and beside it the page, the summary and the JUnit file."""
+"""The folder of a run: ``report.jsonl`` during the run, then beside it the page, the summary and the JUnit file."""
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 from ..models.errors import InvalidInput
+from ..models.writers.whole_file import write_whole
 from ..records.check import Header
 from .report import Report
 from .stream import STREAM, StreamWriter
@@ -14,10 +14,10 @@ PAGE, SUMMARY, JUNIT = "report.html", "report.md", "junit.xml"
 
 
 def open_report(directory: str | Path, header: Header) -> StreamWriter:
-    """The stream of a new run in this folder, which is made if need be; what an earlier run rendered is removed.
+    """The stream of a new run in this folder, which is made if it is missing.
 
-    So an interrupted run never leaves its stream beside the page of another. Raises :class:`InvalidInput` where the
-    folder cannot be made or written.
+    Reports of an earlier run are deleted, so that an interrupted run never leaves its stream beside the page of
+    another. Raises :class:`InvalidInput` where the folder cannot be made or written.
     """
     folder = Path(directory)
     try:
@@ -30,7 +30,7 @@ def open_report(directory: str | Path, header: Header) -> StreamWriter:
 
 
 def prepare_reports() -> None:
-    """Load what :func:`write_reports` will need, while something else computes."""
+    """Load what :func:`write_reports` needs, while workers compute."""
     from .pages.check_page import load_templates
 
     load_templates()
@@ -39,7 +39,7 @@ def prepare_reports() -> None:
 def write_reports(directory: str | Path, report: Report) -> tuple[Path, ...]:
     """Write the page, the summary and the JUnit file of a run into its folder; returns their paths.
 
-    Each is there whole or not at all. Raises :class:`InvalidInput` with the path of one that cannot be written.
+    Each is written completely or not at all. Raises :class:`InvalidInput` with the path of one that cannot be written.
     """
     from .junit import to_junit
     from .markdown import to_markdown
@@ -50,16 +50,3 @@ def write_reports(directory: str | Path, report: Report) -> tuple[Path, ...]:
         write_whole(folder / name, render(report))
         for name, render in ((PAGE, to_html), (SUMMARY, to_markdown), (JUNIT, to_junit))
     )
-
-
-def write_whole(path: Path, text: str) -> Path:
-    """Write under another name, then rename: whoever looks sees the old file or the new one, never half of one."""
-    draft = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        draft.write_text(text, encoding="utf-8", newline="\n")
-        draft.replace(path)
-    except OSError as error:
-        raise InvalidInput(f"{path}: cannot be written: {error.strerror or error}") from None
-    finally:
-        draft.unlink(missing_ok=True)
-    return path

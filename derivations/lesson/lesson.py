@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...models.writers.whole_file import write_whole
 from ..algebra.notation import pretty, sub, text
 from ..algebra.symbols import Mechanism, mechanism
 from ..algebra.trig import NOTHING, Formula
@@ -55,9 +56,8 @@ def lesson() -> str:
 
 
 def write_lesson(path: Path) -> Path:
-    """Write the page to a file."""
-    path.write_text(lesson(), encoding="utf-8")
-    return path
+    """Write the page to a file, completely or not at all. Raises :class:`InvalidInput` where it cannot be written."""
+    return write_whole(path, lesson())
 
 
 def _entry(number: int, choice: Choice) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from pathlib import Path
 from ..scene import find_scenes
 from .mjcf import to_mjcf
 from .urdf import to_urdf
+from .whole_file import write_whole
 
 FOLDER = Path(__file__).parent.parent / "files"
 
@@ -31,7 +32,7 @@ def main(folder: Path = FOLDER) -> None:
     for stale in {path.name for path in folder.iterdir()} - set(files):
         (folder / stale).unlink()
     for name, content in files.items():
-        (folder / name).write_text(content)
+        write_whole(folder / name, content)
 
 
 if __name__ == "__main__":

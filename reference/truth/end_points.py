@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from ...models import RodChain, Scene
+from ...models.writers.whole_file import write_whole
 from ..documents.equations_of_motion import Mechanism
 from . import quadruple
 from .quadruple import TrueTrajectory
@@ -43,7 +44,7 @@ def write(scenes: Sequence[Scene], path: Path = PATH) -> int:
     """Compute and write the data of all these scenes; returns how many entries it has."""
     found = entries(scenes)
     path.parent.mkdir(exist_ok=True)
-    path.write_text(json.dumps(found, indent=1, sort_keys=True, ensure_ascii=False) + "\n", encoding="utf-8")
+    write_whole(path, json.dumps(found, indent=1, sort_keys=True, ensure_ascii=False) + "\n")
     return len(found)
 
 

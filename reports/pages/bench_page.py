@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ...records.bench import Bench, Motion, Point, Reach, Speed
-from ..words import MET, SAME, batch, duration, figure, link_words, multiple
+from ..words import SAME, batch, duration, figure, link_words, multiple
 from .plot import KINDS, LARGE, Plot, Series, draw
 from .rendering import render
 
@@ -184,6 +184,5 @@ def to_html(found: Bench) -> str:
         duration=duration,
         ratio=multiple,
         batch=batch,
-        met=MET,
         same=SAME,
     )

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from ...models.writers.whole_file import write_whole
 from ...records.check import Header
 from ...records.stress import (
     HALF_THE_DIGITS,
@@ -15,7 +16,6 @@ from ...records.stress import (
     StableStep,
     StressSummary,
 )
-from ..write import write_whole
 from .chain_page import chain_page
 from .plot import Plot, draw
 from .rendering import render

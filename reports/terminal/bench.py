@@ -8,8 +8,8 @@ from itertools import groupby
 from pathlib import Path
 from typing import TextIO
 
-from ...records.bench import Bench, Motion, Reach, Skip, Speed, Target
-from ..words import MET, SAME, batch, duration, figure, link_words, multiple
+from ...records.bench import Bench, Motion, Reach, Skip, Speed
+from ..words import SAME, batch, duration, figure, link_words, multiple
 from .console import PlainConsole
 
 
@@ -27,8 +27,6 @@ def print_bench(found: Bench, path: str | Path | None = None, file: TextIO | Non
         _speeds(list(rows), console)
     if found.skips:
         _skips(found.skips, console)
-    if found.targets:
-        _targets(found.targets, console)
     console.line()
     for note in found.notes if found.motions or found.speeds else ():
         console.line(note, "dim")
@@ -125,16 +123,3 @@ def _skips(skips: Sequence[Skip], console: PlainConsole) -> None:
         for skip in skips
     ]
     console.table(("skip", "verdicts", "with it", "without", "work skipped"), rows)
-
-
-def _targets(targets: Sequence[Target], console: PlainConsole) -> None:
-    console.line("\nTargets", "bold")
-    for target in targets:
-        mark = MET[target.met]
-        style = {True: "blue", False: "bold dark_orange", None: "dim"}[target.met]
-        share = f" [{target.share:.2f} of the target]" if target.share is not None else ""
-        console.line(f"{mark} {target.name}: asked {target.asked or '–'}, got {target.got or '–'}{share}", style)
-        if target.says:
-            console.line(f"    {target.says}", "dim")
-    met = sum(target.met is True for target in targets)
-    console.line(f"{met} of {len(targets)} met")

@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
 from ...records.check import Outcome, Result
-from ..report import AGREES, DIFFERS, Report, TableCell, against
+from ...records.exit_status import AGREES, DIFFERS
+from ..report import Report, TableCell, against
 from ..words import GLYPHS, LEGEND, count, few, last_line, one_line
 from .console import PlainConsole
 

@@ -1,1 +1,1 @@
-"""Time against error: of engines, of integrators and of furiko itself."""
+"""The benchmark: time against error of engines, their integrators and furiko; what a check skips."""

@@ -1,7 +1,7 @@
-"""Accelerations: time a state against error, from one state a call to a hundred thousand, from two links to a thousand.
+"""Accelerations: time per state against error, for 1 to 100,000 states per call and 2 to 1000 links.
 
-Every engine is timed by the barest call that it has, its input already in place; furiko by what its users call on
-numpy arrays. All are held against enclosures in ball arithmetic, in a few random states.
+Every engine is timed by its most direct call, with the input in place; furiko by the calls of its users, on numpy
+arrays. The errors are against enclosures in ball arithmetic, in a few random states.
 """
 
 from __future__ import annotations
@@ -29,16 +29,16 @@ Array = NDArray[np.float64]
 SIZES = {"rod-chain": (2, 10, 100, 1000), "n-leg": (2, 9, 101, 1000)}  # links in all: 1, 8, 100, 999 legs
 BATCHES = (1, 64, 4096, 100_000)
 MOST_NUMBERS = 5_000_000  # of one array, 40 MB; a larger batch is left out
-LONGEST_CALL = 0.1  # [s]: a larger batch is made smaller, and an engine that needs more for one state left out
+LONGEST_CALL = 0.1  # [s]: batches are made smaller to fit; an engine that needs three times this for one is left out
 CHECKED_STATES = 4
-MANY_STATES = 4096  # from here on threads are worth a look
-SHORT_CALL = 1e-4  # [s]: what bindings add to a longer call is lost in it
-LARGEST_LITERAL = 101  # links: beyond, the dense matrix costs what everything else costs together
+MANY_STATES = 4096  # from here on several threads are timed too
+SHORT_CALL = 1e-4  # [s]: in a longer call the time of the bindings does not show
+LARGEST_LITERAL = 101  # links: beyond, the dense matrix takes as long as everything else together
 
 
 @dataclass(frozen=True)
 class Entrant:
-    """One way to accelerations: ``states`` in one call, and what it gives in the states (B, n) it is checked in."""
+    """One way to compute accelerations: a call of ``states`` states; ``answers(theta, omega)`` for states (B, n)."""
 
     engine: str
     call: str
@@ -49,7 +49,7 @@ class Entrant:
 
 
 def mechanism(kind: str, n: int) -> Mechanism:
-    """Equal rods of 2 m in all, or legs and masses of unequal size; n links."""
+    """Equal rods of 2 m in all, or legs and masses of unequal size; ``n`` links."""
     if kind == "rod-chain":
         return RodChain((2.0 / n,) * n)
     spread = np.linspace(0.5, 1.0, n)
@@ -59,7 +59,8 @@ def mechanism(kind: str, n: int) -> Mechanism:
 def speeds(
     kind: str, n: int, engines: Sequence[str], budget: float, *, threads: int = 1, batches: Sequence[int] = BATCHES
 ) -> list[Speed]:
-    """Every way to the accelerations of one mechanism, in about ``budget`` [s]; ratios to furiko's nearest batch."""
+    """All entrants for one mechanism, timed in about ``budget`` [s]. Ratios are to furiko: one state to one state,
+    batches to its largest batch up to 4096."""
     system = mechanism(kind, n)
     entrants = [*own(system, batches, threads), *of_engines(system, engines, max(b for b in batches if b <= 4096))]
     times = interleaved({str(i): e.subject for i, e in enumerate(entrants)}, budget=budget)
@@ -69,7 +70,7 @@ def speeds(
     found = []
     for i, entrant in enumerate(entrants):
         took = Times(times[str(i)].seconds / entrant.states)
-        fair, against = single if entrant.states == 1 else batch  # like against like
+        fair, against = single if entrant.states == 1 else batch
         found.append(
             Speed(
                 system=kind,
@@ -88,7 +89,7 @@ def speeds(
 
 
 def own(system: Mechanism, batches: Sequence[int] = BATCHES, threads: int = 1) -> Iterator[Entrant]:
-    """furiko's kernels in every batch, plain numpy, and the documents' formula as it stands."""
+    """furiko's kernels in every batch, the same formulas in numpy, and the documents' formula as printed."""
     kernel = kernel_of(system)
     theta, omega = random_states("speed", system, 1)
     state = theta[0].copy(), omega[0].copy()
@@ -111,13 +112,13 @@ def own(system: Mechanism, batches: Sequence[int] = BATCHES, threads: int = 1) -
 
 
 def of_engines(system: Mechanism, engines: Sequence[str], batch: int) -> Iterator[Entrant]:
-    """The barest calls of every engine that is installed and takes the system, each in all its lighter contexts."""
+    """The most direct calls of the installed engines that take the system, each in all its lighter contexts."""
     for name in engines:
         info = engine_info(name)
         if (info.package and not engine_version(name)) or cannot(info, system):
             continue
         engine = load_engine(name, system)
-        for says, bare in _barest(engine, system, batch):
+        for says, bare in _direct_calls(engine, system, batch):
             once(Subject(bare.call))
             seconds = once(Subject(bare.call)) / bare.states
             if seconds * bare.states > 3 * LONGEST_CALL:
@@ -128,8 +129,8 @@ def of_engines(system: Mechanism, engines: Sequence[str], batch: int) -> Iterato
                 yield Entrant(name, f"{says}, {suffix}", bare.states, lighter, engine.accelerations)
 
 
-def _barest(engine: AnyShape, system: Mechanism, batch: int) -> Iterator[tuple[str, BareCall]]:
-    """Names and calls; a batch so large that a call takes no longer than :data:`LONGEST_CALL`."""
+def _direct_calls(engine: AnyShape, system: Mechanism, batch: int) -> Iterator[tuple[str, BareCall]]:
+    """Names and calls; batches are as large as :data:`LONGEST_CALL` allows."""
     theta, omega = random_states("speed", system, 2)
     calls, native = engine.bare_calls(theta, omega), engine.native()
     for says, bare in calls.items():
@@ -152,7 +153,7 @@ def _each(kernel: Callable[[Array, Array], Array], theta: Array, omega: Array) -
 
 
 def _errors(system: Mechanism, entrants: Sequence[Entrant]) -> dict[tuple[str, str], float]:
-    """Norm-wise: the largest error of a state over its largest acceleration, the worst of a few states."""
+    """Norm-wise errors: a state's largest error over its largest acceleration, the worst of a few states."""
     theta, omega = random_states("speed", system, CHECKED_STATES)
     truth = proven_accelerations(system, theta, omega)
     size = np.abs(truth.high).max(-1)

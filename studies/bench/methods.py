@@ -1,4 +1,4 @@
-"""Every way to a trajectory's end that is timed: an engine's own schemes, Pinocchio under scipy's DOP853, furiko's."""
+"""The methods that compute a motion's end: engines' own integrators, Pinocchio with scipy's DOP853, furiko's Taylor."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ Array = NDArray[np.float64]
 End = tuple[Array, Array]
 
 FURIKO = "furiko"
-# Engines whose motions are timed unless others are named: the further variants of Pinocchio differ in how a model is
-# read or a matrix is solved, which no integrator notices.
+# Engines whose motions are timed unless others are named. The other variants of Pinocchio read models or solve matrices
+# in another way, which changes nothing for an integrator.
 ENGINES = ("mujoco", "pinocchio-aba", "exudyn-tree", "exudyn-redundant")
 STEP, TOLERANCE = "step [s]", "tolerance"
-FIRST_STEPS = 50  # a link, of a fixed-step scheme's coarsest run; each further run halves the step
+FIRST_STEPS = 50  # per link, in the coarsest run of a fixed-step scheme; each further run halves the step
 HALVINGS = 16
 ADAPTIVE = tuple(10.0**-k for k in range(3, 14))
 DOP853 = (1e-4, 1e-6, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 3e-14)  # scipy takes no tolerance below 100 ε
@@ -33,10 +33,10 @@ TAYLOR = tuple(10.0**-k for k in range(2, 15, 2))
 
 @dataclass(frozen=True, eq=False)
 class Method:
-    """``run(setting)`` gives θ and ω at the end, (n,) each; ``settings`` from coarse to fine; ``by``: what they are.
+    """``run(setting)`` gives θ [rad], ω [rad/s] at the end, (n,) each; ``run(setting, part)`` after a part of the time.
 
-    ``run(setting, part)`` runs for that part of the whole time.
-    ``contexts``: in which it is timed, by name; they change its time and nothing else.
+    ``settings``: from coarse to fine; ``by``: steps or tolerances. ``contexts``: those in which it is timed, by name;
+    they change its time and nothing else.
     """
 
     engine: str
@@ -54,7 +54,7 @@ class Method:
 
 
 def methods(scene: Scene, engines: Sequence[str]) -> tuple[list[Method], list[str]]:
-    """All methods of these engines for the scene, furiko's own first, and sentences on what is left out."""
+    """All methods of these engines for the scene, furiko's own first; and the engines left out, with the reason."""
     found, left_out = list(_own(scene)), []
     for name in engines:
         info = engine_info(name)
@@ -65,12 +65,12 @@ def methods(scene: Scene, engines: Sequence[str]) -> tuple[list[Method], list[st
         ways = list(_of_engine(scene, name, info))
         found += ways
         if not ways:
-            left_out.append(f"{name}: {info.missing.get('trajectory', 'it has no trajectories')}")
+            left_out.append(f"{name}: {info.missing.get('trajectory', 'it computes no trajectories')}")
     return found, left_out
 
 
 def why_not(info: EngineInfo, scene: Scene) -> str:
-    """Why an engine takes no part; empty where it does."""
+    """The reason why an engine is left out; empty where it is not."""
     if info.package and not engine_version(info.name):
         return f"not installed: pip install {info.package}"
     return cannot(info, scene.system) or ""
@@ -83,14 +83,14 @@ def start(scene: Scene) -> tuple[Array, Array]:
 
 @cache
 def truth(scene: Scene) -> TrueTrajectory:
-    """The scene's motion in quadruple precision; its last row is the end."""
+    """The scene's motion in quadruple precision; its last row is the end. Raises :class:`InvalidInput` without one."""
     if scene.theta is None or scene.omega is None or not scene.duration:
         raise InvalidInput(f"{scene.name}: a [state] with a duration is needed, or there is no motion to time")
     return lookup(scene.system, scene.theta, scene.omega, scene.duration)
 
 
 def end_error(scene: Scene, end: End) -> float:
-    """The largest error of θ [rad] and ω [rad/s] at the end; infinite where the run came to grief."""
+    """The largest error of θ [rad] and ω [rad/s] at the end; infinite where the run failed."""
     true = truth(scene)
     off = np.abs((np.array(end) - (true.theta[-1], true.omega[-1])) - (true.theta_low[-1], true.omega_low[-1])).max()
     return float(off) if np.isfinite(off) else math.inf
@@ -122,7 +122,7 @@ def _adaptive(engine: AnyShape, scene: Scene, scheme: str, tolerance: float, par
 
 
 def dop853(native: Native, scene: Scene, tolerance: float, part: float = 1.0) -> End:
-    """The end by scipy's DOP853 in the engine's own coordinates, so that nothing is converted on the way."""
+    """The end by scipy's DOP853 in the engine's own coordinates, without conversions in between."""
     from scipy.integrate import solve_ivp
 
     theta, omega = (native.from_absolute(x[None])[0] for x in start(scene))

@@ -1,7 +1,7 @@
-"""What a run leaves out, proved: the same verdicts with each skip and without it, and the seconds of both.
+"""Measures what a check skips: the same verdicts with each skip and without it, and the seconds of both.
 
-Every skip is taken away by asking the same thing in a way that it does not apply to: a truth computed anew for each
-engine, a trajectory asked for alone, an empty cache. So no switch to turn skips off stands in the code that skips.
+A skip is turned off by running the same work in a way to which it does not apply: a truth computed anew for each
+engine, trajectories run alone, an empty cache. So the code that skips needs no switch.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ REPEATS = 3  # runs each way, in turn; the fastest counts
 _FRESH = """
 import json, sys, time
 begun = time.perf_counter()
-from furiko.checks.skips import check_task
+from furiko.studies.bench.skips import check_task
 scene, engine, others = sys.argv[1], sys.argv[2], sys.argv[3:]
 print(json.dumps([check_task(scene, engine, others), time.perf_counter() - begun]))
 """
@@ -41,7 +41,7 @@ print(json.dumps([check_task(scene, engine, others), time.perf_counter() - begun
 def skips(
     scenes: Sequence[str], engines: Sequence[str], watch: Callable[[str], None] = lambda _: None
 ) -> Iterator[Skip]:
-    """Prove each skip on these scenes and engines, which must be installed."""
+    """Measure each skip on these scenes and engines, which must be installed."""
     plan = make_plan(list(scenes), list(engines), "quick")
     for prove in (_cache, _truth, _trajectory, _velocity, _imports):
         watch(f"skips: {prove.__name__.strip('_')}")
@@ -49,7 +49,7 @@ def skips(
 
 
 def _cache(plan: Plan) -> Skip:
-    """A run without a cache, one that fills it, one that finds everything."""
+    """A run without a cache, one that fills it, and one that finds everything in it."""
     with tempfile.TemporaryDirectory() as folder:
         cache = Cache(Path(folder))
         without, seconds_without = _timed(lambda: _run(plan, Cache(None)))
@@ -82,7 +82,7 @@ def _truth(plan: Plan) -> Skip:
 
 
 def _trajectory(plan: Plan) -> Skip:
-    """Each task in one go, and its trajectories asked for alone, which nothing then stops."""
+    """Each task as a whole, and its trajectories run alone, so that nothing skips them."""
     tasks = [(task, _facts(task)) for task in plan.tasks if "trajectory" in task.checks]
 
     def together() -> Verdicts:
@@ -96,7 +96,7 @@ def _trajectory(plan: Plan) -> Skip:
         )
         return _whole(result for task, facts in parts for result in _cell(task, facts))
 
-    together()  # what is imported at first use is no part of it
+    together()  # imports at first use are not timed
     without, seconds_without = _timed(apart)
     found, seconds_with = _timed(together)
     differing = sum(verdict == "differs" for verdict in found.values())
@@ -105,7 +105,7 @@ def _trajectory(plan: Plan) -> Skip:
 
 
 def _velocity(plan: Plan) -> Skip:
-    """Terms in a scene at rest, and in the same scene with one moving state more."""
+    """Terms in a scene at rest, and in the same scene with one more state, which moves."""
     tasks = [replace(task, checks=("terms",)) for task in plan.tasks if "terms" in task.checks]
 
     def verdicts(*named: str) -> Callable[[], Verdicts]:

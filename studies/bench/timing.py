@@ -1,4 +1,4 @@
-"""Times of several calls, taken in turn: what slows the machine for a while slows them all, and ratios stand."""
+"""Times of several calls, taken in turn, so that a slow phase of the machine hits them all and ratios hold."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-SHORTEST = 1e-3  # [s] of one sample: ten thousand times what reading the clock takes
-LONG = 1.0  # [s]: a first call that takes so much is warm enough; whatever it loaded is little of that
+SHORTEST = 1e-3  # [s] of one sample: ten thousand times the time to read the clock
+LONG = 1.0  # [s]: a first call that takes longer needs no warm-up; loading and compiling are little of it
 ROUNDS = 9
-FEWEST = 3  # rounds, however long they take: a median of fewer says nothing
+FEWEST = 3  # rounds, however long they take: a median of fewer means nothing
 
 
 @dataclass(frozen=True)
 class Subject:
-    """A call to be timed, and the context that it is timed in (entered once a sample, outside the clock)."""
+    """A call to be timed, and the context in which it is timed (entered once per sample, outside the timing)."""
 
     call: Callable[[], object]
     around: Callable[[], AbstractContextManager[object]] = nullcontext
@@ -30,22 +30,22 @@ class Subject:
 
 @dataclass(frozen=True)
 class Times:
-    """Seconds a call, one a round, shape (rounds,)."""
+    """Seconds per call, one value for each round, shape (rounds,)."""
 
     seconds: Array
 
     @property
     def minimum(self) -> float:
-        """What it takes when nothing disturbs."""
+        """The shortest time [s]: that of an undisturbed machine."""
         return float(self.seconds.min())
 
     @property
     def median(self) -> float:
-        """What it takes usually."""
+        """The median time [s]."""
         return float(np.median(self.seconds))
 
     def over(self, other: Times) -> float:
-        """How many times longer it takes than the other: the median of the rounds' own ratios."""
+        """This time over the other: the median of the ratios of the rounds."""
         return float(np.median(self.seconds / other.seconds))
 
 
@@ -57,10 +57,10 @@ def interleaved(
     fewest: int = FEWEST,
     shortest: float = SHORTEST,
 ) -> dict[str, Times]:
-    """Time every subject once in every round, to and fro, after each has run to warm up.
+    """Time every subject once in every round, in alternating order, after a warm-up of each.
 
-    No round begins once ``budget`` [s] is spent, save the first ``fewest``. A sample is as many calls as fill
-    ``shortest`` [s]; with 0 it is one call, and nothing is warmed up: the subjects have just run.
+    No round begins after ``budget`` [s], but for the first ``fewest``. A sample is as many calls as fill ``shortest``
+    [s]; with 0 it is one call, and there is no warm-up: the subjects have just run.
     """
     repeats = {name: _repeats(subject, shortest) if shortest > 0 else 1 for name, subject in subjects.items()}
     samples: dict[str, list[float]] = {name: [] for name in subjects}
@@ -71,7 +71,7 @@ def interleaved(
             break
         for name in order:
             samples[name].append(_sample(subjects[name], repeats[name]))
-        order.reverse()  # who came first comes last: a steady drift favours nobody
+        order.reverse()  # so that a steady drift of the machine's speed favours none
     return {name: Times(np.array(found)) for name, found in samples.items()}
 
 
@@ -81,7 +81,7 @@ def once(subject: Subject) -> float:
 
 
 def _repeats(subject: Subject, shortest: float) -> int:
-    """Calls in a sample, found by doubling; the first call of all, which loads and compiles, is not counted."""
+    """Calls in a sample, found by doubling; the very first call, which loads and compiles, is not counted."""
     if once(subject) > LONG:
         return 1
     count, taken = 1, once(subject)
@@ -92,7 +92,7 @@ def _repeats(subject: Subject, shortest: float) -> int:
 
 
 def _sample(subject: Subject, calls: int) -> float:
-    """Mean seconds of so many calls in a row, without the garbage collector."""
+    """Mean seconds of this many calls in a row, without the garbage collector."""
     call, numbers = subject.call, range(calls)
     collecting = gc.isenabled()
     with subject.around():

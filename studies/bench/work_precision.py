@@ -1,6 +1,6 @@
-"""Time against error at the end of a motion: every method from coarse to fine, then all of them timed in turn.
+"""Time against error at the end of a motion: every method from coarse to fine, then all runs timed in turn.
 
-A method is refined until its time is spent or rounding stops it; nothing is said beyond the runs that were made.
+A method is refined until its time is spent or rounding stops it. Nothing is extrapolated beyond the runs.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ from ...records.bench import Motion, Point, Reach
 from .methods import FURIKO, End, Method, end_error, methods, truth
 from .timing import FEWEST, Subject, Times, interleaved, once
 
-ERRORS = (1e-6, 1e-9, 1e-12)  # that ratios are given at
-EXPLORING = 0.35  # of the scene's time goes into finding the errors, the rest into timing
-NO_BETTER = 0.7  # two finer runs in a row whose error is not below this part of the best: rounding has been reached
-LEAST = 0.1  # [s] that every method is given, however little the whole
-PROBE = 0.04  # of the motion is run to see what a whole run takes
-PATIENCE = 2.0  # times a method's share: what its first run may take
-LOST = 1.0  # an end that is off by this has nothing to do with the motion any more
-HOPELESS = 1e-3  # above it an error that does not fall is not yet rounding: steps may be too coarse to tell
+ERRORS = (1e-6, 1e-9, 1e-12)  # at which ratios are given
+EXPLORING = 0.35  # of the scene's time for finding the errors; the rest is for timing
+NO_BETTER = 0.7  # two finer runs in a row with errors above this part of the best: rounding has been reached
+LEAST = 0.1  # [s] for every method, however small the budget
+PROBE = 0.04  # part of the motion that is run to estimate the time of a whole run
+PATIENCE = 2.0  # times a method's share: the longest time of its first run
+MEANINGLESS = 1.0  # an error from here on [rad, rad/s] says nothing of the method
+COARSE = 1e-3  # above it an error that does not fall is not yet rounding: the steps may be too large
 Curve = Sequence[tuple[float, float]]  # (seconds, error) of a method's runs
 
 
@@ -48,7 +48,7 @@ def work_precision(
     left = EXPLORING * budget
     for i, method in enumerate(chosen):
         watch(f"{scene.name} {method.engine} {method.scheme}")
-        # What a method does not use of its share is shared by those that follow.
+        # The time that a method does not use is shared by those that follow.
         found, why = refine(method, partial(end_error, scene), max(left / (len(chosen) - i), LEAST))
         left = max(0.0, left - sum(run.seconds for run in found))
         runs += found
@@ -68,9 +68,9 @@ def work_precision(
 
 
 def refine(method: Method, error: Callable[[End], float], share: float) -> tuple[list[Run], str]:
-    """Runs from coarse to fine within ``share`` [s]; and why there are no finer ones, or none at all."""
+    """Runs from coarse to fine within ``share`` [s]; and the reason why there are no finer ones, or none at all."""
     runs: list[Run] = []
-    # Part of a run tells what a whole one would take; what is loaded or compiled at the first call does not count.
+    # Part of a run gives the time of a whole one. The first call is not counted: it loads and compiles.
     probe = Subject(partial(method.run, method.settings[0], PROBE))
     once(probe)
     whole = once(probe) / PROBE
@@ -85,10 +85,10 @@ def refine(method: Method, error: Callable[[End], float], share: float) -> tuple
         seconds = once(Subject(partial(_keep, method, setting, ends)))
         runs.append(Run(method, setting, error(ends[-1]), seconds))
         spent += seconds
-        stuck = stuck + 1 if runs[-1].error > NO_BETTER * best and best < HOPELESS else 0
+        stuck = stuck + 1 if runs[-1].error > NO_BETTER * best and best < COARSE else 0
         best = min(best, runs[-1].error)
         if stuck == 2:
-            return runs, "rounding: finer runs end no nearer"
+            return runs, "rounding: finer runs have no smaller error"
     return runs, "there is no finer setting"
 
 
@@ -97,15 +97,15 @@ def _keep(method: Method, setting: float, ends: list[End]) -> None:
 
 
 def _timed(runs: Sequence[Run], budget: float) -> list[Point]:
-    """All runs as points. Those that show nothing keep the one time that was taken.
+    """All runs as points. Runs that say nothing are not timed again.
 
-    That is, where a coarser run of the same method was nearer, or the end has nothing to do with the motion any more.
+    Those are runs with a larger error than a coarser run of the same method, or with an error that is meaningless.
     """
     worth: dict[str, tuple[Run, str]] = {}
     once_taken: list[Run] = []
     nearest: dict[Method, float] = {}
     for run in runs:
-        if run.error < nearest.get(run.method, LOST):
+        if run.error < nearest.get(run.method, MEANINGLESS):
             nearest[run.method] = run.error
             worth |= {f"{len(worth)} {context}": (run, context) for context in run.method.contexts}
         else:
@@ -124,7 +124,7 @@ def _timed(runs: Sequence[Run], budget: float) -> list[Point]:
         *((run, context, times[key]) for key, (run, context) in worth.items()),
         *((run, "", Times(np.array([run.seconds]))) for run in once_taken),
     ]
-    fronts = front([(took.median, run.error if run.error < LOST else math.inf) for run, _, took in found])
+    fronts = front([(took.median, run.error if run.error < MEANINGLESS else math.inf) for run, _, took in found])
     return [
         Point(
             engine=run.method.engine,
@@ -142,7 +142,7 @@ def _timed(runs: Sequence[Run], budget: float) -> list[Point]:
 
 
 def front(points: Curve) -> list[bool]:
-    """Which of these (seconds, error) no other beats: none is as fast and nearer, or as near and faster."""
+    """Which of these (seconds, error) are on the Pareto front: no other is better in one and as good in the other."""
     best = math.inf
     kept = [False] * len(points)
     for i in sorted(range(len(points)), key=lambda i: points[i]):
@@ -153,10 +153,10 @@ def front(points: Curve) -> list[bool]:
 
 
 def reach(points: Curve, error: float) -> tuple[float, bool] | None:
-    """Seconds to come within ``error``, on the points' own front, straight in logarithms between two of them.
+    """Seconds to an error of ``error``: on the points' Pareto front, linear in logarithms between two points.
 
-    None where no point is as near. The coarsest one's seconds where that is nearer already, and True: it is at most
-    that. Nothing is extrapolated. An error of zero counts as the least positive double.
+    None where no point has so small an error. Where the fastest point has a smaller one already: its seconds, and True,
+    for an upper bound. Nothing is extrapolated. An error of zero counts as the smallest positive double.
     """
     kept = sorted(point for point, on in zip(points, front(points), strict=True) if on)
     for i, (seconds, off) in enumerate(kept):
@@ -170,7 +170,7 @@ def reach(points: Curve, error: float) -> tuple[float, bool] | None:
 
 
 def reaches(points: Sequence[Point], stopped: dict[tuple[str, str], str]) -> list[Reach]:
-    """Each method at each of :data:`ERRORS`: seconds by its medians, and their ratio to furiko's own."""
+    """Each method at each of :data:`ERRORS`: seconds from its medians, and their ratio to furiko's."""
     curves: dict[tuple[str, str], list[tuple[float, float]]] = {key: [] for key in stopped}
     for point in points:
         if point.error is not None:
@@ -196,4 +196,4 @@ def reaches(points: Sequence[Point], stopped: dict[tuple[str, str], str]) -> lis
 
 
 def _why(nearest: float, stopped: str) -> str:
-    return f"nearest {nearest:.1e}; {stopped}" if nearest < math.inf else f"no run came to its end; {stopped}"
+    return f"smallest error {nearest:.1e}; {stopped}" if nearest < math.inf else f"no run finished; {stopped}"

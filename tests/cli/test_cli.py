@@ -1,5 +1,6 @@
 """The command line as a user meets it: statuses, one clear line for bad input, JSON and nothing else where asked."""
 
+import ast
 import json
 import os
 import signal
@@ -8,11 +9,18 @@ import sys
 import time
 from pathlib import Path
 
+import click
 import pytest
 
 import furiko
+from furiko.cli.main import COMMANDS, cli
+from furiko.cli.main import run as cli_run
+from furiko.records.check import Header
+from furiko.reports import StreamWriter
 
 TESTS = Path(__file__).parent.parent
+# The fake engines by name; and where furiko itself is, if that is told by PYTHONPATH.
+ENVIRONMENT = os.environ | {"PYTHONPATH": os.pathsep.join([str(TESTS), *filter(None, [os.environ.get("PYTHONPATH")])])}
 
 
 def run(*arguments, cwd, timeout=120, **options):
@@ -22,7 +30,7 @@ def run(*arguments, cwd, timeout=120, **options):
         text=True,
         cwd=cwd,
         timeout=timeout,
-        env=os.environ | {"PYTHONPATH": str(TESTS)},
+        env=ENVIRONMENT,
         check=False,
         **options,
     )
@@ -86,6 +94,7 @@ def test_json_is_one_document_and_nothing_else(tmp_path):
         (["chekc"], "chekc"),
         (["export", "rods-2"], "--mjcf"),
         (["export", "rods-2", "--mjcf", "-o", "no/such/folder/x.xml"], "cannot be written"),
+        (["export", "rods-2", "--urdf", "-o", "."], ".: cannot be written: Is a directory"),
         (["diff", "a", "b"], "a: cannot be read"),
         (["check", "bad.toml"], "bad.toml: system.lengths[0]: must be positive"),
         (["check", "huge.toml", "-e", "pinocchio-aba"], ""),
@@ -129,7 +138,7 @@ def test_interrupted_it_leaves_a_stream_that_says_so(tmp_path):
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        env=os.environ | {"PYTHONPATH": str(TESTS)},
+        env=ENVIRONMENT,
         # What runs in the background may have been told to pass over interrupts, and hands that on.
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),  # noqa: PLW1509 (no threads)
     )
@@ -157,6 +166,7 @@ def test_export_writes_what_the_library_writes(tmp_path):
     assert run("export", "rods-2-equal", "--mjcf", cwd=tmp_path).stdout == furiko.to_mjcf(system)
     run("export", "rods-2-equal", "--urdf", "-o", "model.urdf", cwd=tmp_path)
     assert (tmp_path / "model.urdf").read_text() == furiko.to_urdf(system)
+    assert run("export", "rods-2-equal", "--urdf", "-o", "/dev/stdout", cwd=tmp_path).stdout == furiko.to_urdf(system)
 
 
 def test_a_baseline_shows_what_got_worse(tmp_path):
@@ -172,11 +182,70 @@ def test_a_baseline_shows_what_got_worse(tmp_path):
     assert "rods-2" in worse.stdout
 
 
-@pytest.mark.parametrize("command", [[], ["check"], ["scenes"], ["engines"], ["export"], ["diff"], ["cache"]])
-def test_every_command_has_help(tmp_path, command):
-    done = run(*command, "--help", cwd=tmp_path)
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["diff", "old.jsonl", "now.jsonl"],
+        ["diff", "now.jsonl", "old.jsonl"],
+        ["check", "rods-1", "--baseline", "old.jsonl"],
+        ["check", "rods-1", "--baseline", "old.jsonl", "--json"],
+    ],
+)
+def test_a_stream_of_another_format_is_one_clear_line(make_stream, tmp_path, arguments):
+    make_stream(tmp_path / "now.jsonl")
+    # of that format nothing is known but how it says that it is another
+    (tmp_path / "old.jsonl").write_text('{"kind":"header","format":99,"furiko":"9.9"}\n{"kind":"row"}\n')
+    line = one_clear_line(run(*arguments, cwd=tmp_path), 2)
+    assert line.startswith("furiko: old.jsonl, line 1: this stream has format 99, and this furiko reads format ")
+    assert line.endswith("read it with furiko 9.9 that wrote it, or make the run again with this one")
+    assert not (tmp_path / "furiko-report").exists()
+
+
+@pytest.fixture
+def make_stream():
+    header = Header(
+        furiko="1", started="", command="", profile="smoke", seed="", machine={}, versions={}, scenes=[], engines=[]
+    )
+
+    def make(path):
+        with StreamWriter(path, header) as stream:
+            stream.finish()
+
+    return make
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["check", "-h"]])
+def test_help_is_printed(tmp_path, arguments):
+    done = run(*arguments, cwd=tmp_path)
     assert done.returncode == 0
     assert "Usage" in done.stdout
+
+
+def test_every_file_of_a_command_is_listed():
+    files = {path.stem for path in (Path(furiko.__file__).parent / "cli").glob("*.py")}
+    assert files - {"__init__", "main", "options", "output", "progress"} == set(COMMANDS)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_command_has_help_and_its_line_is_the_one_in_the_list(name, capsys):
+    command = cli.get_command(click.Context(cli), name)
+    assert command.name == name
+    assert " ".join(command.help.partition("\n\n")[0].split()) == COMMANDS[name]
+    assert cli_run([name, "--help"]) == 0
+    assert COMMANDS[name].split()[0] in capsys.readouterr().out
+    # one line of a terminal, and words for every option
+    assert len(COMMANDS[name]) <= 66
+    assert all(option.help for option in command.params if isinstance(option, click.Option))
+
+
+def test_a_command_imports_no_other(tmp_path):
+    program = (
+        "import sys; from furiko.cli.main import run; run(['--help']); run(['scenes', '--help']); "
+        "print([name for name in sys.modules if name.startswith('furiko.')], file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=tmp_path, check=True)
+    names = {"cli", "cli.main", "cli.scenes", "cli.options", "cli.output", "records", "records.exit_status"}
+    assert {name.removeprefix("furiko.") for name in ast.literal_eval(done.stderr)} == names
 
 
 def test_importing_furiko_imports_no_engine_and_nothing_heavy(tmp_path):

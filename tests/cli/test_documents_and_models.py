@@ -36,6 +36,13 @@ def test_lesson_is_one_page_that_fetches_nothing(tmp_path):
     assert "間違" in page or "誤り" in page
 
 
+@pytest.mark.slow
+def test_a_lesson_that_cannot_be_written_is_one_clear_line(tmp_path):
+    done = run(tmp_path, "lesson", "--out", "no/such/folder/lesson.html")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == "furiko: no/such/folder/lesson.html: cannot be written: No such file or directory\n"
+
+
 def test_diagnose_agrees_with_a_model_that_furiko_wrote(tmp_path):
     (tmp_path / "model.xml").write_text(furiko.to_mjcf(furiko.RodChain([1.0, 0.5])))
     done = run(tmp_path, "diagnose", "model.xml", "--json")

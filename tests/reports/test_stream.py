@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from furiko.models.errors import InvalidInput
-from furiko.records.check import OUTCOMES, Result
+from furiko.records.check import FORMAT, OUTCOMES, Result
 from furiko.reports import StreamWriter, read_stream
 from furiko.reports.stream import LARGEST_LINE, LONGEST_REASON
 
@@ -252,8 +252,13 @@ FOOTER = b'{"kind":"footer","agrees":0,"differs":0,"skipped":0,"error":0}'
             [HEADER, GOOD.replace(b'"agrees"', b'"agrees","details":{"x":' + b"[" * 10**5 + b"]" * 10**5 + b"}")],
             "nested",
         ),
-        ([b'{"kind":"header","format":2,"other":"fields"}'], "line 1: format 2 is not known here; .*format 1"),
-        ([b'{"kind":"header","format":"new"}'], "line 1: format 'new' is not known here"),
+        (
+            [b'{"kind":"header","format":99,"other":"fields"}'],
+            f"line 1: .* format 99, .* reads format {FORMAT}; read it",
+        ),
+        ([b'{"kind":"header","format":99,"furiko":"7.1"}', b"[]"], r"line 1: .* with furiko 7\.1 that wrote it"),
+        ([b'{"kind":"header","format":"new"}'], "line 1: this stream has format 'new'"),
+        ([b'{"kind":"header","format":null}'], "line 1: this stream has format None"),
         ([HEADER, b"x" * (LARGEST_LINE + 1)], "line 2: longer than 8 MB"),
     ],
 )
@@ -268,8 +273,8 @@ def test_what_is_no_stream_is_refused_by_line(make, tmp_path, lines, says):
 
 
 def test_an_unknown_format_of_the_same_shape_is_refused_too(make):
-    content = msgspec.json.encode(make.header(format=7)) + b"\n"
-    with pytest.raises(InvalidInput, match=r"^stream, line 1: format 7 is not known"):
+    content = msgspec.json.encode(make.header(format=99)) + b"\n"
+    with pytest.raises(InvalidInput, match=r"^stream, line 1: this stream has format 99"):
         read_stream(io.BytesIO(content))
 
 

@@ -3,8 +3,12 @@
 import itertools
 import json
 import math
+import os
 from contextlib import contextmanager
+from pathlib import Path
 
+import jinja2
+import jsonschema
 import msgspec
 import numpy as np
 import pytest
@@ -16,13 +20,13 @@ from furiko.engines import engine_names, engine_version, load_engine
 from furiko.models import EngineMissing, InvalidInput, RodChain, Scene
 from furiko.models.benchmark_scenes import BENCHMARKS
 from furiko.records.bench import Bench, Point
+from furiko.records.schema import FOLDER
 from furiko.reference.truth import closed_forms as exact
 from furiko.reports.pages.bench_page import to_html
 from furiko.reports.terminal.bench import print_bench
 from furiko.studies.bench.acceleration_speed import speeds
 from furiko.studies.bench.methods import Method, dop853, end_error, methods, taylor
 from furiko.studies.bench.skips import skips
-from furiko.studies.bench.targets import five_rods, own_tolerance
 from furiko.studies.bench.timing import Subject, Times, interleaved
 from furiko.studies.bench.work_precision import front, reach, reaches, refine
 
@@ -123,8 +127,8 @@ def test_ratios_are_to_furikos_own_and_not_reached_has_a_reason():
     assert found["other", 1e-6].ratio == pytest.approx(100 / 2**0.2)
     assert found["other", 1e-9].seconds is None
     assert found["other", 1e-9].ratio is None
-    assert found["other", 1e-9].reason == "nearest 1.0e-07; rounding"
-    assert found["lost", 1e-6].reason == "no run came to its end; time"
+    assert found["other", 1e-9].reason == "smallest error 1.0e-07; rounding"
+    assert found["lost", 1e-6].reason == "no run finished; time"
     assert found["furiko", 1e-12].seconds is None
 
 
@@ -305,8 +309,11 @@ def test_accelerations_are_held_against_balls(found):
 
 def test_json_and_page_and_table_tell_the_same(found, tmp_path, capsys):
     page = write(tmp_path / "out", found)
-    again = msgspec.json.decode((tmp_path / "out" / "bench.json").read_bytes(), type=Bench)
+    content = (tmp_path / "out" / "bench.json").read_bytes()
+    again = msgspec.json.decode(content, type=Bench)
     assert again == found
+    schema = json.loads((FOLDER / "bench.json").read_text(encoding="utf-8"))
+    jsonschema.Draft202012Validator(schema).validate(json.loads(content))
     html = page.read_text(encoding="utf-8")
     assert html == to_html(again)
     assert html.count('<figure class="chart"') == 1 + 2
@@ -320,6 +327,15 @@ def test_json_and_page_and_table_tell_the_same(found, tmp_path, capsys):
         assert word in html or word in ("1e-09", "times")
     assert "not reached" in printed
     assert "not reached" in html
+
+
+def test_nothing_is_written_where_the_page_cannot_be_made(found, tmp_path):
+    with pytest.raises(jinja2.UndefinedError):
+        write(tmp_path, msgspec.structs.replace(found, motions=[None]))
+    assert not list(tmp_path.iterdir())
+    (tmp_path / "file").write_text("in the way")
+    with pytest.raises(InvalidInput, match="file: cannot be written"):
+        write(tmp_path / "file", found)
 
 
 def test_what_comes_from_a_scene_is_escaped(found):
@@ -347,10 +363,7 @@ def test_an_engine_that_is_asked_for_must_be_there(monkeypatch):
 
 @pytest.fixture
 def fakes_for_subprocesses(monkeypatch):
-    from pathlib import Path
-
-    tests = str(Path(__file__).parents[2])
-    monkeypatch.setenv("PYTHONPATH", tests)
+    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parents[2]), prepend=os.pathsep)
 
 
 @pytest.mark.slow
@@ -380,7 +393,7 @@ def test_a_skip_that_changes_a_verdict_is_seen(monkeypatch):
     assert not module._trajectory(plan).same
 
 
-# --- targets
+# --- reference solutions kept for the benchmark's motions
 
 
 def test_benchmarks_have_kept_ends():
@@ -404,19 +417,3 @@ def test_kept_ends_of_a_benchmark_are_computed_again():
     (same,) = [old for old in kept.values() if old["scene"] == scene.name]
     new, old = (np.array(e["states"], dtype=np.longdouble) for e in (entry, same))
     assert np.abs(new - old).max() < 1e-18  # a long double's own rounding of the decimals
-
-
-def test_a_target_out_of_reach_is_not_met(monkeypatch):
-    assert own_tolerance(RODS, 1e-30).startswith("no nearer than")
-    monkeypatch.setattr("furiko.studies.bench.targets.own_tolerance", lambda scene, error: "no nearer than 1e-3")
-    if engine_version("pinocchio-aba"):
-        target = five_rods()
-        assert target.met is False
-        assert target.got == "no nearer than 1e-3"
-
-
-def test_a_target_without_its_engine_is_not_measured(monkeypatch):
-    monkeypatch.setattr("furiko.studies.bench.targets.engine_version", lambda name: "")
-    target = five_rods()
-    assert target.met is None
-    assert "not installed" in target.says

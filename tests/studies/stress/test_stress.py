@@ -130,7 +130,7 @@ def read_stream_bytes(folder, content):
 
 def test_a_run_with_another_seed_does_not_go_on_with_this_one(tmp_path):
     stress(["long-rods"], ["document"], budget=60, out=tmp_path)
-    with pytest.raises(InvalidInput, match="begun with seed 2018, this is 7"):
+    with pytest.raises(InvalidInput, match="has seed 2018, this one 7"):
         stress(["long-rods"], ["document"], budget=60, seed=7, out=tmp_path)
     stress(["long-rods"], ["document"], budget=60, seed=7, out=tmp_path, fresh=True)
 

@@ -1,4 +1,4 @@
-"""What only a fresh process shows: how long a command takes from cold, and what it imports."""
+"""Measured in fresh processes: the time of a command from its start, and the packages that it imports."""
 
 from __future__ import annotations
 
@@ -9,30 +9,29 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
-from ...records.bench import Target
+from target import Target
 
 SMOKE_RUNS = 7
 HEAVY = ("numba", "scipy")
 PROFILES = {"smoke": 1.0, "quick": 20.0, "full": 180.0}  # s
 
-# The command's own process, then everything that its workers do, in one process: what is imported by then?
+# The command itself, then the work of its workers in the same process: what is imported by then?
 _IMPORTED = """
 import json, sys
-from furiko.cli import run
-status = run(["check", "--profile", "smoke", "--no-cache", "--out", sys.argv[1]])
-from furiko.checks.jobs import CellJob, Facts, TruthJob, messages_of
+from furiko.cli.main import run
+run(["check", "--profile", "smoke", "--no-cache", "--out", sys.argv[1]])
 from furiko.checks.plan import make_plan
+from furiko.studies.bench.skips import check_task
 for task in make_plan(None, None, "smoke").tasks:
-    (facts,) = (m for m in messages_of(TruthJob(task.scene, task.random_states)) if isinstance(m, Facts))
-    messages_of(CellJob(task, facts.content))
+    check_task(task.scene.name, task.engine, [])
 sys.stderr.write(json.dumps(sorted({name.partition(".")[0] for name in sys.modules})))
 """
 
 
 def check_seconds(profile: str) -> tuple[float, int]:
-    """Seconds and exit status of ``furiko check`` with this profile, from cold, keeping nothing."""
+    """Seconds and exit status of ``furiko check`` with this profile in a fresh process, without the cache."""
     with tempfile.TemporaryDirectory() as folder:
         command = [sys.executable, "-m", "furiko", "check", "--profile", profile, "--no-cache", "--out", folder]
         begun = time.perf_counter()
@@ -50,8 +49,8 @@ def imported_by_smoke() -> list[str]:
 
 
 def smoke_target() -> Target:
-    """A cold smoke run, and that it imports nothing heavy."""
-    check_seconds("smoke")  # from here on the files are compiled and in the system's memory
+    """The time of a smoke run in a fresh process, and that it imports nothing heavy."""
+    check_seconds("smoke")  # from here on the files are compiled, and cached by the system
     runs = [check_seconds("smoke") for _ in range(SMOKE_RUNS)]
     seconds = statistics.median(taken for taken, _ in runs)
     heavy = sorted(set(HEAVY) & set(imported_by_smoke()))
@@ -70,10 +69,9 @@ def smoke_target() -> Target:
     )
 
 
-def profile_targets(watch: Callable[[str], None] = lambda _: None) -> Iterator[Target]:
+def profile_targets() -> Iterator[Target]:
     """One run of each profile in a fresh process."""
     for profile, allowed in PROFILES.items():
-        watch(f"check --profile {profile}")
         seconds, status = check_seconds(profile)
         yield Target(
             name=f"furiko check --profile {profile} --no-cache",
@@ -86,6 +84,6 @@ def profile_targets(watch: Callable[[str], None] = lambda _: None) -> Iterator[T
 
 
 def _environment() -> dict[str, str]:
-    """This process's, less what was set for its own timings, and with modules compiled once and kept, as installed."""
+    """This process's, without the numbers of threads set above; bytecode is written, as by an installed furiko."""
     left_out = "PYTHONDONTWRITEBYTECODE"
     return {key: value for key, value in os.environ.items() if not key.endswith("_NUM_THREADS") and key != left_out}

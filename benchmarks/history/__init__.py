@@ -2,7 +2,7 @@
 
 A figure here is a time divided by another taken in turn with it, so that it means the same on another machine and on a
 busy one; what grows by a tenth or more from one commit to the next is a slower commit. Runs on airspeed velocity, from
-this folder:
+the folder above, where its configuration is:
 
     pip install -e '..[bench]'
     asv continuous HEAD~1 HEAD      # builds both commits, runs both, and fails where one figure is a tenth worse

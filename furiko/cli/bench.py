@@ -1,0 +1,54 @@
+"""``furiko bench``."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import click
+
+from ..records.exit_status import AGREES, DIFFERS
+from .options import engine_option, json_option, report_folder_option
+from .output import print_json
+from .progress import status_line
+
+
+@click.command()
+@click.argument("scenes", nargs=-1, metavar="[SCENE|FILE.toml]...")
+@engine_option
+@report_folder_option
+@click.option(
+    "--budget", type=click.FloatRange(1), default=60.0, show_default=True, help="Time for the whole run, about [s]."
+)
+@click.option(
+    "--skips", is_flag=True, help="Measure what a check skips: the same verdicts with and without, and times."
+)
+@json_option
+def bench(
+    scenes: tuple[str, ...],
+    engines: tuple[str, ...],
+    out: Path,
+    budget: float,
+    skips: bool,
+    as_json: bool,
+) -> int:
+    """Measure time against error, for engines and for furiko itself.
+
+    With scenes: their motions only. Without: the benchmark's own motions (bench-rods-2, bench-rods-5, bench-rods-100)
+    and accelerations of 2 to 1000 links. Writes bench.json and bench.html.
+    """
+    for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
+        os.environ.setdefault(name, "1")  # numpy reads them once, when it is imported
+    from ..bench import bench as run_bench
+    from ..bench import write
+
+    with status_line() as watch:
+        found = run_bench(scenes or None, engines or None, budget=budget, skips=skips, watch=watch)
+    page = write(out, found)
+    if as_json:
+        print_json(found)
+    else:
+        from ..reports.terminal.bench import print_bench
+
+        print_bench(found, page)
+    return DIFFERS if any(not skip.same for skip in found.skips) else AGREES

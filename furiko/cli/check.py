@@ -1,0 +1,76 @@
+"""``furiko check``."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import click
+
+from ..records.exit_status import DIFFERS
+from .options import engine_option, jobs_option, json_option, report_folder_option
+from .output import print_json
+from .progress import check_progress
+
+
+@click.command()
+@click.argument("scenes", nargs=-1, metavar="[SCENE|FILE.toml]...")
+@engine_option
+@click.option("--profile", default="quick", show_default=True, metavar="smoke|quick|full", help="How much is checked.")
+@report_folder_option
+@click.option("--baseline", type=click.Path(path_type=Path), help="Compare with this earlier report.jsonl.")
+@jobs_option
+@click.option(
+    "--timeout", type=click.FloatRange(0.1), default=60.0, show_default=True, help="Time limit of one check [s]."
+)
+@click.option("--no-cache", is_flag=True, help="Do not use results of earlier runs, and keep none.")
+@json_option
+def check(
+    scenes: tuple[str, ...],
+    engines: tuple[str, ...],
+    profile: str,
+    out: Path,
+    baseline: Path | None,
+    jobs: int | None,
+    timeout: float,
+    no_cache: bool,
+    as_json: bool,
+) -> int:
+    """Check engines against the documents' equations.
+
+    Runs scenes of the catalogue, or your own TOML files. Writes report.jsonl, report.html, report.md and junit.xml.
+    """
+    # Workers start before numpy is imported here, so that they import it at the same time.
+    from ..engines.workers.processes import worker_processes
+
+    with worker_processes(jobs or os.cpu_count() or 1, ("furiko.checks.facts", "furiko.checks.cell")) as source:
+        from ..reports import compare, read_stream
+        from ..run import check as run_check
+
+        before = read_stream(baseline) if baseline else None
+        with check_progress() as watch:
+            report = run_check(
+                scenes or None,
+                engines or None,
+                profile=profile,
+                out=out,
+                jobs=jobs,
+                timeout=timeout,
+                use_cache=not no_cache,
+                source=source,
+                watch=watch,
+            )
+    status = report.exit_status
+    if as_json:
+        from ..records.check import CheckReport
+
+        print_json(CheckReport(header=report.header, results=list(report.results), footer=report.footer))
+    else:
+        from ..reports.terminal.check import print_report
+
+        print_report(report, path=out / "report.html")
+    if before is not None:
+        comparison = compare(before, report)
+        click.echo(comparison.text(), err=as_json)
+        status = DIFFERS if DIFFERS in (status, comparison.exit_status) else max(status, comparison.exit_status)
+    return status

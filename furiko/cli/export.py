@@ -1,0 +1,30 @@
+"""``furiko export``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from ..records.exit_status import AGREES
+
+
+@click.command()
+@click.argument("scene")
+@click.option("--mjcf", "language", flag_value="mjcf", help="Write MJCF, MuJoCo's format.")
+@click.option("--urdf", "language", flag_value="urdf", help="Write URDF.")
+@click.option("--out", "-o", type=click.Path(path_type=Path), help="File to write; standard output if not given.")
+def export(scene: str, language: str | None, out: Path | None) -> int:
+    """Write a scene's mechanism as an MJCF or URDF file."""
+    from ..models import find_scene, to_mjcf, to_urdf
+    from ..models.writers.whole_file import write_whole
+
+    if language is None:
+        raise click.UsageError("one of --mjcf and --urdf is needed")
+    system = find_scene(scene).system
+    text = to_mjcf(system) if language == "mjcf" else to_urdf(system)
+    if out is None:
+        click.echo(text, nl=False)
+    else:
+        write_whole(out, text)
+    return AGREES

@@ -1,0 +1,77 @@
+"""``furiko stress``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from ..records.exit_status import AGREES, DIFFERS
+from .options import jobs_option, json_option
+from .output import print_json
+from .progress import stress_progress
+
+
+@click.command()
+@click.option("--axis", "-a", "axes", multiple=True, metavar="NAME", help="Only this axis; 'A x B' for two together.")
+@click.option(
+    "--engine", "-e", "engines", multiple=True, metavar="NAME", help="Only this engine, or 'document' or 'kernels'."
+)
+@click.option(
+    "--budget", type=click.FloatRange(1.0), default=60.0, show_default=True, help="Time for the whole run [s]."
+)
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    default=Path("furiko-stress"),
+    show_default=True,
+    help="Folder for the report.",
+)
+@click.option("--seed", type=click.IntRange(0), default=2018, show_default=True, help="Seed of the random states.")
+@click.option("--fresh", is_flag=True, help="Start anew. Without it the run in this folder is resumed.")
+@jobs_option
+@click.option(
+    "--timeout", type=click.FloatRange(0.1), default=30.0, show_default=True, help="Time limit of one case [s]."
+)
+@json_option
+def stress(
+    axes: tuple[str, ...],
+    engines: tuple[str, ...],
+    budget: float,
+    out: Path,
+    seed: int,
+    fresh: bool,
+    jobs: int | None,
+    timeout: float,
+    as_json: bool,
+) -> int:
+    """Find where engines, integrators and formulas break.
+
+    Axes: links, long-rods, short-rods, fast-rods, far-rods, straight-rods, folded-rods, strong-gravity, weak-gravity,
+    no-gravity, legs, heavy-first, light-first, heavy-leg, light-leg, long-legs, short-legs, fast-legs, far-legs,
+    aligned-legs; two of them as "long-rods x fast-rods"; and the parts accelerations, pairs, steps, "long runs",
+    condition, chain. All but pairs if none is given.
+
+    Writes stress.jsonl, stress.html and chain.html. A second run with the same folder resumes the first.
+    """
+    from ..stress import stress as run_stress
+
+    with stress_progress() as watch:
+        found = run_stress(
+            axes or None,
+            engines or None,
+            budget=budget,
+            seed=seed,
+            out=out,
+            fresh=fresh,
+            jobs=jobs,
+            timeout=timeout,
+            watch=watch,
+        )
+    if as_json:
+        print_json(found)
+    else:
+        from ..reports.terminal.stress import print_stress
+
+        print_stress(found, out / "stress.html")
+    return DIFFERS if found.kernels.broken else AGREES

@@ -1,0 +1,155 @@
+"""The documents that ``furiko grade``, ``audit`` and ``diagnose`` print with ``--json``.
+
+They describe what those commands make; a test validates real output against them.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+import msgspec
+
+# --- grade
+
+
+class WrongTerm(msgspec.Struct, frozen=True, kw_only=True):
+    """One wrong term of a derivation, in the scaling of the row as it was handed in, all on its left side."""
+
+    equation: str  # the documents' number
+    term: str
+    found: str
+    expected: str
+    cause: str
+    says: str
+    says_ja: str
+    row: str  # its label in the file
+
+
+class NamedMistake(msgspec.Struct, frozen=True, kw_only=True):
+    """A mistake in a derivation that explains what was found."""
+
+    cause: str
+    name: str
+    stage: str
+    says: str
+    says_ja: str
+    also: list[str]  # further mistakes that lead to the same equations
+
+
+class GradeDocument(msgspec.Struct, frozen=True, kw_only=True):
+    """What ``furiko grade --json`` prints."""
+
+    verdict: Literal["correct", "wrong", "undecided"]
+    findings: list[WrongTerm]
+    mistakes: list[NamedMistake]
+    alternatives: list[list[str]]  # other sets of mistakes that explain it as well
+    notes: list[str]
+    notes_ja: list[str]
+    system: str
+    links: int
+
+
+# --- audit
+
+
+class JudgedEquation(msgspec.Struct, frozen=True, kw_only=True):
+    """One numbered equation of a document, held against first principles as it is printed."""
+
+    document: Literal["shiki", "takeno"]
+    number: str
+    judgement: Literal["holds", "holds-if", "misprint"]
+    says: str
+    formula: str
+    evidence: dict[str, Any]  # how it was judged: in symbols, in ball arithmetic
+    condition: str  # under which it holds; empty: none
+    printed: str  # where it is not the formula
+    correction: str  # of a misprint
+    costs: list[dict[str, Any]]  # what a misprint does to accelerations and motions
+
+
+class SlipEntry(msgspec.Struct, frozen=True, kw_only=True):
+    """A slip outside the numbered equations."""
+
+    found: str  # how
+    document: Literal["shiki", "takeno"]
+    where: str
+    printed: str
+    right: str
+    says: str
+
+
+class OpenQuestion(msgspec.Struct, frozen=True, kw_only=True):
+    """A question that the documents leave open, its answer, and measured numbers."""
+
+    question: str
+    answer: str
+    argument: str
+    numbers: dict[str, Any]
+
+
+class AuditDocument(msgspec.Struct, frozen=True, kw_only=True):
+    """What ``furiko audit --json`` prints."""
+
+    equations: list[JudgedEquation]
+    slips: list[SlipEntry]
+    open_questions: list[OpenQuestion]
+
+
+# --- diagnose
+
+
+class Difference(msgspec.Struct, frozen=True, kw_only=True):
+    """One difference between an engine, a model file and what it should be."""
+
+    cause: str  # a stable code
+    where: str  # joint, link or engine
+    measured: float | str | None
+    expected: float | str | None
+    says: str
+
+
+class LinkEntry(msgspec.Struct, frozen=True, kw_only=True):
+    """One link of a planar mechanism, in the frame of its plane; SI units. Joint fields that are zero are left out."""
+
+    name: str
+    joint: str
+    on: str | None  # the parent; None: the world
+    hinge: list[float]
+    com: list[float] = msgspec.field(name="centre of mass")
+    mass: float
+    inertia: float
+    armature: float | None = None
+    damping: float | None = None
+    friction: float | None = None
+    stiffness: float | None = None
+    rest: float | None = None
+    stops: list[float | None] | None = None
+
+
+class MechanismEntry(msgspec.Struct, frozen=True, kw_only=True):
+    """A planar mechanism."""
+
+    gravity: list[float]
+    links: list[LinkEntry]
+
+
+class EngineReading(msgspec.Struct, frozen=True, kw_only=True):
+    """One engine on a model file. Further fields are settings of the engine, by their own names."""
+
+    status: str  # agrees, differs, refused, failed or missing
+    says: str
+    native: bool = msgspec.field(name="reads the file itself")
+    compiled: MechanismEntry | None = None  # the mechanism that the engine made of the file
+    residual: float | None = None  # what that mechanism does not explain
+
+
+class DiagnoseDocument(msgspec.Struct, frozen=True, kw_only=True):
+    """What ``furiko diagnose --json`` prints."""
+
+    verdict: str  # agrees, differs or unexplained
+    findings: list[Difference]
+    engines: dict[str, EngineReading]
+    model: str
+    against: str | None
+    mechanism: MechanismEntry
+    notes: list[str]

@@ -1,0 +1,49 @@
+"""What ``furiko scenes``, ``engines`` and ``cache`` print with ``--json``."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import msgspec
+
+
+class SceneRow(msgspec.Struct, frozen=True, kw_only=True):
+    """One scene of the catalogue; ``furiko scenes --json`` prints a list of these."""
+
+    name: str
+    system: str  # n-leg or rod-chain
+    n: int  # angles
+    duration: float  # of its motion [s]; 0: it has none
+    description: str
+    equations: list[str]  # of the documents, that it exercises
+    tags: list[str]
+
+
+class IntegratorRow(msgspec.Struct, frozen=True, kw_only=True):
+    """One of an engine's own time-stepping schemes."""
+
+    name: str
+    order: int
+
+
+class EngineRow(msgspec.Struct, frozen=True, kw_only=True):
+    """One engine; ``furiko engines --json`` prints a list of these."""
+
+    name: str
+    formulation: str
+    package: str  # to pip install
+    version: str | None  # None: not installed
+    coordinates: Literal["relative", "absolute", "maximal"]
+    integrators: list[IntegratorRow]
+    missing: dict[str, str]  # quantities that it cannot compute, and why
+    largest_n: int  # links
+    homepage: str
+
+
+class CacheContents(msgspec.Struct, frozen=True, kw_only=True):
+    """The results kept from earlier runs, before anything is deleted; ``furiko cache --json`` prints it."""
+
+    folder: str
+    entries: int
+    bytes: int
+    deleted: int | msgspec.UnsetType = msgspec.UNSET  # entries; only with --clear

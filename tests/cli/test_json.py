@@ -1,0 +1,74 @@
+"""What every ``--json`` prints is valid by its shipped schema, which has all its fields."""
+
+import json
+
+import jsonschema
+import msgspec
+import pytest
+
+import furiko
+from furiko.cli.main import run
+from furiko.records.schema import FOLDER, SCHEMAS
+
+DERIVATION = """system = "n-leg"
+links = 2
+[equations]
+1 = "(m1+m2)*l1*a1 + m2*l2*a2*cos(t1-t2) = -m1*g*sin(t1) - m2*g*sin(t1) - m2*l2*w2^2*sin(t1-t2)"
+2 = "m2*l2*a2 + m2*l1*a1*cos(t1-t2) = -m2*g*sin(t2) - m2*l1*w1^2*sin(t1-t2)"
+"""
+MODEL = furiko.to_mjcf(furiko.RodChain([1.0, 0.5])).replace('name="hinge2"', 'name="hinge2" armature="0.01"')
+
+
+@pytest.fixture
+def printed(tmp_path, monkeypatch, capfd):
+    """The document that a command prints, run beside a wrong derivation and a model with an armature."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "derivation.toml").write_text(DERIVATION)
+    (tmp_path / "model.xml").write_text(MODEL)
+
+    def printed(*arguments):
+        run([*arguments, "--json"])
+        return json.loads(capfd.readouterr().out)
+
+    return printed
+
+
+@pytest.mark.parametrize(
+    ("name", "arguments"),
+    [
+        ("check-report", ["check", "rods-1", "--profile", "smoke"]),
+        ("scenes", ["scenes"]),
+        ("engines", ["engines"]),
+        ("cache", ["cache"]),
+        ("cache", ["cache", "--clear"]),
+        ("grade", ["grade", "derivation.toml"]),
+        ("diagnose", ["diagnose", "model.xml"]),
+        pytest.param("audit", ["audit"], marks=pytest.mark.slow),
+    ],
+)
+def test_a_document_is_valid_and_fully_described(printed, name, arguments):
+    document = printed(*arguments)
+    assert document
+    validator = jsonschema.Draft202012Validator(json.loads((FOLDER / f"{name}.json").read_text(encoding="utf-8")))
+    validator.validate(document)
+    assert undescribed(document, msgspec.to_builtins(msgspec.convert(document, SCHEMAS[name][1]))) == []
+
+
+def undescribed(document, known, where=""):
+    """Places in the document that its record does not have. An engine's settings go by the engine's own names."""
+    if isinstance(document, dict):
+        own_names = where.startswith("/engines/") and where.count("/") == 2 and "status" in document
+        missing = [] if own_names else [f"{where}/{key}" for key in document.keys() - known.keys()]
+        shared = document.keys() & known.keys()
+        return missing + [place for key in shared for place in undescribed(document[key], known[key], f"{where}/{key}")]
+    if isinstance(document, list):
+        pairs = enumerate(zip(document, known, strict=True))
+        return [place for i, (one, other) in pairs for place in undescribed(one, other, f"{where}/{i}")]
+    return [] if document == known else [where]
+
+
+@pytest.mark.parametrize("name", ["scenes", "engines", "cache", "grade", "diagnose", "audit", "bench"])
+def test_another_document_is_not(name):
+    validator = jsonschema.Draft202012Validator(json.loads((FOLDER / f"{name}.json").read_text(encoding="utf-8")))
+    for other in (1, {}, [{}], {"verdict": "maybe"}):
+        assert not validator.is_valid(other)
