@@ -90,20 +90,21 @@ def diagnose(
     against: Any = None,
     engines: Mapping[str, Reader] = READERS,
     *,
-    apart: bool = False,
+    isolated: bool = False,
 ) -> Diagnosis:
     """Diagnose an MJCF or URDF file.
 
     ``against``: None for what the file's own links would do on ideal hinges; the name of a scene or the path of its
-    TOML file; the path of another model file; or a system, planar tree or mechanism. ``apart``: ask furiko's own
-    engines each in a process of its own, so that a file that brings one down leaves the others standing. Raises
-    :class:`InvalidInput` for a file that is no planar tree of hinges, and for bad ``against``.
+    TOML file; the path of another model file; or a system, planar tree or mechanism. ``engines``: the engines to ask,
+    and no others. ``isolated``: ask each engine in a worker process of its own, so that a file that crashes one engine
+    does not affect the others; the readers are then pickled. Raises :class:`InvalidInput` for a file that is no planar
+    tree of hinges, and for bad ``against``.
     """
     file = model if isinstance(model, ModelFile) else read_model(model)
     wanted, name = _wanted(against)
     file = _with_gravity(file, wanted)
-    if apart:
-        asked = _ask_apart(file)
+    if isolated:
+        asked = _ask_isolated(file, list(engines.values()))
     else:
         with silenced(), np.errstate(all="ignore"):
             asked = [_ask(reader, file) for reader in engines.values()]
@@ -188,10 +189,10 @@ class _Asked:
         return content
 
 
-def _ask_apart(file: ModelFile) -> list[_Asked]:
-    """All engines' answers, each from a process of its own: a file that brings one down leaves the others standing."""
-    calls = [CallJob("furiko.diagnosis.diagnose", "ask", (name, file)) for name in READERS]
-    answers = zip(READERS.values(), call_apart(calls, TIMEOUT), strict=True)
+def _ask_isolated(file: ModelFile, readers: list[Reader]) -> list[_Asked]:
+    """Each engine's answers, from a worker process of its own."""
+    calls = [CallJob("furiko.diagnosis.diagnose", "ask", (reader, file)) for reader in readers]
+    answers = zip(readers, call_apart(calls, TIMEOUT), strict=True)
     return [_brought_down(reader, answer) if isinstance(answer, Lost) else answer for reader, answer in answers]
 
 
@@ -201,10 +202,10 @@ def _brought_down(reader: Reader, lost: Lost) -> _Asked:
     return _Asked(reader.name, "failed", lost.reason, findings=findings, native=reader.native)
 
 
-def ask(name: str, file: ModelFile) -> _Asked:
-    """What one of the engines makes of the file: runs in a worker."""
+def ask(reader: Reader, file: ModelFile) -> _Asked:
+    """What one engine makes of the file: runs in a worker."""
     with np.errstate(all="ignore"):
-        return _ask(READERS[name], file)
+        return _ask(reader, file)
 
 
 def _ask(reader: Reader, file: ModelFile) -> _Asked:

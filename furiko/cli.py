@@ -297,7 +297,7 @@ def diagnose(model: Path, against: str | None, as_json: bool) -> int:
     """Say what each engine makes of an MJCF or URDF file, whether they agree, and why not."""
     from .diagnosis.diagnose import diagnose as diagnose_file
 
-    found = diagnose_file(model, against, apart=True)
+    found = diagnose_file(model, against, isolated=True)
     if as_json:
         print_json(found.to_json())
     else:

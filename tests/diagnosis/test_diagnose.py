@@ -11,6 +11,7 @@ import pytest
 from model_faults import diagnosed, free, planted_in_file, random_tree, sound_model
 
 from furiko.diagnosis.diagnose import diagnose
+from furiko.engines.model_files.adapter import READERS
 from furiko.models import InvalidInput, catalogue, find_scene, to_mjcf, to_urdf
 from furiko.models.readers.model_file import model_from_text
 
@@ -174,6 +175,16 @@ def test_bad_words_for_what_is_wanted(against):
         diagnose(model_from_text(ACROBOT, "arm.xml"), against)
 
 
+@pytest.mark.parametrize("isolated", [False, True])
+@pytest.mark.parametrize("names", [(), ("mujoco",), ("exudyn-tree", "mujoco")])
+def test_only_the_given_engines_are_asked(names, isolated):
+    file = model_from_text(to_mjcf(find_scene("rods-2").system), "rods.xml")
+    found = diagnose(file, "rods-2", {name: READERS[name] for name in names}, isolated=isolated)
+    assert tuple(found.engines) == names
+    assert all(engine["status"] == "agrees" for engine in found.engines.values())
+    assert found.exit_status == (0 if names else 3)
+
+
 def test_gravity_is_taken_from_what_a_urdf_is_held_against(tmp_path):
     mechanism = free(random_tree(np.random.default_rng(1), n=3))
     weak = replace(mechanism, gravity=(1.62, 0.0), gravity_vector=(0, 0, -1.62))
@@ -189,7 +200,7 @@ def test_ten_links_against_three_engines_in_a_fresh_process(tmp_path):
     """Measured: 0.7 s; with a fault to explain 1 s. No time is asserted: a busy machine is not a fault."""
     text = to_mjcf(find_scene("rods-10").system)
     (tmp_path / "a.xml").write_text(text.replace('name="hinge04" ', 'name="hinge04" armature="0.01" '))
-    code = f"from furiko.checks.diagnose import diagnose; assert diagnose({str(tmp_path / 'a.xml')!r}).findings"
+    code = f"from furiko.diagnosis.diagnose import diagnose; assert diagnose({str(tmp_path / 'a.xml')!r}).findings"
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
