@@ -21,7 +21,7 @@ from ..reference import planar_tree as planar
 from ..reference.integration.schemes import SCHEMES, Scheme
 from ..reference.planar_tree import Parameters
 from ..reference.rounding.bounds import EPSILON
-from .explain import mechanism_from
+from .compiled import mechanism_from
 from .finding import Finding
 from .measurement import Array, Measurement, probe_states
 
@@ -116,7 +116,7 @@ def _acceleration_error(m: Mechanism, p: Parameters, theta: Array, omega: Array,
     """What rounding in an engine leaves of an acceleration, (S, n)."""
     zero = np.zeros_like(theta)
     one = Measurement(m.parents, theta, omega, alpha, zero, np.ones(len(theta), dtype=bool))
-    scale = one.scale(p)
+    scale = one.tolerances(p)
     inverse = np.linalg.inv(planar.mass_matrix(m.parents, p, theta))
     spread = scale.copy()
     for i, parent in enumerate(m.parents):

@@ -81,21 +81,21 @@ UNITS = {
 }
 
 
-def joint(mechanism: Mechanism, i: int) -> str:
+def joint_label(mechanism: Mechanism, i: int) -> str:
     """A hinge by its number and, where that is not the same, the file's name."""
     name = mechanism.hinges[i].name
     own = name.removeprefix("hinge").lstrip("0") == str(i + 1) or not name
     return f"joint {i + 1}" if own else f"joint {i + 1} ({name!r})"
 
 
-def link(mechanism: Mechanism, i: int) -> str:
+def link_label(mechanism: Mechanism, i: int) -> str:
     """A link by its number and, where that is not the same, the file's name."""
     name = mechanism.link_names[i]
     own = name.removeprefix("link").lstrip("0") == str(i + 1) or not name
     return f"link {i + 1}" if own else f"link {i + 1} ({name!r})"
 
 
-def amount(value: float, spread: float = 0.0) -> str:
+def rounded(value: float, spread: float = 0.0) -> str:
     """A number with the digits that its uncertainty leaves."""
     if not math.isfinite(value) or value == 0:
         return f"{value:g}"
@@ -106,9 +106,9 @@ def amount(value: float, spread: float = 0.0) -> str:
 
 
 def _plain(value: float) -> str:
-    rounded = f"{value:.4f}"
-    if 1e-3 <= abs(value) < 1e6 and abs(float(rounded) - value) <= 1e-12 * abs(value):
-        return rounded
+    short = f"{value:.4f}"
+    if 1e-3 <= abs(value) < 1e6 and abs(float(short) - value) <= 1e-12 * abs(value):
+        return short
     return f"{value:.12g}"
 
 

@@ -295,7 +295,7 @@ def diff(before: Path, after: Path) -> int:
 @json_option
 def diagnose(model: Path, against: str | None, as_json: bool) -> int:
     """Say what each engine makes of an MJCF or URDF file, whether they agree, and why not."""
-    from .diagnosis.diagnose import diagnose as diagnose_file
+    from .diagnosis.model_files.diagnose import diagnose as diagnose_file
 
     found = diagnose_file(model, against, isolated=True)
     if as_json:

@@ -604,7 +604,7 @@ def planted_in_file(cause, rng):
 
 def diagnosed(text, language, wanted):
     """Findings of ``diagnose`` for a text, through a file."""
-    from furiko.diagnosis.diagnose import diagnose
+    from furiko.diagnosis.model_files.diagnose import diagnose
 
     with tempfile.TemporaryDirectory() as folder:
         return diagnose(saved(text, folder, language), wanted)

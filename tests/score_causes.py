@@ -22,7 +22,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 from engine_faults import NAMES, OF_ENGINES, OF_READERS, OF_RUNS, Asked, misreading
 from model_faults import IN_FILES, Shape, diagnosed, free, planted_in_file, sound_model, with_link
 
-from furiko.diagnosis.diagnose import diagnose
+from furiko.diagnosis.model_files.diagnose import diagnose
 from furiko.diagnosis.explain import explain
 from furiko.diagnosis.explain_motion import explain_motion
 from furiko.engines import load_engine

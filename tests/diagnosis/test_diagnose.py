@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from model_faults import diagnosed, free, planted_in_file, random_tree, sound_model
 
-from furiko.diagnosis.diagnose import diagnose
+from furiko.diagnosis.model_files.diagnose import diagnose
 from furiko.engines.model_files.adapter import READERS
 from furiko.models import InvalidInput, catalogue, find_scene, to_mjcf, to_urdf
 from furiko.models.readers.model_file import model_from_text
@@ -200,13 +200,13 @@ def test_ten_links_against_three_engines_in_a_fresh_process(tmp_path):
     """Measured: 0.7 s; with a fault to explain 1 s. No time is asserted: a busy machine is not a fault."""
     text = to_mjcf(find_scene("rods-10").system)
     (tmp_path / "a.xml").write_text(text.replace('name="hinge04" ', 'name="hinge04" armature="0.01" '))
-    code = f"from furiko.diagnosis.diagnose import diagnose; assert diagnose({str(tmp_path / 'a.xml')!r}).findings"
+    code = f"import furiko; assert furiko.diagnose({str(tmp_path / 'a.xml')!r}).findings"
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
 def test_where_nothing_weighs_only_coupling_tells():
     """Turning the inner link's centre about its hinge changes no inertia and no coupling: nothing but its weight."""
-    from furiko.diagnosis.matching import same_motion
+    from furiko.diagnosis.model_files.matching import same_motion
     from furiko.models import Link, PlanarTree
 
     def mechanism(angle):

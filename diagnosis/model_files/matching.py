@@ -13,9 +13,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..models.mechanism import Mechanism
-from ..models.tree import SUPPORT, Link
-from .measurement import Array
+from ...models.mechanism import Mechanism
+from ...models.tree import SUPPORT, Link
+from ..measurement import Array
 
 MOST_LEGS = 6  # up to here all orders of the links on one link are tried
 
@@ -263,7 +263,7 @@ def without_hinge(m: Mechanism, k: int) -> Mechanism:
     place = {SUPPORT: SUPPORT}
     links: list[Link] = []
     hinges, names = [], []
-    lost = m.links[k]
+    removed = m.links[k]
     for i, link in enumerate(m.links):
         if i == k:
             place[i] = place[parent]
@@ -271,20 +271,20 @@ def without_hinge(m: Mechanism, k: int) -> Mechanism:
         place[i] = len(links)
         moved = link
         if link.parent == k and parent != SUPPORT:
-            moved = replace(link, hinge=(link.hinge[0] + lost.hinge[0], link.hinge[1] + lost.hinge[1]))
+            moved = replace(link, hinge=(link.hinge[0] + removed.hinge[0], link.hinge[1] + removed.hinge[1]))
         if i == parent:
-            moved = _fused(link, lost)
+            moved = _fused(link, removed)
         links.append(replace(moved, parent=place[link.parent]))
         hinges.append(m.hinges[i])
         names.append(m.link_names[i])
     return replace(m, links=tuple(links), hinges=tuple(hinges), link_names=tuple(names))
 
 
-def _fused(link: Link, lost: Link) -> Link:
-    total = link.mass + lost.mass
-    at = (lost.hinge[0] + lost.com[0], lost.hinge[1] + lost.com[1])
-    share = lost.mass / total if total else 0.0
+def _fused(link: Link, removed: Link) -> Link:
+    total = link.mass + removed.mass
+    at = (removed.hinge[0] + removed.com[0], removed.hinge[1] + removed.com[1])
+    share = removed.mass / total if total else 0.0
     com = (link.com[0] + share * (at[0] - link.com[0]), link.com[1] + share * (at[1] - link.com[1]))
-    inertia = link.inertia + lost.inertia
-    inertia += link.mass * math.dist(link.com, com) ** 2 + lost.mass * math.dist(at, com) ** 2
+    inertia = link.inertia + removed.inertia
+    inertia += link.mass * math.dist(link.com, com) ** 2 + removed.mass * math.dist(at, com) ** 2
     return replace(link, mass=total, com=com, inertia=inertia)

@@ -1,0 +1,1 @@
+"""``furiko diagnose``: a model file of the user's, in every engine that reads it, against the theory."""
