@@ -63,8 +63,8 @@ def _by_switching_off(reader: Reader, view: EngineView, theory: Mechanism) -> It
         if measure(without, theory, accuracy_for(theory)).worst(planar.parameters(theory)) > 1:
             continue
         theta, _ = probe_states(theory)
-        engine = view.engine
-        touching = engine.contacts(theta) if feature == "contact" and hasattr(engine, "contacts") else []
+        contacts = getattr(view.engine, "contacts", None)
+        touching = contacts(theta) if feature == "contact" and contacts is not None else []
         pairs = sorted({pair for _, pair in touching})
         words = f"{', '.join(pairs[:3])} touch in {len(touching)} of {len(theta)} states" if pairs else feature
         says = f"{reader.name}: without its {feature}s it agrees with the file: {words}"

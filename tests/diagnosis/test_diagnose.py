@@ -8,9 +8,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from model_faults import diagnosed, free, planted_in_file, random_tree, sound_model
+from faults.mechanisms import free, random_tree
+from faults.model_files import IN_FILES, diagnosed, planted_in_file, sound_model
+from faults.writing import Style, written
 
-from furiko.diagnosis.model_files.diagnose import diagnose
+from furiko import Diagnosis, diagnose
 from furiko.engines.model_files.adapter import READERS
 from furiko.models import InvalidInput, catalogue, find_scene, to_mjcf, to_urdf
 from furiko.models.readers.model_file import model_from_text
@@ -105,13 +107,7 @@ def test_what_looks_odd_and_is_sound_raises_no_alarm(seed):
     assert causes(found) == [], found.text()
 
 
-PLANTS = ["armature", "damping", "dry-friction", "stiffness", "joint-limit", "mass", "length", "inertia", "gravity",
-          "gravity-turned", "com-displaced", "inertial-com-rotated", "point-mass-patched", "inertia-from-geoms",
-          "degree-vs-radian", "spring-reference", "joint-dropped-by-parser", "joint-added",
-          "colliding-geoms"]  # fmt: skip
-
-
-@pytest.mark.parametrize("cause", PLANTS)
+@pytest.mark.parametrize("cause", IN_FILES)
 def test_a_fault_planted_in_a_file_is_named_first(cause):
     for seed in range(3):
         plant = planted_in_file(cause, np.random.default_rng(seed))
@@ -146,8 +142,9 @@ def test_small_differences_of_a_file_are_found_and_sized(tmp_path, field, relati
 
 
 def test_json_has_what_the_contract_says():
-    found = diagnose(model_from_text(ACROBOT, "arm.xml")).to_json()
-    again = json.loads(json.dumps(found))
+    found = diagnose(model_from_text(ACROBOT, "arm.xml"))
+    assert isinstance(found, Diagnosis)
+    again = json.loads(json.dumps(found.to_json()))
     assert again["verdict"] == "differs"
     assert {"cause", "where", "measured", "expected", "says"} == set(again["findings"][0])
     assert set(again["engines"]) == {"mujoco", "pinocchio-aba", "exudyn-tree"}
@@ -188,8 +185,6 @@ def test_only_the_given_engines_are_asked(names, isolated):
 def test_gravity_is_taken_from_what_a_urdf_is_held_against(tmp_path):
     mechanism = free(random_tree(np.random.default_rng(1), n=3))
     weak = replace(mechanism, gravity=(1.62, 0.0), gravity_vector=(0, 0, -1.62))
-    from model_faults import Style, written
-
     text = written(mechanism, Style("urdf"), np.random.default_rng(0))
     assert diagnosed(text, "urdf", weak).verdict == "agrees"
     assert math.isclose(model_from_text(text).mechanism.gravity[0], 9.81)
