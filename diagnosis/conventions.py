@@ -76,28 +76,28 @@ def _conventions(engine: Any, m: Mechanism) -> Iterator[_Convention]:
         for mask in (7, 1, 2, 4, 3, 5, 6):
             which = " and ".join(words[bit] for bit in (1, 2, 4) if mask & bit)
             for turned, says in (
-                (to_absolute, "are given absolute where its own are relative"),
-                (to_relative, "are given relative where its own are absolute"),
+                (to_absolute, "absolute values are used as relative ones"),
+                (to_relative, "relative values are used as absolute ones"),
             ):
-                words_for = f"{which} {says}"
+                sentence = f"{which}: {says}"
                 a, b, c = (turned if mask & bit else same for bit in (1, 2, 4))
-                yield _Convention("angle-convention", words_for, a, b, c, words_for)
+                yield _Convention("angle-convention", sentence, a, b, c, sentence)
     for mask in (7, 1, 2, 4, 3, 5, 6):
         which = " and ".join(words[bit] for bit in (1, 2, 4) if mask & bit)
         for factor in (DEGREE, 1 / DEGREE):
             a, b, c = (same * (factor if mask & bit else 1.0) for bit in (1, 2, 4))
-            taken = "in radians where degrees are meant" if factor < 1 else "in degrees where radians are meant"
-            yield _Convention("degree-vs-radian", f"{which} are taken {taken}", a, b, c, f"{which} × {factor:.7g}")
+            units = "found radians, expected degrees" if factor < 1 else "found degrees, expected radians"
+            yield _Convention("degree-vs-radian", f"{which}: {units}", a, b, c, f"{which} × {factor:.7g}")
         if mask != 7:
             a, b, c = (same * (-1.0 if mask & bit else 1.0) for bit in (1, 2, 4))
             yield _Convention("angle-convention", f"{which} have the opposite sign", a, b, c, f"−({which})")
     for order in _orders(engine, m, to_absolute):
         shuffled = same[order]
         for matrix, kind in ((to_absolute @ shuffled @ to_relative, "relative "), (shuffled, "")):
-            numbers = [i + 1 for i in order]
+            numbers, expected = [i + 1 for i in order], list(range(1, n + 1))
             yield _Convention(
                 "joint-order",
-                f"its {kind}joint coordinates come in the order {numbers}",
+                f"order of its {kind}joint coordinates: found {numbers}, expected {expected}",
                 matrix,
                 matrix,
                 matrix,
@@ -171,8 +171,8 @@ def _other_zero_angle(engine: Any, m: Mechanism, p: Parameters, forward: Measure
     """Angles counted from the upward vertical or from the horizontal, in either sense."""
     turned = replace(forward, theta=-forward.theta, omega=-forward.omega, alpha=-forward.alpha)
     for view, sense in ((forward, ""), (turned, " and clockwise")):
-        for offset, words in ((math.pi, "upwards"), (math.pi / 2, "level, to +x"), (-math.pi / 2, "level, to −x")):
+        for offset, words in ((math.pi, "the upward vertical"), (math.pi / 2, "+x"), (-math.pi / 2, "−x")):
             if replace(view, theta=view.theta + offset).worst(p) <= 1:
-                says = f"{who}: its angles are counted from {words}{sense}"
+                says = f"{who}: its angles are counted from {words}{sense}, expected from the downward vertical"
                 return [Finding("angle-convention", who, offset, 0.0, says)]
     return []

@@ -13,22 +13,28 @@ from .finding import Finding, degrees_for_radians, joint_label, link_label, roun
 from .reader_faults import FAULT_SENTENCES, PATTERN_TOLERANCE, ReaderFaults, matching_fault
 
 NUMBER_TOLERANCE = 1e-13  # relative: some hundred roundings
+KNOWN_FACTORS = (
+    (1000.0, "millimetres used as metres"),
+    (0.001, "metres used as millimetres"),
+    (2.0, ""),
+    (0.5, ""),
+)
 
 
 def differences(
-    found: Mechanism, expected: Mechanism, who: str, asked: str = "asked for", faults: ReaderFaults | None = None
+    found: Mechanism, expected: Mechanism, who: str, expectation: str = "expected", faults: ReaderFaults | None = None
 ) -> list[Finding]:
     """Differences of ``found`` from ``expected``, the most general cause first.
 
-    ``who``: what ``found`` is of, an engine or the file; ``asked``: the words before an expected value; ``faults``:
-    what each link would be with known faults of readers.
+    ``who``: what ``found`` belongs to, an engine or the file; ``expectation``: the words before an expected value;
+    ``faults``: what each link would be with known faults of readers.
     """
     findings = list(_structure(found, expected, who))
     if findings:
         return findings
-    findings += _gravity(found, expected, who, asked)
-    findings += _links(found, expected, who, asked, faults or {})
-    findings += _hinges(found, expected, who, asked)
+    findings += _gravity(found, expected, who, expectation)
+    findings += _links(found, expected, who, expectation, faults or {})
+    findings += _hinges(found, expected, who, expectation)
     return findings
 
 
@@ -37,13 +43,13 @@ def _structure(found: Mechanism, expected: Mechanism, who: str) -> Iterator[Find
         fewer = found.n < expected.n
         names = {hinge.name for hinge in found.hinges}
         missing = [joint_label(expected, i) for i, hinge in enumerate(expected.hinges) if hinge.name not in names]
-        missing_words = f"; {', '.join(missing[:5])} missing" if fewer and len(missing) < expected.n else ""
+        missing_words = f"; missing: {', '.join(missing[:5])}" if fewer and len(missing) < expected.n else ""
         yield Finding(
             "joint-dropped-by-parser" if fewer else "joint-added",
             missing[0] if fewer and missing else who,
             found.n,
             expected.n,
-            f"{who} has {found.n} hinges, {expected.n} asked for{missing_words}",
+            f"{who}: found {found.n} hinges, expected {expected.n}{missing_words}",
         )
     elif found.parents != expected.parents:
         yield Finding(
@@ -51,12 +57,12 @@ def _structure(found: Mechanism, expected: Mechanism, who: str) -> Iterator[Find
             who,
             str([p + 1 for p in found.parents]),
             str([p + 1 for p in expected.parents]),
-            f"{who}: links hang on {[p + 1 for p in found.parents]}, asked for {[p + 1 for p in expected.parents]} "
-            "(0: the support)",
+            f"{who}: parents of the links: found {[p + 1 for p in found.parents]}, "
+            f"expected {[p + 1 for p in expected.parents]} (0: the world)",
         )
 
 
-def _gravity(found: Mechanism, expected: Mechanism, who: str, asked: str) -> Iterator[Finding]:
+def _gravity(found: Mechanism, expected: Mechanism, who: str, expectation: str) -> Iterator[Finding]:
     got, wanted = np.array(found.gravity), np.array(expected.gravity)
     size, right = float(np.hypot(*got)), float(np.hypot(*wanted))
     if np.hypot(*(got - wanted)) <= NUMBER_TOLERANCE * max(size, right):
@@ -69,7 +75,7 @@ def _gravity(found: Mechanism, expected: Mechanism, who: str, asked: str) -> Ite
             "gravity",
             turned,
             0.0,
-            f"{who}: gravity is turned by {rounded(turned)}° in the plane of motion",
+            f"{who}: gravity is rotated by {rounded(turned)}° in the plane of motion",
         )
     elif abs(whole - right) <= PATTERN_TOLERANCE * right and size < whole * (1 - PATTERN_TOLERANCE):
         yield Finding(
@@ -77,8 +83,8 @@ def _gravity(found: Mechanism, expected: Mechanism, who: str, asked: str) -> Ite
             "gravity",
             size,
             right,
-            f"{who}: gravity leans out of the plane of motion, in which {rounded(size)} of {rounded(whole)} m/s² "
-            f"remain; {asked} {rounded(right)}",
+            f"{who}: gravity is not in the plane of motion: found {rounded(size)} of {rounded(whole)} m/s² in "
+            f"it, {expectation} {rounded(right)} m/s²",
         )
     else:
         yield Finding(
@@ -86,12 +92,14 @@ def _gravity(found: Mechanism, expected: Mechanism, who: str, asked: str) -> Ite
             "gravity",
             size,
             right,
-            f"{who}: gravity is {rounded(size)} m/s², {asked} {rounded(right)}{_ratio(size, right)}",
+            f"{who}: gravity: found {rounded(size)}, {expectation} {rounded(right)} m/s²{_ratio(size, right)}",
         )
 
 
-def _links(found: Mechanism, expected: Mechanism, who: str, asked: str, faults: ReaderFaults) -> Iterator[Finding]:
-    other_lengths = dict(_lengths(found, expected, who, asked))
+def _links(
+    found: Mechanism, expected: Mechanism, who: str, expectation: str, faults: ReaderFaults
+) -> Iterator[Finding]:
+    other_lengths = dict(_lengths(found, expected, who, expectation))
     for i, (got, wanted) in enumerate(zip(found.links, expected.links, strict=True)):
         if i in other_lengths:
             yield other_lengths[i]
@@ -118,20 +126,25 @@ def _links(found: Mechanism, expected: Mechanism, who: str, asked: str, faults: 
                 name,
                 got.mass,
                 wanted.mass,
-                f"{who}: mass of {name} is {rounded(got.mass)}, {asked} {rounded(wanted.mass)} kg{extra}",
+                f"{who}: mass of {name}: found {rounded(got.mass)}, {expectation} {rounded(wanted.mass)} kg{extra}",
             )
         scaled_along = (
             other_mass and wanted.inertia and abs(got.inertia / wanted.inertia / ratio - 1) < PATTERN_TOLERANCE
         )
         if displaced and i not in other_lengths:
             yield _displaced(
-                name, got.com, wanted.com, who, asked, wanted.inertia == 0 and not any(p == i for p in expected.parents)
+                name,
+                got.com,
+                wanted.com,
+                who,
+                expectation,
+                wanted.inertia == 0 and not any(p == i for p in expected.parents),
             )
         if other_inertia and not scaled_along and i not in other_lengths:
-            yield _inertia(name, got.inertia, wanted.inertia, who, asked)
+            yield _inertia(name, got.inertia, wanted.inertia, who, expectation)
 
 
-def _lengths(found: Mechanism, expected: Mechanism, who: str, asked: str) -> Iterator[tuple[int, Finding]]:
+def _lengths(found: Mechanism, expected: Mechanism, who: str, expectation: str) -> Iterator[tuple[int, Finding]]:
     """Links whose children's hinges are at another place."""
     for i in range(expected.n):
         children = [c for c in range(expected.n) if expected.links[c].parent == i]
@@ -141,16 +154,17 @@ def _lengths(found: Mechanism, expected: Mechanism, who: str, asked: str) -> Ite
             if math.dist(got, wanted) > NUMBER_TOLERANCE * max(size, right, math.hypot(*expected.links[i].com)):
                 turned = abs(size - right) <= PATTERN_TOLERANCE * right
                 name, other = link_label(expected, i), joint_label(expected, c)
-                says = f"{who}: length of {name} to {other} is {rounded(size)}, {asked} {rounded(right)} m"
+                says = f"{who}: length of {name} to {other}: found {rounded(size)}, {expectation} {rounded(right)} m"
+                says += _ratio(size, right)
                 if turned:
                     off = math.degrees(math.atan2(got[1], got[0]) - math.atan2(wanted[1], wanted[0]))
-                    says = f"{who}: {other} is at the right distance on {name}, turned by {rounded(off)}°"
-                yield i, Finding("length", name, size, right, says + _ratio(size, right))
+                    says = f"{who}: {other} is at the expected distance on {name}, but rotated by {rounded(off)}°"
+                yield i, Finding("length", name, size, right, says)
                 break
 
 
 def _displaced(
-    name: str, got: tuple[float, float], wanted: tuple[float, float], who: str, asked: str, bob: bool
+    name: str, got: tuple[float, float], wanted: tuple[float, float], who: str, expectation: str, bob: bool
 ) -> Finding:
     size, right = math.hypot(*got), math.hypot(*wanted)
     same_distance = right > 0 and abs(size / right - 1) < PATTERN_TOLERANCE
@@ -159,28 +173,26 @@ def _displaced(
     )
     if same_distance:
         off = math.degrees(math.atan2(got[1], got[0]) - math.atan2(wanted[1], wanted[0]))
-        says = f"{who}: centre of mass of {name} is turned by {rounded(off)}° about the hinge"
+        says = f"{who}: centre of mass of {name} is rotated by {rounded(off)}° about the hinge"
         return Finding("inertial-com-rotated", name, str(got), str(wanted), says)
     if bob and in_line:  # the length of a point mass's rod is its distance
-        says = f"{who}: length of {name} (hinge to point mass) is {rounded(size)}, {asked} {rounded(right)} m"
+        says = f"{who}: length of {name} (hinge to point mass): found {rounded(size)}, {expectation} {rounded(right)} m"
         says += _ratio(size, right)
         return Finding("length", name, size, right, says)
-    says = f"{who}: centre of mass of {name} is at {_point(got)} m, {asked} {_point(wanted)} m (along, across)"
+    says = f"{who}: centre of mass of {name} (along, across): found {_point(got)}, {expectation} {_point(wanted)} m"
     return Finding("com-displaced", name, str(got), str(wanted), says)
 
 
-def _inertia(name: str, got: float, wanted: float, who: str, asked: str) -> Finding:
+def _inertia(name: str, got: float, wanted: float, who: str, expectation: str) -> Finding:
     if wanted == 0:
-        says = (
-            f"{who}: {name} has an inertia of {rounded(got)} kg m² about its centre of mass, a point mass was asked for"
-        )
+        says = f"{who}: inertia of {name} about its centre of mass: found {rounded(got)} kg m², expected a point mass"
         return Finding("point-mass-patched", name, got, wanted, says)
-    says = f"{who}: inertia of {name} about the hinge axis is {rounded(got)}, {asked} {rounded(wanted)} kg m²"
-    says += _ratio(got, wanted)
+    says = f"{who}: inertia of {name} about its centre of mass: found {rounded(got)}, "
+    says += f"{expectation} {rounded(wanted)} kg m²{_ratio(got, wanted)}"
     return Finding("inertia", name, got, wanted, says)
 
 
-def _hinges(found: Mechanism, expected: Mechanism, who: str, asked: str) -> Iterator[Finding]:
+def _hinges(found: Mechanism, expected: Mechanism, who: str, expectation: str) -> Iterator[Finding]:
     for i, (got, wanted) in enumerate(zip(found.hinges, expected.hinges, strict=True)):
         name = joint_label(expected, i)
         rows = (
@@ -199,29 +211,32 @@ def _hinges(found: Mechanism, expected: Mechanism, who: str, asked: str) -> Iter
                     "stiffness": "stiffness-ignored",
                 }
                 code = ignored.get(cause, cause) if value == 0 else cause
-                theirs = f"{asked} {rounded(right)}" if right else f"{asked} none"
-                yield Finding(code, name, value, right, f"{who}: {name}: {word} {rounded(value)} {unit}, {theirs}")
+                theirs = f"{expectation} {rounded(right)} {unit}" if right else f"{expectation} none"
+                yield Finding(
+                    code, name, value, right, f"{who}: {name}: {word}: found {rounded(value)} {unit}, {theirs}"
+                )
         if (
             got.stiffness
             and wanted.stiffness
             and abs(got.rest - wanted.rest) > NUMBER_TOLERANCE * max(1.0, abs(wanted.rest))
         ):
             if wanted.rest and degrees_for_radians(got.rest / wanted.rest):
-                yield _degrees(name, "spring reference", got.rest, wanted.rest, who)
-            says = f"{who}: {name}: its spring rests at {rounded(got.rest)} rad, {asked} {rounded(wanted.rest)}"
+                yield _degrees(name, "rest angle of the spring", got.rest, wanted.rest, who)
+            says = f"{who}: {name}: rest angle of the spring: found {rounded(got.rest)}, "
+            says += f"{expectation} {rounded(wanted.rest)} rad"
             yield Finding("spring-reference", name, got.rest, wanted.rest, says)
         if got.stops != wanted.stops and not _same_limits(got.stops, wanted.stops):
-            yield from _limits(name, got.stops, wanted.stops, who, asked)
+            yield from _limits(name, got.stops, wanted.stops, who, expectation)
 
 
 def _limits(
-    name: str, got: tuple[float, float] | None, wanted: tuple[float, float] | None, who: str, asked: str
+    name: str, got: tuple[float, float] | None, wanted: tuple[float, float] | None, who: str, expectation: str
 ) -> Iterator[Finding]:
     if got and wanted:
         ratios = [a / b for a, b in zip(got, wanted, strict=True) if b]
         if ratios and all(map(degrees_for_radians, ratios)):
             yield _degrees(name, "limit", got[1], wanted[1], who)
-    says = f"{who}: {name} stops at {_limit_words(got)}; {asked} {_limit_words(wanted)}"
+    says = f"{who}: {name}: limits: found {_limit_words(got)}, {expectation} {_limit_words(wanted)}"
     yield Finding("joint-limit", name, _limit_words(got), _limit_words(wanted), says)
 
 
@@ -232,12 +247,12 @@ def _same_limits(a: tuple[float, float] | None, b: tuple[float, float] | None) -
 
 
 def _limit_words(limits: tuple[float, float] | None) -> str:
-    return f"{limits[0]:.6g} and {limits[1]:.6g} rad" if limits else "nothing"
+    return f"{limits[0]:.6g} and {limits[1]:.6g} rad" if limits else "no limits"
 
 
 def _degrees(name: str, word: str, got: float, wanted: float, who: str) -> Finding:
-    factor = "a factor of 180/π, degrees for radians"
-    says = f"{who}: {name}: {word} is {rounded(got)} where {rounded(wanted)} is due: {factor}"
+    factor = "a factor of 180/π, degrees and radians are mixed up"
+    says = f"{who}: {name}: {word}: found {rounded(got)}, expected {rounded(wanted)} ({factor})"
     return Finding("degree-vs-radian", name, got, wanted, says)
 
 
@@ -254,8 +269,8 @@ def _ratio(got: float, wanted: float) -> str:
         return ""
     ratio = got / wanted
     if degrees_for_radians(ratio):
-        return "; the factor is 180/π: degrees for radians"
-    for factor, words in ((1000.0, "metres for millimetres"), (0.001, "millimetres for metres"), (2.0, ""), (0.5, "")):
+        return " (a factor of 180/π: degrees and radians are mixed up)"
+    for factor, words in KNOWN_FACTORS:
         if abs(ratio / factor - 1) < 1e-9:
             return f" (a factor of {factor:g}{', ' + words if words else ''})"
     return f" (a factor of {ratio:.12g})"

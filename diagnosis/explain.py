@@ -79,12 +79,12 @@ def _unexplained(engine: Any, measured: Measurement, m: Mechanism, p: Parameters
         state, row = np.unravel_index(int(left.argmax()), left.shape)
         rows = planar.torques(m.parents, p, forward.theta, forward.omega, forward.alpha)
         torque = float(planar.relative_rows(m.parents, rows)[state, row])
-        words.append(f"accelerations leave a torque of {torque:.3g} N m at {joint_label(m, int(row))}")
+        words.append(f"accelerations leave a residual torque of {torque:.3g} N m at {joint_label(m, int(row))}")
     inverse = measured.only(~measured.forward)
     if len(inverse) and inverse.worst(p) > 1:
         words += _by_term(engine, inverse, m, p)
     size = measured.worst(p)
-    says = f"{who}: no known cause fits: {'; '.join(words)} ({size:.3g} times what rounding explains)"
+    says = f"{who}: no known cause fits: {'; '.join(words)} ({size:.3g} times the tolerance)"
     return Finding("unexplained", who, size, 1.0, says)
 
 
@@ -108,4 +108,4 @@ def _by_term(engine: Any, inverse: Measurement, m: Mechanism, p: Parameters) -> 
         if (sizes > scale).any():
             row = int(np.unravel_index(int((sizes / scale).argmax()), sizes.shape)[1])
             words.append(f"{name} off by up to {float(sizes.max()):.3g} N m, most at {joint_label(m, row)}")
-    return words or ["inverse dynamics differs in all terms together"]
+    return words or ["inverse dynamics is off only where all terms act together"]

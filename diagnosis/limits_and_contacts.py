@@ -65,13 +65,13 @@ def _limits_or_contacts(engine: Any, m: Mechanism, measured: Measurement, bad: A
         limits = _limit_angles(engine, m, i, low, high, phi[rows, i])
         words = " and ".join(f"{side:.4g}" for side in limits if side is not None)
         name = joint_label(m, i)
-        seen = f"in {int(rows.sum())} of {len(phi)} states"
-        says = f"{who}: {name} is held back beyond {words} rad, {seen}; inside, all agrees"
-        findings.append(Finding("joint-limit", name, words, "turns freely", says))
+        seen = f"{int(rows.sum())} of {len(phi)} states"
+        says = f"{who}: {name}: found a limit at {words} rad, expected none: beyond it {seen} differ, inside all agree"
+        findings.append(Finding("joint-limit", name, words, "no limits", says))
     if explained.all() or (bad.any(axis=1) == explained).all():
         return findings
     states = int(bad.any(axis=1).sum())
-    says = f"{who}: in {states} of {len(phi)} states something pushes, in the others all agrees: geoms that touch"
+    says = f"{who}: an additional torque in {states} of {len(phi)} states, none in the others: geoms are in contact"
     return [*findings, Finding("colliding-geoms", who, states, 0, says)]
 
 

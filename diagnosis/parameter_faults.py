@@ -98,7 +98,7 @@ def _findings(
                 findings.append(finding)
     if len(fits) > 1 and len(findings) > 1:
         others = len(findings) - 1
-        note = f"{others} other cause{'s' * (others > 1)} would explain it as well"
+        note = f"{others} other cause{'s' * (others > 1)} would explain it equally well"
         findings = [replace(f, says=f"{f.says}; {note}") for f in findings]
     return findings
 

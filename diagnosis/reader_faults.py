@@ -24,9 +24,9 @@ PlanarInertial = tuple[float, tuple[float, float], float]
 ReaderFaults = Mapping[str, Mapping[int, PlanarInertial]]
 
 FAULT_SENTENCES = {
-    "urdf-inertial-rpy-lost": "its inertia is that of the tensor without its rotation",
-    "inertial-com-rotated": "its centre of mass is turned by the rotation that is meant for the tensor alone",
-    "fused-static-frame": "what is fixed to it was added as if the fixed joint were not turned",
+    "urdf-inertial-rpy-lost": "its inertia is that of the tensor without the rotation of its axes",
+    "inertial-com-rotated": "its centre of mass is rotated by the rotation that belongs to the tensor alone",
+    "fused-static-frame": "a body fixed to it was added without the rotation of the fixed joint",
     "inertia-from-geoms": "mass and inertia are those of its geoms, not those of its inertial",
     "inertial-ignored": "mass and inertia are default values, not those of its inertial",
 }
@@ -146,8 +146,8 @@ def degrees_in_file(file: ModelFile) -> Iterator[Finding]:
         if widest <= 2 * math.pi + 1e-3 and any(_fraction_of_pi(end) for end in ends if end):
             name = joint_label(file.mechanism, i)
             says = (
-                f"the file: {name}: range {ends[0]:.6g} to {ends[1]:.6g} is read in degrees, MJCF's default; it looks "
-                "like radians: say <compiler angle='radian'/>"
+                f"the file: {name}: range {ends[0]:.6g} to {ends[1]:.6g} is read in degrees, MJCF's default, but looks "
+                "like radians; for radians write <compiler angle='radian'/>"
             )
             yield Finding("degree-vs-radian", name, hinge.stops[1], ends[1], says)
 
@@ -166,12 +166,10 @@ def inertia_from_geoms(file: ModelFile, findings: list[Finding], who: str = "the
         return []
     has_inertials = any(name in file.tensors for name in file.from_geoms)
     why = (
-        "the compiler is told to (inertiafromgeom), and passes the inertials over"
-        if has_inertials
-        else "they have no inertial"
+        "the compiler option inertiafromgeom ignores the inertials" if has_inertials else "the bodies have no inertial"
     )
     names = ", ".join(file.from_geoms[:3]) + (" …" if len(file.from_geoms) > 3 else "")
-    says = f"{who}: {names}: mass and inertia are those of the geoms: {why}"
+    says = f"{who}: {names}: mass and inertia come from the geoms: {why}"
     if who != "the file":
-        says = f"{who}: {names}: the file gives no inertial, and this engine weighs their geoms otherwise"
+        says = f"{who}: {names}: the file gives no inertial, and this engine computes another one from the geoms"
     return [Finding("inertia-from-geoms", f"link {names}", None, None, says)]

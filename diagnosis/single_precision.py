@@ -30,8 +30,8 @@ def single_precision(
     worst, visible = measured.worst(p), _has_24_bits(m, measured)
     if worst > SINGLE_OVER_DOUBLE or (not visible and worst < LEAST_SHARE * SINGLE_OVER_DOUBLE):
         return []
-    why = "its accelerations are numbers of 24 bits" if visible else "the rest is what numbers of 24 bits leave"
-    says = f"{who}: single precision: {why}; {worst:.3g} times what double precision leaves"
+    why = "its accelerations are numbers of 24 bits" if visible else "the residual is that of numbers of 24 bits"
+    says = f"{who}: single precision: {why}; {worst:.3g} times the residual of double precision"
     return [Finding("float32", who, worst * EPSILON, EPSILON, says)]
 
 

@@ -28,15 +28,8 @@ def findings_of_fit(found: FittedHypothesis, m: Mechanism, p: Parameters, who: s
         if len(columns_by_link) > 1 and not (np.abs(values) > 30 * np.maximum(spread, 1e-300)).any():
             continue
         findings += _value(hypothesis, columns, values, spread, m, p, who)
-    return findings or _value(
-        hypothesis,
-        columns_by_link[0],
-        found.values[columns_by_link[0]],
-        found.uncertainty[columns_by_link[0]],
-        m,
-        p,
-        who,
-    )
+    first = columns_by_link[0]
+    return findings or _value(hypothesis, first, found.values[first], found.uncertainty[first], m, p, who)
 
 
 def _columns_by_link(hypothesis: Hypothesis) -> list[list[int]]:
@@ -57,8 +50,7 @@ def _value(
         return _hinge_value(hypothesis, name, i, before, value, error, values, m, p, who)
     place = link_label(m, i)
     if name in ("mass", "inertia"):
-        unit = UNITS[name]
-        says = f"{who}: {name} of {place} is {rounded(value, error)} {unit}, asked for {rounded(before)}"
+        says = f"{who}: {name} of {place}: found {rounded(value, error)}, expected {rounded(before)} {UNITS[name]}"
         cause = "point-mass-patched" if name == "inertia" and before == 0 else name
         return [Finding(cause, place, value, before, says)]
     second = hypothesis.names[columns[1]]
@@ -69,18 +61,20 @@ def _value(
         place = link_label(m, parent)
         size, right = math.hypot(*got), math.hypot(*wanted)
         says = (
-            f"{who}: {joint_label(m, i)} is at ({rounded(got[0], error)}, {rounded(got[1], float(spread[1]))}) m on "
-            f"{place}, asked for ({rounded(wanted[0])}, {rounded(wanted[1])})"
+            f"{who}: position of {joint_label(m, i)} on {place} (along, across): found {_point(got, spread)}, "
+            f"expected {_point(wanted)} m"
         )
         return [Finding("length", place, size, right, says)]
     size, right = math.hypot(*got), math.hypot(*wanted)
     turned = right > 0 and abs(size / right - 1) <= max(1e-9, 10 * error / right)
     cause = "inertial-com-rotated" if turned else "com-displaced"
-    says = (
-        f"{who}: centre of mass of {place} is at ({rounded(got[0], error)}, {rounded(got[1], float(spread[1]))}) m, "
-        f"asked for ({rounded(wanted[0])}, {rounded(wanted[1])}) (along, across)"
-    )
+    says = f"{who}: centre of mass of {place} (along, across): found {_point(got, spread)}, expected {_point(wanted)} m"
     return [Finding(cause, place, str(got), str(wanted), says)]
+
+
+def _point(point: tuple[float, float], spread: Array | None = None) -> str:
+    errors = (0.0, 0.0) if spread is None else (float(spread[0]), float(spread[1]))
+    return f"({rounded(point[0], errors[0])}, {rounded(point[1], errors[1])})"
 
 
 def _hinge_value(
@@ -99,19 +93,27 @@ def _hinge_value(
     word = "dry friction" if name == "friction" else name
     ignored = {"damping": "damping-ignored", "friction": "friction-ignored", "stiffness": "stiffness-ignored"}
     gone = before > 0 and abs(value) <= 1e-9 * before and name in ignored
-    theirs = f"asked for {rounded(before)}" if before else "the theory has none"
-    says = f"{who}: {place}: {word} {rounded(0.0 if gone else value, error)} {unit}, {theirs}"
+    theirs = f"expected {rounded(before)} {unit}" if before else "expected none"
+    says = f"{who}: {place}: {word}: found {rounded(0.0 if gone else value, error)} {unit}, {theirs}"
     findings = []
     if before and degrees_for_radians(value / before):
-        findings.append(Finding("degree-vs-radian", place, value, before, f"{says}: a factor of 180/π"))
+        findings.append(
+            Finding(
+                "degree-vs-radian",
+                place,
+                value,
+                before,
+                f"{says} (a factor of 180/π: degrees and radians are mixed up)",
+            )
+        )
     if name == "stiffness" and len(values) > 1 and value:
         rest = (float(p.preload[i]) + float(values[1])) / value
         right = float(p.preload[i]) / before if before else 0.0
         if before and abs(values[0]) <= 1e-9 * before:
-            says = f"{who}: {place}: its spring rests at {rounded(rest)} rad, asked for {rounded(right)}"
+            says = f"{who}: {place}: rest angle of the spring: found {rounded(rest)}, expected {rounded(right)} rad"
             cause = "degree-vs-radian" if right and degrees_for_radians(rest / right) else "spring-reference"
             return [*findings, Finding(cause, place, rest, right, says)]
-        says += f", at rest at {rounded(rest)} rad"
+        says += f"; its rest angle is {rounded(rest)} rad"
     findings.append(Finding(ignored[name] if gone else hypothesis.cause, place, value, before, says))
     return findings
 
@@ -122,22 +124,24 @@ def _factor(found: FittedHypothesis, m: Mechanism, p: Parameters, who: str) -> F
     i = hypothesis.links[0]
     if hypothesis.cause == "gravity":
         size = float(np.hypot(p.gravity_along[0], p.gravity_across[0]))
-        says = f"{who}: gravity is {rounded(size * factor, size * error)} m/s², asked for {rounded(size)}"
+        says = f"{who}: gravity: found {rounded(size * factor, size * error)}, expected {rounded(size)} m/s²"
         return Finding("gravity", "gravity", size * factor, size, says)
     place = "every link" if i < 0 else link_label(m, i)
     if hypothesis.cause == "mass" and i >= 0:
         wanted = float(p.mass[i])
-        says = f"{who}: mass of {place} is {rounded(wanted * factor, wanted * error)}, asked for {rounded(wanted)} kg"
+        says = (
+            f"{who}: mass of {place}: found {rounded(wanted * factor, wanted * error)}, expected {rounded(wanted)} kg"
+        )
         return Finding("mass", place, wanted * factor, wanted, says)
     if hypothesis.cause == "continuous-joint-not-normalised":
         place = joint_label(m, i)
-        says = f"{who}: {place} turns by a pair (cos, sin) of length {rounded(factor, error)}, which must be 1"
+        says = f"{who}: {place}: length of the pair (cos, sin): found {rounded(factor, error)}, expected 1"
         return Finding(hypothesis.cause, place, factor, 1.0, says)
     cause = hypothesis.cause
     if degrees_for_radians(factor):
         cause = "degree-vs-radian"
     word = hypothesis.names[0] if i < 0 else f"{hypothesis.cause.removesuffix('-displaced')} of {place}"
-    says = f"{who}: {word} is {rounded(factor, error)} times what was asked for"
+    says = f"{who}: {word}: found {rounded(factor, error)} times the expected value"
     return Finding(cause, place, factor, 1.0, says)
 
 
@@ -147,15 +151,8 @@ def _gravity(found: FittedHypothesis, p: Parameters, who: str) -> Finding:
     size, right = float(np.hypot(*got)), float(np.hypot(*wanted))
     angle = math.degrees(math.atan2(got[1], got[0]) - math.atan2(wanted[1], wanted[0]))
     turned = abs(angle) > 1e-7
-    says = (
-        f"{who}: gravity is {rounded(size)} m/s², turned by {rounded(angle)}° in the plane; asked for {rounded(right)}"
-    )
+    says = f"{who}: gravity: found {rounded(size)}, expected {rounded(right)} m/s²"
     if turned:
+        says += f"; rotated by {rounded(angle)}° in the plane of motion"
         return Finding("gravity-turned", "gravity", angle, 0.0, says)
-    return Finding(
-        "gravity",
-        "gravity",
-        size,
-        right,
-        f"{who}: gravity is {rounded(size)} m/s², asked for {rounded(right)}",
-    )
+    return Finding("gravity", "gravity", size, right, says)

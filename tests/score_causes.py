@@ -62,8 +62,8 @@ def findings_of(place, cause, seed):
         file, readers = misreading(cause, rng)
         return diagnose(file, None, readers).findings
     if place == "run":
-        engine, wanted, integrator, parted = OF_RUNS[cause](rng)
-        return explain_motion(engine, wanted, integrator, parted=parted)
+        engine, wanted, integrator, diverged = OF_RUNS[cause](rng)
+        return explain_motion(engine, wanted, integrator, diverged=diverged)
     engine, wanted = OF_ENGINES[cause](rng)
     return explain(engine, wanted)
 

@@ -29,10 +29,9 @@ def compare_with(file: ModelFile, expected: Mechanism) -> list[Finding]:
         return _other_number_of_hinges(found, expected)
     views = _ranked_views(file, expected)
     if not views:
-        says = f"the file: links hang on {[p + 1 for p in found.parents]}, wanted {[p + 1 for p in expected.parents]}"
-        return [
-            Finding("joint-order", "the file", str(found.parents), str(expected.parents), f"{says} (0: the support)")
-        ]
+        parents, others = [p + 1 for p in found.parents], [p + 1 for p in expected.parents]
+        says = f"the file: parents of the links: found {parents}, expected {others} (0: the world)"
+        return [Finding("joint-order", "the file", str(found.parents), str(expected.parents), says)]
     best = min(views, key=lambda view: view[0])[1]
     return _gravity_not_along_axes(found, best) + inertia_from_geoms(file, best) + best
 
@@ -84,11 +83,11 @@ def _gravity_not_along_axes(found: Mechanism, others: list[Finding]) -> list[Fin
     angles = {round(float(np.arctan2(c[1], c[0])), 9) for c in straight}
     if any(abs(angle) < 1e-9 for angle in angles) or any("gravity" in f.cause for f in others):
         return []
-    askew = min((float(np.degrees(a)) for a in angles), key=abs)
+    angle = min((float(np.degrees(a)) for a in angles), key=abs)
     says = (
-        f"the file: gravity {found.gravity_vector} lies askew to the axes along which the links hang, by {askew:.6g}°"
+        f"the file: gravity {found.gravity_vector} is rotated by {angle:.6g}° from the axes along which the links lie"
     )
-    return [Finding("gravity-turned", "gravity", askew, 0.0, says)]
+    return [Finding("gravity-turned", "gravity", angle, 0.0, says)]
 
 
 def _other_number_of_hinges(found: Mechanism, expected: Mechanism) -> list[Finding]:
@@ -100,9 +99,9 @@ def _other_number_of_hinges(found: Mechanism, expected: Mechanism) -> list[Findi
     if larger.n == smaller.n + 1:
         which = next((k for k in range(larger.n) if _same_motion(without_hinge(larger, k), smaller)), None)
     where = joint_label(larger, which) if which is not None else "the file"
-    says = f"the file has {found.n} hinges, {expected.n} are wanted"
+    says = f"the file: found {found.n} hinges, expected {expected.n}"
     if which is not None:
-        says += f"; {'missing is' if missing else 'one too many is'} {where}"
+        says += f"; {'missing' if missing else 'not expected'}: {where}"
     return [Finding(cause, where, found.n, expected.n, says)]
 
 

@@ -73,7 +73,7 @@ def _verdict(causes: list[str]) -> str:
 def _tilt_notes(mechanism: Mechanism) -> list[str]:
     if mechanism.tilt < REPORTED_TILT:
         return []
-    return [f"the hinges' axes are not quite parallel: engines are held to {mechanism.tilt:.1g} of each torque"]
+    return [f"the hinges' axes are not quite parallel: the tolerance is {mechanism.tilt:.1g} of each torque"]
 
 
 def _expected(against: Any) -> tuple[Mechanism | None, str]:
@@ -109,5 +109,5 @@ def _with_gravity(file: ModelFile, expected: Mechanism | None) -> ModelFile:
         vector = (0.0, 0.0, -strength)
     changed = replace(old, gravity=(along, 0.0), gravity_vector=vector)
     notes = tuple(note for note in file.notes if "gravity" not in note)
-    note = f"URDF says nothing of gravity: {strength:g} m/s² is taken, as in what it is held against"
+    note = f"URDF gives no gravity: {strength:g} m/s² is used, as in what the file is compared with"
     return replace(file, mechanism=changed, notes=(*notes, note))

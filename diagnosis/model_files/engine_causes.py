@@ -66,8 +66,8 @@ def _by_switching_off(reader: Reader, view: EngineView, theory: Mechanism) -> It
         contacts = getattr(view.engine, "contacts", None)
         touching = contacts(theta) if feature == "contact" and contacts is not None else []
         pairs = sorted({pair for _, pair in touching})
-        words = f"{', '.join(pairs[:3])} touch in {len(touching)} of {len(theta)} states" if pairs else feature
-        says = f"{reader.name}: without its {feature}s it agrees with the file: {words}"
+        words = f": {', '.join(pairs[:3])} are in contact in {len(touching)} of {len(theta)} states" if pairs else ""
+        says = f"{reader.name}: agrees with the file when its {feature}s are switched off{words}"
         yield Finding(cause, reader.name, len(touching) if pairs else None, 0 if pairs else None, says)
         return
 

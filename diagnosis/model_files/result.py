@@ -49,7 +49,7 @@ class Diagnosis:
         """The text that ``furiko diagnose`` prints."""
         lines = [f"{self.model}: {self.verdict}" + (f" (against {self.against})" if self.against else "")]
         links = self.mechanism.get("links", [])
-        lines.append(f"  a planar tree of {len(links)} hinged link{'s' * (len(links) != 1)}")
+        lines.append(f"  a planar tree of {len(links)} link{'s' * (len(links) != 1)}")
         for name, engine in self.engines.items():
             says = engine.get("says", "")
             lines.append(f"  {name:16} {engine['status']}" + (f": {says}" if says else ""))

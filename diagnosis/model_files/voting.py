@@ -18,7 +18,7 @@ def vote(path: str, answers: Sequence[EngineAnswer]) -> list[Finding]:
     voters = [answer for answer in answers if answer.accelerations is not None and answer.native]
     if len(voters) >= 2 and all(answer.residual > 1 for answer in voters) and _agree(voters):
         names = ", ".join(answer.name for answer in voters)
-        says = f"{names} agree with one another; what furiko reads in the file stands alone"
+        says = f"{names} agree with one another; only furiko's own reading of the file differs"
         return [Finding("theory-is-wrong", path, None, None, says), *voters[0].findings]
     return [finding for answer in answers for finding in answer.findings]
 

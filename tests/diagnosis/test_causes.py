@@ -97,7 +97,7 @@ def test_two_causes_that_fit_equally_are_both_named():
 
     findings = explain(Silent(), system)
     assert [finding.cause for finding in findings] == ["armature", "inertia"]
-    assert all("would explain it as well" in finding.says for finding in findings)
+    assert all("would explain it equally well" in finding.says for finding in findings)
     assert findings[0].measured == pytest.approx(0.01, rel=1e-9)
     # What the engine compiled decides.
     assert [finding.cause for finding in explain(engine, system)] == ["armature"]

@@ -121,7 +121,7 @@ def test_the_value_that_explains_it_is_given(tmp_path):
     (tmp_path / "a.xml").write_text(text)
     (finding,) = (f for f in diagnose(tmp_path / "a.xml", "rods-3").findings)
     assert (finding.cause, finding.where, finding.measured, finding.expected) == ("armature", "joint 2", 0.01, 0.0)
-    assert "joint 2: armature 0.0100 kg m²" in finding.says
+    assert "joint 2: armature: found 0.0100 kg m², expected none" in finding.says
 
 
 @pytest.mark.parametrize("relative", [1e-9, 1e-10])
