@@ -1,6 +1,7 @@
-"""Engines that are asked wrongly: angles relative for absolute, in degrees, exchanged, counted from elsewhere.
+"""Engines asked in another convention: relative angles, degrees, another order, another zero angle.
 
-Each is a linear change of what the engine is given and of what it answers; undone, nothing may be left over.
+Each convention is a linear change of what the engine is given and of what it answers; once undone, no residual may be
+left.
 """
 
 from __future__ import annotations
@@ -19,12 +20,12 @@ from ..reference.planar_tree import Parameters
 from .finding import DEGREE, Finding
 from .measurement import Array, Measurement, has_inverse_dynamics
 
-FAR = 1e5  # angles asked wrongly are wrong by far more than this, in units of what rounding explains
+LARGE_RESIDUAL = 1e5  # in units of what rounding explains; another convention leaves far more
 
 
 @dataclass(frozen=True)
-class _Reading:
-    """A way to ask wrongly: the engine is given ``angles``·θ and ``rates``·ω, and answers ``answers``⁻¹·θ̈."""
+class _Convention:
+    """The engine is given ``angles``·θ and ``rates``·ω, and answers ``answers``⁻¹·θ̈; matrices (n, n)."""
 
     cause: str
     says: str
@@ -34,69 +35,69 @@ class _Reading:
     measured: str = ""
 
 
-def asked_wrongly(
+def wrong_convention(
     engine: Any, m: Mechanism, p: Parameters, measured: Measurement, compiled: Mechanism | None, who: str
 ) -> list[Finding]:
-    """The ways to ask wrongly that leave nothing over once undone."""
+    """The conventions, at most two, that explain the engine's accelerations."""
     forward = measured.only(measured.forward)
-    if forward.worst(p) < FAR:
+    if forward.worst(p) < LARGE_RESIDUAL:
         return []
-    found = [reading for reading in _readings(engine, m) if _fits(reading, forward, p)]
+    found = [convention for convention in _conventions(engine, m) if _fits(convention, forward, p)]
     if not found:
-        return _counted_from_elsewhere(engine, m, p, forward, who)
+        return _other_zero_angle(engine, m, p, forward, who)
     return [
-        Finding(r.cause, who, r.measured, "absolute angles in radians, in the links' order", f"{who}: {r.says}")
-        for r in found[:2]
+        Finding(c.cause, who, c.measured, "absolute angles in radians, in the links' order", f"{who}: {c.says}")
+        for c in found[:2]
     ]
 
 
-def _fits(reading: _Reading, forward: Measurement, p: Parameters) -> bool:
+def _fits(convention: _Convention, forward: Measurement, p: Parameters) -> bool:
     with np.errstate(all="ignore"):
         taken = replace(
             forward,
-            theta=forward.theta @ reading.angles.T,
-            omega=forward.omega @ reading.rates.T,
-            alpha=forward.alpha @ reading.answers.T,
+            theta=forward.theta @ convention.angles.T,
+            omega=forward.omega @ convention.rates.T,
+            alpha=forward.alpha @ convention.answers.T,
         )
         # Angles of many turns have lost digits; what that changes is rounding too.
         return taken.worst(p) <= max(1.0, float(np.abs(taken.theta).max()))
 
 
-def _readings(engine: Any, m: Mechanism) -> Iterator[_Reading]:
+def _conventions(engine: Any, m: Mechanism) -> Iterator[_Convention]:
     n = m.n
     same: Array = np.eye(n)
     to_absolute: Array = np.eye(n)
     for i, parent in enumerate(m.parents):
         if parent != SUPPORT:
             to_absolute[i] += to_absolute[parent]
-    to_relative: Array = np.asarray(np.linalg.inv(to_absolute))
+    to_relative: Array = np.asarray(np.linalg.inv(to_absolute), dtype=np.float64)
     words = {0: "", 1: "angles", 2: "rates", 4: "accelerations"}
     if n > 1 and any(parent != SUPPORT for parent in m.parents):
         for mask in (7, 1, 2, 4, 3, 5, 6):
             which = " and ".join(words[bit] for bit in (1, 2, 4) if mask & bit)
             for turned, says in (
-                (to_absolute, "are given absolute where its own are relative"),
-                (to_relative, "are given relative where its own are absolute"),
+                (to_absolute, "absolute values are used as relative ones"),
+                (to_relative, "relative values are used as absolute ones"),
             ):
-                words_for = f"{which} {says}"
+                sentence = f"{which}: {says}"
                 a, b, c = (turned if mask & bit else same for bit in (1, 2, 4))
-                yield _Reading("angle-convention", words_for, a, b, c, words_for)
+                yield _Convention("angle-convention", sentence, a, b, c, sentence)
     for mask in (7, 1, 2, 4, 3, 5, 6):
         which = " and ".join(words[bit] for bit in (1, 2, 4) if mask & bit)
         for factor in (DEGREE, 1 / DEGREE):
             a, b, c = (same * (factor if mask & bit else 1.0) for bit in (1, 2, 4))
-            taken = "in radians where degrees are meant" if factor < 1 else "in degrees where radians are meant"
-            yield _Reading("degree-vs-radian", f"{which} are taken {taken}", a, b, c, f"{which} × {factor:.7g}")
+            units = "found radians, expected degrees" if factor < 1 else "found degrees, expected radians"
+            yield _Convention("degree-vs-radian", f"{which}: {units}", a, b, c, f"{which} × {factor:.7g}")
         if mask != 7:
             a, b, c = (same * (-1.0 if mask & bit else 1.0) for bit in (1, 2, 4))
-            yield _Reading("angle-convention", f"{which} have the opposite sign", a, b, c, f"−({which})")
+            yield _Convention("angle-convention", f"{which} have the opposite sign", a, b, c, f"−({which})")
     for order in _orders(engine, m, to_absolute):
         shuffled = same[order]
         for matrix, kind in ((to_absolute @ shuffled @ to_relative, "relative "), (shuffled, "")):
-            numbers = [i + 1 for i in order]
-            yield _Reading(
+            numbers, expected = [i + 1 for i in order], list(range(1, n + 1))
+            yield _Convention(
                 "joint-order",
-                f"its {kind}joint coordinates come in the order {numbers}",
+                f"order of its {kind}joint coordinates: found {numbers}, expected {expected}",
                 matrix,
                 matrix,
                 matrix,
@@ -105,22 +106,22 @@ def _readings(engine: Any, m: Mechanism) -> Iterator[_Reading]:
 
 
 def _orders(engine: Any, m: Mechanism, to_absolute: Array) -> Iterator[list[int]]:
-    """Orders in which the coordinates may come instead: the one that the mass matrix shows, and those readers make."""
+    """Orders of the coordinates to try: the one that the mass matrix shows, and those that readers make."""
     n = m.n
     if n < 2:
         return
     seen = {tuple(range(n))}
-    shown = _order_shown(engine, m, to_absolute)
+    shown = _order_in_mass_matrix(engine, m, to_absolute)
     for order in [*([shown] if shown else []), *_usual_orders(m)]:
-        # As a permutation and as its inverse: which of the two an adapter means is not ours to know.
+        # As a permutation and as its inverse: an adapter may mean either.
         for way in (order, list(np.argsort(order))):
             if tuple(way) not in seen:
                 seen.add(tuple(way))
                 yield [int(i) for i in way]
 
 
-def _order_shown(engine: Any, m: Mechanism, to_absolute: Array) -> list[int] | None:
-    """With all relative angles zero, exchanged coordinates only exchange the mass matrix's rows and columns."""
+def _order_in_mass_matrix(engine: Any, m: Mechanism, to_absolute: Array) -> list[int] | None:
+    """The order shown by the mass matrix at relative angles zero, of which it exchanges rows and columns only."""
     if not has_inverse_dynamics(engine):
         return None
     n = m.n
@@ -166,12 +167,12 @@ def _depth_first(m: Mechanism) -> list[int]:
     return order
 
 
-def _counted_from_elsewhere(engine: Any, m: Mechanism, p: Parameters, forward: Measurement, who: str) -> list[Finding]:
-    """Angles counted from up, or from level, in either sense."""
+def _other_zero_angle(engine: Any, m: Mechanism, p: Parameters, forward: Measurement, who: str) -> list[Finding]:
+    """Angles counted from the upward vertical or from the horizontal, in either sense."""
     turned = replace(forward, theta=-forward.theta, omega=-forward.omega, alpha=-forward.alpha)
     for view, sense in ((forward, ""), (turned, " and clockwise")):
-        for offset, words in ((math.pi, "upwards"), (math.pi / 2, "level, to +x"), (-math.pi / 2, "level, to −x")):
+        for offset, words in ((math.pi, "the upward vertical"), (math.pi / 2, "+x"), (-math.pi / 2, "−x")):
             if replace(view, theta=view.theta + offset).worst(p) <= 1:
-                says = f"{who}: its angles are counted from {words}{sense}"
+                says = f"{who}: its angles are counted from {words}{sense}, expected from the downward vertical"
                 return [Finding("angle-convention", who, offset, 0.0, says)]
     return []

@@ -1,4 +1,4 @@
-"""Two mechanisms in the same frames, number by number: what differs, and the cause that the pattern shows."""
+"""Two mechanisms in the same frames, number by number: the differences, and the cause that their pattern shows."""
 
 from __future__ import annotations
 
@@ -9,26 +9,32 @@ import numpy as np
 
 from ..models import Link
 from ..models.mechanism import Mechanism
-from .finding import Finding, amount, degrees_for_radians, joint, link
-from .reader_faults import ALIKE, Suspects, suspect
-from .reader_faults import SAYS as SUSPECTED
+from .finding import Finding, degrees_for_radians, joint_label, link_label, rounded
+from .reader_faults import FAULT_SENTENCES, PATTERN_TOLERANCE, ReaderFaults, matching_fault
 
-SAME = 1e-13  # relative: some hundred roundings
+NUMBER_TOLERANCE = 1e-13  # relative: some hundred roundings
+KNOWN_FACTORS = (
+    (1000.0, "millimetres used as metres"),
+    (0.001, "metres used as millimetres"),
+    (2.0, ""),
+    (0.5, ""),
+)
 
 
 def differences(
-    found: Mechanism, expected: Mechanism, who: str, asked: str = "asked for", suspects: Suspects | None = None
+    found: Mechanism, expected: Mechanism, who: str, expectation: str = "expected", faults: ReaderFaults | None = None
 ) -> list[Finding]:
-    """What ``found`` has otherwise than ``expected``, the most telling cause first.
+    """Differences of ``found`` from ``expected``, the most general cause first.
 
-    ``who`` is what has it (an engine, the file); ``asked``: the words before an expected value.
+    ``who``: what ``found`` belongs to, an engine or the file; ``expectation``: the words before an expected value;
+    ``faults``: what each link would be with known faults of readers.
     """
     findings = list(_structure(found, expected, who))
     if findings:
         return findings
-    findings += _gravity(found, expected, who, asked)
-    findings += _links(found, expected, who, asked, suspects or Suspects())
-    findings += _hinges(found, expected, who, asked)
+    findings += _gravity(found, expected, who, expectation)
+    findings += _links(found, expected, who, expectation, faults or {})
+    findings += _hinges(found, expected, who, expectation)
     return findings
 
 
@@ -36,14 +42,14 @@ def _structure(found: Mechanism, expected: Mechanism, who: str) -> Iterator[Find
     if found.n != expected.n:
         fewer = found.n < expected.n
         names = {hinge.name for hinge in found.hinges}
-        lost = [joint(expected, i) for i, hinge in enumerate(expected.hinges) if hinge.name not in names]
-        lost_words = f"; {', '.join(lost[:5])} missing" if fewer and len(lost) < expected.n else ""
+        missing = [joint_label(expected, i) for i, hinge in enumerate(expected.hinges) if hinge.name not in names]
+        missing_words = f"; missing: {', '.join(missing[:5])}" if fewer and len(missing) < expected.n else ""
         yield Finding(
             "joint-dropped-by-parser" if fewer else "joint-added",
-            lost[0] if fewer and lost else who,
+            missing[0] if fewer and missing else who,
             found.n,
             expected.n,
-            f"{who} has {found.n} hinges, {expected.n} asked for{lost_words}",
+            f"{who}: found {found.n} hinges, expected {expected.n}{missing_words}",
         )
     elif found.parents != expected.parents:
         yield Finding(
@@ -51,34 +57,34 @@ def _structure(found: Mechanism, expected: Mechanism, who: str) -> Iterator[Find
             who,
             str([p + 1 for p in found.parents]),
             str([p + 1 for p in expected.parents]),
-            f"{who}: links hang on {[p + 1 for p in found.parents]}, asked for {[p + 1 for p in expected.parents]} "
-            "(0: the support)",
+            f"{who}: parents of the links: found {[p + 1 for p in found.parents]}, "
+            f"expected {[p + 1 for p in expected.parents]} (0: the world)",
         )
 
 
-def _gravity(found: Mechanism, expected: Mechanism, who: str, asked: str) -> Iterator[Finding]:
+def _gravity(found: Mechanism, expected: Mechanism, who: str, expectation: str) -> Iterator[Finding]:
     got, wanted = np.array(found.gravity), np.array(expected.gravity)
     size, right = float(np.hypot(*got)), float(np.hypot(*wanted))
-    if np.hypot(*(got - wanted)) <= SAME * max(size, right):
+    if np.hypot(*(got - wanted)) <= NUMBER_TOLERANCE * max(size, right):
         return
     whole = math.hypot(*found.gravity_vector)
-    if abs(size - right) <= ALIKE * right and size > 0:
+    if abs(size - right) <= PATTERN_TOLERANCE * right and size > 0:
         turned = math.degrees(math.atan2(got[1], got[0]) - math.atan2(wanted[1], wanted[0]))
         yield Finding(
             "gravity-turned",
             "gravity",
             turned,
             0.0,
-            f"{who}: gravity is turned by {amount(turned)}° in the plane of motion",
+            f"{who}: gravity is rotated by {rounded(turned)}° in the plane of motion",
         )
-    elif abs(whole - right) <= ALIKE * right and size < whole * (1 - ALIKE):
+    elif abs(whole - right) <= PATTERN_TOLERANCE * right and size < whole * (1 - PATTERN_TOLERANCE):
         yield Finding(
             "gravity-turned",
             "gravity",
             size,
             right,
-            f"{who}: gravity leans out of the plane of motion, in which {amount(size)} of {amount(whole)} m/s² remain; "
-            f"{asked} {amount(right)}",
+            f"{who}: gravity is not in the plane of motion: found {rounded(size)} of {rounded(whole)} m/s² in "
+            f"it, {expectation} {rounded(right)} m/s²",
         )
     else:
         yield Finding(
@@ -86,97 +92,109 @@ def _gravity(found: Mechanism, expected: Mechanism, who: str, asked: str) -> Ite
             "gravity",
             size,
             right,
-            f"{who}: gravity is {amount(size)} m/s², {asked} {amount(right)}{_ratio(size, right)}",
+            f"{who}: gravity: found {rounded(size)}, {expectation} {rounded(right)} m/s²{_ratio(size, right)}",
         )
 
 
-def _links(found: Mechanism, expected: Mechanism, who: str, asked: str, suspects: Suspects) -> Iterator[Finding]:
-    stretched = dict(_lengths(found, expected, who, asked))
+def _links(
+    found: Mechanism, expected: Mechanism, who: str, expectation: str, faults: ReaderFaults
+) -> Iterator[Finding]:
+    other_lengths = dict(_lengths(found, expected, who, expectation))
     for i, (got, wanted) in enumerate(zip(found.links, expected.links, strict=True)):
-        if i in stretched:
-            yield stretched[i]
+        if i in other_lengths:
+            yield other_lengths[i]
         reach = max(math.hypot(*wanted.com), math.hypot(*got.com), 1e-300)
-        moved = math.dist(got.com, wanted.com) > SAME * max(reach, *map(abs, wanted.hinge)) and (
+        displaced = math.dist(got.com, wanted.com) > NUMBER_TOLERANCE * max(reach, *map(abs, wanted.hinge)) and (
             got.mass or wanted.mass
         )
-        heavier = abs(got.mass - wanted.mass) > SAME * max(got.mass, wanted.mass)
+        other_mass = abs(got.mass - wanted.mass) > NUMBER_TOLERANCE * max(got.mass, wanted.mass)
         about_hinge = wanted.inertia + wanted.mass * reach**2
-        stiffer = abs(got.inertia - wanted.inertia) > 1e-12 * max(wanted.inertia, got.inertia) + 1e-13 * about_hinge
-        if not (moved or heavier or stiffer):
+        other_inertia = (
+            abs(got.inertia - wanted.inertia) > 1e-12 * max(wanted.inertia, got.inertia) + 1e-13 * about_hinge
+        )
+        if not (displaced or other_mass or other_inertia):
             continue
-        name = link(expected, i)
-        cause = suspect(i, got, suspects)
+        name = link_label(expected, i)
+        cause = matching_fault(i, got, faults)
         if cause is not None:
-            yield Finding(cause, name, _inertial(got), _inertial(wanted), f"{who}: {name}: {SUSPECTED[cause]}")
+            yield Finding(cause, name, _inertial(got), _inertial(wanted), f"{who}: {name}: {FAULT_SENTENCES[cause]}")
         ratio = got.mass / wanted.mass if wanted.mass else math.inf
-        if heavier:
+        if other_mass:
             extra = _ratio(got.mass, wanted.mass)
             yield Finding(
                 "mass",
                 name,
                 got.mass,
                 wanted.mass,
-                f"{who}: mass of {name} is {amount(got.mass)}, {asked} {amount(wanted.mass)} kg{extra}",
+                f"{who}: mass of {name}: found {rounded(got.mass)}, {expectation} {rounded(wanted.mass)} kg{extra}",
             )
-        scaled_along = heavier and wanted.inertia and abs(got.inertia / wanted.inertia / ratio - 1) < ALIKE
-        if moved and i not in stretched:
-            yield _moved(
-                name, got.com, wanted.com, who, asked, wanted.inertia == 0 and not any(p == i for p in expected.parents)
+        scaled_along = (
+            other_mass and wanted.inertia and abs(got.inertia / wanted.inertia / ratio - 1) < PATTERN_TOLERANCE
+        )
+        if displaced and i not in other_lengths:
+            yield _displaced(
+                name,
+                got.com,
+                wanted.com,
+                who,
+                expectation,
+                wanted.inertia == 0 and not any(p == i for p in expected.parents),
             )
-        if stiffer and not scaled_along and i not in stretched:
-            yield _stiffer(name, got.inertia, wanted.inertia, who, asked)
+        if other_inertia and not scaled_along and i not in other_lengths:
+            yield _inertia(name, got.inertia, wanted.inertia, who, expectation)
 
 
-def _lengths(found: Mechanism, expected: Mechanism, who: str, asked: str) -> Iterator[tuple[int, Finding]]:
-    """Links on which the hinges of those that they carry are elsewhere."""
+def _lengths(found: Mechanism, expected: Mechanism, who: str, expectation: str) -> Iterator[tuple[int, Finding]]:
+    """Links whose children's hinges are at another place."""
     for i in range(expected.n):
-        carried = [c for c in range(expected.n) if expected.links[c].parent == i]
-        for c in carried:
+        children = [c for c in range(expected.n) if expected.links[c].parent == i]
+        for c in children:
             got, wanted = found.links[c].hinge, expected.links[c].hinge
             size, right = math.hypot(*got), math.hypot(*wanted)
-            if math.dist(got, wanted) > SAME * max(size, right, math.hypot(*expected.links[i].com)):
-                turned = abs(size - right) <= ALIKE * right
-                name, other = link(expected, i), joint(expected, c)
-                says = f"{who}: length of {name} to {other} is {amount(size)}, {asked} {amount(right)} m"
+            if math.dist(got, wanted) > NUMBER_TOLERANCE * max(size, right, math.hypot(*expected.links[i].com)):
+                turned = abs(size - right) <= PATTERN_TOLERANCE * right
+                name, other = link_label(expected, i), joint_label(expected, c)
+                says = f"{who}: length of {name} to {other}: found {rounded(size)}, {expectation} {rounded(right)} m"
+                says += _ratio(size, right)
                 if turned:
                     off = math.degrees(math.atan2(got[1], got[0]) - math.atan2(wanted[1], wanted[0]))
-                    says = f"{who}: {other} is at the right distance on {name}, turned by {amount(off)}°"
-                yield i, Finding("length", name, size, right, says + _ratio(size, right))
+                    says = f"{who}: {other} is at the expected distance on {name}, but rotated by {rounded(off)}°"
+                yield i, Finding("length", name, size, right, says)
                 break
 
 
-def _moved(
-    name: str, got: tuple[float, float], wanted: tuple[float, float], who: str, asked: str, bob: bool
+def _displaced(
+    name: str, got: tuple[float, float], wanted: tuple[float, float], who: str, expectation: str, bob: bool
 ) -> Finding:
     size, right = math.hypot(*got), math.hypot(*wanted)
-    same_distance = right > 0 and abs(size / right - 1) < ALIKE
-    in_line = abs(got[0] * wanted[1] - got[1] * wanted[0]) <= ALIKE * size * right and size > 0 and right > 0
+    same_distance = right > 0 and abs(size / right - 1) < PATTERN_TOLERANCE
+    in_line = (
+        abs(got[0] * wanted[1] - got[1] * wanted[0]) <= PATTERN_TOLERANCE * size * right and size > 0 and right > 0
+    )
     if same_distance:
         off = math.degrees(math.atan2(got[1], got[0]) - math.atan2(wanted[1], wanted[0]))
-        says = f"{who}: centre of mass of {name} is turned by {amount(off)}° about the hinge"
+        says = f"{who}: centre of mass of {name} is rotated by {rounded(off)}° about the hinge"
         return Finding("inertial-com-rotated", name, str(got), str(wanted), says)
     if bob and in_line:  # the length of a point mass's rod is its distance
-        says = f"{who}: length of {name} (hinge to point mass) is {amount(size)}, {asked} {amount(right)} m"
+        says = f"{who}: length of {name} (hinge to point mass): found {rounded(size)}, {expectation} {rounded(right)} m"
         says += _ratio(size, right)
         return Finding("length", name, size, right, says)
-    says = f"{who}: centre of mass of {name} is at {_point(got)} m, {asked} {_point(wanted)} m (along, across)"
+    says = f"{who}: centre of mass of {name} (along, across): found {_point(got)}, {expectation} {_point(wanted)} m"
     return Finding("com-displaced", name, str(got), str(wanted), says)
 
 
-def _stiffer(name: str, got: float, wanted: float, who: str, asked: str) -> Finding:
+def _inertia(name: str, got: float, wanted: float, who: str, expectation: str) -> Finding:
     if wanted == 0:
-        says = (
-            f"{who}: {name} has an inertia of {amount(got)} kg m² about its centre of mass, a point mass was asked for"
-        )
+        says = f"{who}: inertia of {name} about its centre of mass: found {rounded(got)} kg m², expected a point mass"
         return Finding("point-mass-patched", name, got, wanted, says)
-    says = f"{who}: inertia of {name} about the hinge axis is {amount(got)}, {asked} {amount(wanted)} kg m²"
-    says += _ratio(got, wanted)
+    says = f"{who}: inertia of {name} about its centre of mass: found {rounded(got)}, "
+    says += f"{expectation} {rounded(wanted)} kg m²{_ratio(got, wanted)}"
     return Finding("inertia", name, got, wanted, says)
 
 
-def _hinges(found: Mechanism, expected: Mechanism, who: str, asked: str) -> Iterator[Finding]:
+def _hinges(found: Mechanism, expected: Mechanism, who: str, expectation: str) -> Iterator[Finding]:
     for i, (got, wanted) in enumerate(zip(found.hinges, expected.hinges, strict=True)):
-        name = joint(expected, i)
+        name = joint_label(expected, i)
         rows = (
             ("armature", "armature", got.armature, wanted.armature, "kg m²"),
             ("damping", "damping", got.damping, wanted.damping, "N m s"),
@@ -184,7 +202,7 @@ def _hinges(found: Mechanism, expected: Mechanism, who: str, asked: str) -> Iter
             ("stiffness", "stiffness", got.stiffness, wanted.stiffness, "N m/rad"),
         )
         for cause, word, value, right, unit in rows:
-            if abs(value - right) > SAME * max(value, right):
+            if abs(value - right) > NUMBER_TOLERANCE * max(value, right):
                 if degrees_for_radians(value / right if right else 0.0):
                     yield _degrees(name, word, value, right, who)
                 ignored = {
@@ -193,42 +211,48 @@ def _hinges(found: Mechanism, expected: Mechanism, who: str, asked: str) -> Iter
                     "stiffness": "stiffness-ignored",
                 }
                 code = ignored.get(cause, cause) if value == 0 else cause
-                theirs = f"{asked} {amount(right)}" if right else f"{asked} none"
-                yield Finding(code, name, value, right, f"{who}: {name}: {word} {amount(value)} {unit}, {theirs}")
-        if got.stiffness and wanted.stiffness and abs(got.rest - wanted.rest) > SAME * max(1.0, abs(wanted.rest)):
+                theirs = f"{expectation} {rounded(right)} {unit}" if right else f"{expectation} none"
+                yield Finding(
+                    code, name, value, right, f"{who}: {name}: {word}: found {rounded(value)} {unit}, {theirs}"
+                )
+        if (
+            got.stiffness
+            and wanted.stiffness
+            and abs(got.rest - wanted.rest) > NUMBER_TOLERANCE * max(1.0, abs(wanted.rest))
+        ):
             if wanted.rest and degrees_for_radians(got.rest / wanted.rest):
-                yield _degrees(name, "spring reference", got.rest, wanted.rest, who)
-            says = f"{who}: {name}: its spring rests at {amount(got.rest)} rad, {asked} {amount(wanted.rest)}"
+                yield _degrees(name, "rest angle of the spring", got.rest, wanted.rest, who)
+            says = f"{who}: {name}: rest angle of the spring: found {rounded(got.rest)}, "
+            says += f"{expectation} {rounded(wanted.rest)} rad"
             yield Finding("spring-reference", name, got.rest, wanted.rest, says)
-        if got.stops != wanted.stops and not _alike(got.stops, wanted.stops):
-            yield from _stops(name, got.stops, wanted.stops, who, asked)
+        if got.stops != wanted.stops and not _same_limits(got.stops, wanted.stops):
+            yield from _limits(name, got.stops, wanted.stops, who, expectation)
 
 
-def _stops(
-    name: str, got: tuple[float, float] | None, wanted: tuple[float, float] | None, who: str, asked: str
+def _limits(
+    name: str, got: tuple[float, float] | None, wanted: tuple[float, float] | None, who: str, expectation: str
 ) -> Iterator[Finding]:
     if got and wanted:
         ratios = [a / b for a, b in zip(got, wanted, strict=True) if b]
         if ratios and all(map(degrees_for_radians, ratios)):
             yield _degrees(name, "limit", got[1], wanted[1], who)
-    says = f"{who}: {name} stops at {_stop(got)}; {asked} {_stop(wanted)}"
-    yield Finding("joint-limit", name, _stop(got), _stop(wanted), says)
+    says = f"{who}: {name}: limits: found {_limit_words(got)}, {expectation} {_limit_words(wanted)}"
+    yield Finding("joint-limit", name, _limit_words(got), _limit_words(wanted), says)
 
 
-def _alike(a: tuple[float, float] | None, b: tuple[float, float] | None) -> bool:
+def _same_limits(a: tuple[float, float] | None, b: tuple[float, float] | None) -> bool:
     return (
         a is not None and b is not None and all(abs(x - y) <= 1e-12 * max(1, abs(y)) for x, y in zip(a, b, strict=True))
     )
 
 
-def _stop(stops: tuple[float, float] | None) -> str:
-    return f"{stops[0]:.6g} and {stops[1]:.6g} rad" if stops else "nothing"
+def _limit_words(limits: tuple[float, float] | None) -> str:
+    return f"{limits[0]:.6g} and {limits[1]:.6g} rad" if limits else "no limits"
 
 
 def _degrees(name: str, word: str, got: float, wanted: float, who: str) -> Finding:
-    says = (
-        f"{who}: {name}: {word} is {amount(got)} where {amount(wanted)} is due: a factor of 180/π, degrees for radians"
-    )
+    factor = "a factor of 180/π, degrees and radians are mixed up"
+    says = f"{who}: {name}: {word}: found {rounded(got)}, expected {rounded(wanted)} ({factor})"
     return Finding("degree-vs-radian", name, got, wanted, says)
 
 
@@ -237,7 +261,7 @@ def _inertial(found: Link) -> str:
 
 
 def _point(p: tuple[float, float]) -> str:
-    return f"({amount(p[0])}, {amount(p[1])})"
+    return f"({rounded(p[0])}, {rounded(p[1])})"
 
 
 def _ratio(got: float, wanted: float) -> str:
@@ -245,8 +269,8 @@ def _ratio(got: float, wanted: float) -> str:
         return ""
     ratio = got / wanted
     if degrees_for_radians(ratio):
-        return "; the factor is 180/π: degrees for radians"
-    for factor, words in ((1000.0, "metres for millimetres"), (0.001, "millimetres for metres"), (2.0, ""), (0.5, "")):
+        return " (a factor of 180/π: degrees and radians are mixed up)"
+    for factor, words in KNOWN_FACTORS:
         if abs(ratio / factor - 1) < 1e-9:
             return f" (a factor of {factor:g}{', ' + words if words else ''})"
     return f" (a factor of {ratio:.12g})"

@@ -1,9 +1,9 @@
-"""Why an engine's run is not what its integrator makes of the theory, where its accelerations are.
+"""Why an engine's trajectory is not what its integrator gives for the theory, while its accelerations agree.
 
-One or two steps from a few states are enough: they are held against textbook schemes applied to the theory, as they
-are, a step late, with damping treated implicitly, or with something taken from the rates on the way. A run with a step
-far too large shows whether the engine owns up to instability. Whatever fits a scheme of the order that the engine's
-makers give is the same mechanism, and two such runs part by chaos only.
+One or two steps from a few states are enough: they are compared with textbook schemes applied to the theory, as they
+are, one step late, with damping treated implicitly, or with additional damping of the rates. A run with a step far too
+large shows whether the engine reports instability. A step that agrees with a scheme of the order that the engine's
+authors give is that of the same mechanism; two such runs diverge by chaos only.
 """
 
 from __future__ import annotations
@@ -21,19 +21,22 @@ from ..reference import planar_tree as planar
 from ..reference.integration.schemes import SCHEMES, Scheme
 from ..reference.planar_tree import Parameters
 from ..reference.rounding.bounds import EPSILON
-from .explain import mechanism_from
+from .compiled import mechanism_from
 from .finding import Finding
 from .measurement import Array, Measurement, probe_states
 
-LOOKED_AT = 4  # states
-STEP = 0.06  # over the fastest rate
-MARGIN = 30.0  # stages and iterations of a scheme, each with the rounding of an acceleration
-NARROW = 2.0**-24
+STATE_COUNT = 4
+RELATIVE_STEP = 0.06  # times the fastest rate
+ROUNDING_MARGIN = 30.0  # stages and iterations of a scheme, each with the rounding of an acceleration
+EPSILON_SINGLE = 2.0**-24
 
 
 @dataclass(frozen=True)
 class _Runs:
-    """States at the start and after one and two steps, (2, S, n) each; and how much rounding may move a step's end."""
+    """States at the start, after one and after two steps of ``step`` [s], and what rounding may change in a step.
+
+    (2, S, n) each: angles [rad], then rates [rad/s].
+    """
 
     step: float
     start: Array
@@ -43,16 +46,17 @@ class _Runs:
 
 
 def explain_motion(
-    engine: Any, expected: Any, integrator: Integrator, *, who: str = "the engine", parted: bool = False
+    engine: Any, expected: Any, integrator: Integrator, *, who: str = "the engine", diverged: bool = False
 ) -> list[Finding]:
     """Why runs with ``integrator`` do not follow ``expected``, given that the accelerations do.
 
-    ``engine``: with ``trajectory(theta, omega, integrator, step, steps)``. ``parted``: two long runs were seen to part;
-    if nothing is wrong the finding is then ``chaos-only``, otherwise there is none.
+    ``engine``: with ``trajectory(theta, omega, integrator, step, steps)`` → (θ, ω), (n,) each, absolute angles [rad];
+    ``expected``: a system, a planar tree or a mechanism; ``who``: the engine's name in messages. ``diverged``: two long
+    runs were seen to diverge; if nothing is wrong the finding is then ``chaos-only``, otherwise there is none.
     """
     mechanism = mechanism_from(expected)
     p = planar.parameters(mechanism)
-    reset = _reset(engine, mechanism, integrator, who)
+    reset = _silent_reset(engine, mechanism, integrator, who)
     if reset:
         return reset
     runs = _run(engine, mechanism, p, integrator)
@@ -62,10 +66,10 @@ def explain_motion(
     def accelerations(theta: Any, omega: Any) -> Any:
         return planar.accelerations(mechanism.parents, p, theta, omega)
 
-    fitting = _fitting(runs, accelerations, integrator.order)
-    if fitting is not None:
-        return _scheme(fitting, integrator, who, parted)
-    return _not_a_scheme(engine, mechanism, p, runs, accelerations, integrator, who, parted)
+    scheme = _matching_scheme(runs, accelerations, integrator.order)
+    if scheme is not None:
+        return _of_scheme(scheme, integrator, who, diverged)
+    return _not_a_scheme(engine, mechanism, p, runs, accelerations, integrator, who, diverged)
 
 
 def _not_a_scheme(
@@ -76,47 +80,47 @@ def _not_a_scheme(
     accelerations: Any,
     integrator: Integrator,
     who: str,
-    parted: bool,
+    diverged: bool,
 ) -> list[Finding]:
-    """Why a step is none of the textbook schemes'."""
-    for hypothesis in (_late, _implicit_damping, _hidden_damping, _narrow):
+    """Why a step is not that of a textbook scheme."""
+    for hypothesis in (_late, _implicit_damping, _hidden_damping, _single_precision):
         found = list(hypothesis(runs, accelerations, mechanism, p, integrator, who))
         if found:
             return found
     if _converges(engine, mechanism, accelerations, runs, integrator):
-        return [_chaos(integrator, "its steps converge to the theory's motion", who)] if parted else []
+        return [_chaos(integrator, "its steps converge to the theory's motion", who)] if diverged else []
     found = list(_dissipation(runs, accelerations, mechanism, p, integrator, who))
     if found:
         return found
-    miss, scheme = min(((_miss(runs, s, accelerations), s.name) for s in SCHEMES), key=lambda pair: pair[0])
+    distance, scheme = min(((_distance(runs, s, accelerations), s.name) for s in SCHEMES), key=lambda pair: pair[0])
     says = (
-        f"{who}: {integrator.name}: a step is no textbook scheme's; nearest is {scheme}, {miss:.3g} times what "
-        "rounding explains"
+        f"{who}: {integrator.name}: a step is not that of a textbook scheme; the nearest is {scheme}, at "
+        f"{distance:.3g} times the tolerance"
     )
-    return [Finding("unexplained", f"{who}, {integrator.name}", miss, 1.0, says)]
+    return [Finding("unexplained", f"{who}, {integrator.name}", distance, 1.0, says)]
 
 
 def _run(engine: Any, m: Mechanism, p: Parameters, integrator: Integrator) -> _Runs:
-    theta, omega = (values[:LOOKED_AT] for values in probe_states(m, 8, seed=11))
+    theta, omega = (values[:STATE_COUNT] for values in probe_states(m, 8, seed=11))
     alpha = planar.accelerations(m.parents, p, theta, omega)
     fastest = max(float(np.abs(omega).max()), math.sqrt(float(np.abs(alpha).max())), 1e-3)
-    step = 2.0 ** round(math.log2(STEP / fastest))
+    step = 2.0 ** round(math.log2(RELATIVE_STEP / fastest))
     ends = []
     for steps in (1, 2):
         rows = [engine.trajectory(t, w, integrator.name, step, steps) for t, w in zip(theta, omega, strict=True)]
         ends.append(np.array(rows).swapaxes(0, 1))
     rounding = _acceleration_error(m, p, theta, omega, alpha)
     iterations = 1e-11 * step * np.abs(alpha).max(axis=1, keepdims=True)  # where an implicit scheme stops
-    rates = MARGIN * step * rounding + iterations + 64 * EPSILON * np.abs(omega)
+    rates = ROUNDING_MARGIN * step * rounding + iterations + 64 * EPSILON * np.abs(omega)
     bound = np.stack([step * rates + 64 * EPSILON * np.abs(theta), rates])
     return _Runs(step, np.stack([theta, omega]), ends[0], ends[1], bound)
 
 
 def _acceleration_error(m: Mechanism, p: Parameters, theta: Array, omega: Array, alpha: Array) -> Array:
-    """What rounding in an engine leaves of an acceleration, (S, n)."""
+    """The error of an engine's accelerations by rounding [rad/s²], (S, n)."""
     zero = np.zeros_like(theta)
     one = Measurement(m.parents, theta, omega, alpha, zero, np.ones(len(theta), dtype=bool))
-    scale = one.scale(p)
+    scale = one.tolerances(p)
     inverse = np.linalg.inv(planar.mass_matrix(m.parents, p, theta))
     spread = scale.copy()
     for i, parent in enumerate(m.parents):
@@ -125,46 +129,47 @@ def _acceleration_error(m: Mechanism, p: Parameters, theta: Array, omega: Array,
     return np.asarray((np.abs(inverse) @ spread[..., None])[..., 0])
 
 
-def _fitting(runs: _Runs, accelerations: Any, order: int) -> Scheme | None:
-    """The scheme whose step it is; of several alike in this step one of the expected order."""
-    found = [(s.order < order, miss, s) for s in SCHEMES if (miss := _miss(runs, s, accelerations)) <= 1]
+def _matching_scheme(runs: _Runs, accelerations: Any, order: int) -> Scheme | None:
+    """The scheme whose step it is; of several with the same step, one of the expected order."""
+    found = [(s.order < order, distance, s) for s in SCHEMES if (distance := _distance(runs, s, accelerations)) <= 1]
     return min(found, key=lambda found: found[:2])[2] if found else None
 
 
-def _miss(runs: _Runs, scheme: Scheme, accelerations: Any, end: Array | None = None) -> float:
-    """How far the engine's first step (or ``end``) is from the scheme's, in units of what rounding explains."""
+def _distance(runs: _Runs, scheme: Scheme, accelerations: Any) -> float:
+    """The largest difference of the engine's first step from the scheme's, over its tolerance."""
     with np.errstate(all="ignore"):
         try:
             made = np.stack(scheme.step(accelerations, runs.start[0], runs.start[1], runs.step))
         except (ArithmeticError, RuntimeError):
             return math.inf
-        off = np.abs((runs.once if end is None else end) - made.astype(np.float64))
+        off = np.abs(runs.once - made.astype(np.float64))
     worst = float(np.max(off / runs.bound))
     return worst if math.isfinite(worst) else math.inf
 
 
-def _scheme(scheme: Scheme, integrator: Integrator, who: str, parted: bool) -> list[Finding]:
+def _of_scheme(scheme: Scheme, integrator: Integrator, who: str, diverged: bool) -> list[Finding]:
     where = f"{who}, {integrator.name}"
     if scheme.order < integrator.order:
-        says = f"{who}: {integrator.name}: its step is {scheme.name}, of order {scheme.order}, not {integrator.order}"
+        orders = f"found order {scheme.order}, expected {integrator.order}"
+        says = f"{who}: {integrator.name}: its step is {scheme.name}: {orders}"
         return [Finding("first-order-integrator", where, scheme.order, integrator.order, says)]
-    if not parted:
+    if not diverged:
         return []
-    return [_chaos(integrator, f"its step is {scheme.name} to rounding", who)]
+    return [_chaos(integrator, f"its step is that of {scheme.name}, to rounding", who)]
 
 
 def _chaos(integrator: Integrator, shown: str, who: str) -> Finding:
     says = (
-        f"{who}: {integrator.name}: accelerations agree and {shown}: the same mechanism; what neighbouring runs part "
-        "by is the motion's own growth of small errors"
+        f"{who}: {integrator.name}: accelerations agree and {shown}: the same mechanism; neighbouring runs diverge "
+        "by the motion's own growth of small errors"
     )
     return Finding("chaos-only", f"{who}, {integrator.name}", None, None, says)
 
 
 def _converges(engine: Any, m: Mechanism, accelerations: Any, runs: _Runs, integrator: Integrator) -> bool:
-    """Whether what a run over a fixed time misses falls with the step as the scheme's order has it.
+    """Whether the error of a run over a fixed time falls with the step as the scheme's order says.
 
-    For schemes in other coordinates, whose step is none of the textbook's in these.
+    For schemes in other coordinates, whose step is not a textbook scheme's in these.
     """
     theta, omega = runs.start
     finest = max(SCHEMES, key=lambda s: s.order)
@@ -183,21 +188,21 @@ def _converges(engine: Any, m: Mechanism, accelerations: Any, runs: _Runs, integ
 def _late(
     runs: _Runs, accelerations: Any, m: Mechanism, p: Parameters, integrator: Integrator, who: str
 ) -> Iterator[Finding]:
-    """After one step the start, or part of it; after two steps what one should have given."""
+    """After one step the state at the start, or part of it; after two steps what one step should give."""
     stayed = np.abs(runs.once - runs.start) <= runs.bound
     parts = [name for name, part in zip(("angles", "rates"), stayed, strict=True) if part.all()]
     if not parts:
         return
-    second = [s for s in SCHEMES if _late_miss(runs, s, accelerations, parts) <= 1]
+    second = [s for s in SCHEMES if _late_distance(runs, s, accelerations, parts) <= 1]
     if second:
         says = (
-            f"{who}: {integrator.name}: {' and '.join(parts)} come one step late: after two steps they are what "
+            f"{who}: {integrator.name}: {' and '.join(parts)} are one step late: after two steps they are what "
             f"{second[0].name} gives after one"
         )
         yield Finding("stale-derived-state", f"{who}, {integrator.name}", -1.0, 0.0, says)
 
 
-def _late_miss(runs: _Runs, scheme: Scheme, accelerations: Any, parts: list[str]) -> float:
+def _late_distance(runs: _Runs, scheme: Scheme, accelerations: Any, parts: list[str]) -> float:
     made = np.stack(scheme.step(accelerations, runs.start[0], runs.start[1], runs.step)).astype(np.float64)
     rows = [row for row, name in enumerate(("angles", "rates")) if name in parts]
     return float(np.max((np.abs(runs.twice - made) / runs.bound)[rows]))
@@ -224,8 +229,8 @@ def _implicit_damping(
     ends = np.stack([theta + runs.step * rates, rates])
     if float(np.max(np.abs(runs.once - ends) / runs.bound)) <= 1:
         says = (
-            f"{who}: {integrator.name}: its step is semi-implicit Euler with the damping taken at the step's end, "
-            "(M + h D)⁻¹; it vanishes with the step"
+            f"{who}: {integrator.name}: its step is semi-implicit Euler with damping at the end of the step, "
+            "(M + h D)⁻¹; the difference vanishes with the step"
         )
         yield Finding("implicit-damping", f"{who}, {integrator.name}", runs.step, 0.0, says)
 
@@ -233,7 +238,7 @@ def _implicit_damping(
 def _hidden_damping(
     runs: _Runs, accelerations: Any, m: Mechanism, p: Parameters, integrator: Integrator, who: str
 ) -> Iterator[Finding]:
-    """Rates that every step makes less by the same share, or each hinge's relative rate by a torque."""
+    """Every step reduces all rates by the same share, or each hinge's relative rate by a torque."""
     where = f"{who}, {integrator.name}"
     theta, omega = runs.start
     for scheme in (s for s in SCHEMES if s.order >= integrator.order):
@@ -248,7 +253,7 @@ def _hidden_damping(
         if float(np.quantile(np.abs(share - middle), 0.9)) <= 0.1 * abs(middle) and middle < 0:
             rate = -middle
             says = (
-                f"{who}: {integrator.name}: rates are damped by {rate:.4g} of themselves a second, which accelerations "
+                f"{who}: {integrator.name}: rates are damped by {rate:.4g} 1/s in each step, which accelerations "
                 "do not show"
             )
             yield Finding("damping", where, rate, 0.0, says)
@@ -272,19 +277,19 @@ def _hidden_damping(
             return
 
 
-def _narrow(
+def _single_precision(
     runs: _Runs, accelerations: Any, m: Mechanism, p: Parameters, integrator: Integrator, who: str
 ) -> Iterator[Finding]:
-    """States that are numbers of 24 bits."""
+    """The states are numbers of 24 bits."""
     if (runs.once == runs.once.astype(np.float32)).all():
         says = f"{who}: {integrator.name}: its states are numbers of 24 bits: single precision"
-        yield Finding("float32", f"{who}, {integrator.name}", NARROW, EPSILON / 2, says)
+        yield Finding("float32", f"{who}, {integrator.name}", EPSILON_SINGLE, EPSILON / 2, says)
 
 
 def _dissipation(
     runs: _Runs, accelerations: Any, m: Mechanism, p: Parameters, integrator: Integrator, who: str
 ) -> Iterator[Finding]:
-    """Energy goes, far more than the scheme loses, and not with the rates alone."""
+    """Far more energy is lost than by the scheme, and not in proportion to the rates alone."""
     theta, omega = runs.start
     scheme = next(s for s in SCHEMES if s.order >= integrator.order)
     made = np.stack(scheme.step(accelerations, theta, omega, runs.step)).astype(np.float64)
@@ -295,8 +300,8 @@ def _dissipation(
     loss = (change - due) / size
     if (loss < -1e3 * EPSILON).all():
         says = (
-            f"{who}: {integrator.name}: accelerations agree, yet a step of {runs.step:g} s loses "
-            f"{float(-np.median(loss)):.3g} of the kinetic energy: what keeps the constraints takes it"
+            f"{who}: {integrator.name}: accelerations agree, but a step of {runs.step:g} s loses "
+            f"{float(-np.median(loss)):.3g} of the kinetic energy, where constraints are enforced"
         )
         yield Finding("constraint-dissipation", f"{who}, {integrator.name}", float(np.median(loss)), 0.0, says)
 
@@ -322,8 +327,8 @@ def _kinetic(m: Mechanism, p: Parameters, theta: Array, omega: Array) -> Array:
     return np.asarray(np.einsum("si,sij,sj->s", omega, planar.mass_matrix(m.parents, p, theta), omega) / 2)
 
 
-def _reset(engine: Any, m: Mechanism, integrator: Integrator, who: str) -> list[Finding]:
-    """With a step far too large two different starts must not end alike, at rest where the model starts."""
+def _silent_reset(engine: Any, m: Mechanism, integrator: Integrator, who: str) -> list[Finding]:
+    """A reset after an instability: with a step far too large, different starts end in the same state."""
     theta, omega = (values[:2] for values in probe_states(m, 4, seed=17))
     alpha = planar.accelerations(m.parents, planar.parameters(m), theta, omega)
     period = 1.0 / max(math.sqrt(float(np.abs(alpha).max())), 1e-3)
@@ -339,8 +344,8 @@ def _reset(engine: Any, m: Mechanism, integrator: Integrator, who: str) -> list[
                 return []
         if all(np.isfinite(end).all() for end in ends) and (ends[0] == ends[1]).all():
             says = (
-                f"{who}: {integrator.name}: after {steps} steps of {step:.3g} s, far too long, two different starts are"
-                " in the very same state: the engine has put itself back and says nothing"
+                f"{who}: {integrator.name}: after {steps} steps of {step:.3g} s, far too long, two different starts end"
+                " in the same state: the engine resets the state and does not report it"
             )
             return [Finding("silent-reset", f"{who}, {integrator.name}", steps, None, says)]
     return []

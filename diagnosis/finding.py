@@ -10,50 +10,50 @@ from ..models.mechanism import Mechanism
 
 CAUSES: dict[str, str] = {
     "armature": "a rotor's inertia on the hinge, which resists the relative acceleration",
-    "damping": "a torque against the hinge's relative rate",
-    "damping-ignored": "the model says damping and the engine's equations of motion have none",
-    "dry-friction": "a torque of constant size against the hinge's relative rate",
-    "friction-ignored": "the model says dry friction and the engine's equations of motion have none",
+    "damping": "a torque proportional to the hinge's relative rate, and against it",
+    "damping-ignored": "the model has damping, the engine's equations of motion have none",
+    "dry-friction": "a torque of constant magnitude against the hinge's relative rate",
+    "friction-ignored": "the model has dry friction, the engine's equations of motion have none",
     "stiffness": "a spring on the hinge",
-    "stiffness-ignored": "the model says a spring and the engine's equations of motion have none",
-    "spring-reference": "a spring that rests at another angle",
-    "joint-limit": "a hinge that stops",
-    "mass": "a mass of another value",
-    "length": "a length of another value",
-    "inertia": "an inertia of another value",
-    "gravity": "gravity of another strength",
-    "gravity-turned": "gravity in another direction",
-    "com-displaced": "a centre of mass elsewhere",
-    "inertial-com-rotated": "a centre of mass turned along with the inertia tensor's axes",
-    "urdf-inertial-rpy-lost": "an inertia tensor whose rotation was dropped",
-    "fused-static-frame": "bodies fixed together, fused in the wrong frame",
-    "inertia-from-geoms": "mass and inertia taken from the geoms, not from the inertial",
-    "inertial-ignored": "inertials passed over for default ones",
-    "point-mass-patched": "a point mass that was given an inertia",
-    "inertia-rejected": "an inertial that the engine refuses",
-    "degree-vs-radian": "degrees taken for radians, or radians for degrees",
-    "angle-convention": "relative angles taken for absolute ones, or angles counted from elsewhere or the other way",
-    "joint-order": "the coordinates of joints exchanged",
-    "joint-dropped-by-parser": "a joint that the engine does not have",
-    "joint-added": "a joint that is not asked for",
-    "continuous-joint-not-normalised": "a joint's (cos, sin) pair that is not of length one",
-    "colliding-geoms": "geoms that touch and push",
+    "stiffness-ignored": "the model has a spring, the engine's equations of motion have none",
+    "spring-reference": "a spring at rest at another angle",
+    "joint-limit": "another range of a joint, or a limit where none is expected",
+    "mass": "another mass",
+    "length": "another length",
+    "inertia": "another inertia",
+    "gravity": "another strength of gravity",
+    "gravity-turned": "another direction of gravity",
+    "com-displaced": "another centre of mass",
+    "inertial-com-rotated": "the centre of mass is rotated together with the axes of the inertia tensor",
+    "urdf-inertial-rpy-lost": "the rotation of the inertia tensor is ignored",
+    "fused-static-frame": "bodies that are fixed to each other are merged in the wrong frame",
+    "inertia-from-geoms": "mass and inertia come from the geoms, not from the inertial",
+    "inertial-ignored": "the inertial is ignored and default values are used",
+    "point-mass-patched": "a point mass has been given an inertia",
+    "inertia-rejected": "the engine refuses an inertial",
+    "degree-vs-radian": "degrees are used as radians, or radians as degrees",
+    "angle-convention": "relative angles are used as absolute ones, or angles have another zero or another sign",
+    "joint-order": "the joints' coordinates are in another order",
+    "joint-dropped-by-parser": "an expected joint is missing",
+    "joint-added": "there is a joint that is not expected",
+    "continuous-joint-not-normalised": "the pair (cos, sin) of a joint is not of length one",
+    "colliding-geoms": "geoms are in contact and push each other",
     "float32": "single precision",
-    "implicit-damping": "a time step that treats damping implicitly",
-    "first-order-integrator": "a time stepping scheme of first order",
-    "constraint-dissipation": "energy that is lost, or lengths that drift, in keeping constraints",
-    "stale-derived-state": "one time step late",
-    "silent-reset": "a state that was put back to the start after instability",
-    "theory-is-wrong": "all engines agree, and the theory alone differs",
+    "implicit-damping": "the time step treats damping implicitly",
+    "first-order-integrator": "the integration scheme is of first order",
+    "constraint-dissipation": "energy is lost, or lengths drift, where constraints are enforced",
+    "stale-derived-state": "results are one time step late",
+    "silent-reset": "the engine resets the state after an instability and does not report it",
+    "theory-is-wrong": "all engines agree with one another and differ from furiko's reading",
     "chaos-only": "the same equations of motion; small errors grow",
-    "unexplained": "none of the known causes fits",
+    "unexplained": "no known cause fits",
 }
 
 
 @dataclass(frozen=True)
 class Finding:
-    """``cause``: a code of :data:`CAUSES`; ``where``: joint, link or engine; ``measured`` and ``expected``: numbers
-    where they are, else words; ``says``: the whole in a sentence."""
+    """``cause``: a code of :data:`CAUSES`; ``where``: joint, link or engine; ``measured`` and ``expected``: numbers in
+    SI units where possible, else words; ``says``: all of it in one sentence."""
 
     cause: str
     where: str
@@ -72,30 +72,25 @@ UNITS = {
     "armature": "kg m²",
     "damping": "N m s",
     "friction": "N m",
-    "stiffness": "N m",
-    "preload": "N m",
-    "rest": "rad",
-    "com": "m",
-    "length": "m",
-    "gravity": "m/s²",
+    "stiffness": "N m/rad",
 }
 
 
-def joint(mechanism: Mechanism, i: int) -> str:
+def joint_label(mechanism: Mechanism, i: int) -> str:
     """A hinge by its number and, where that is not the same, the file's name."""
     name = mechanism.hinges[i].name
     own = name.removeprefix("hinge").lstrip("0") == str(i + 1) or not name
     return f"joint {i + 1}" if own else f"joint {i + 1} ({name!r})"
 
 
-def link(mechanism: Mechanism, i: int) -> str:
+def link_label(mechanism: Mechanism, i: int) -> str:
     """A link by its number and, where that is not the same, the file's name."""
     name = mechanism.link_names[i]
     own = name.removeprefix("link").lstrip("0") == str(i + 1) or not name
     return f"link {i + 1}" if own else f"link {i + 1} ({name!r})"
 
 
-def amount(value: float, spread: float = 0.0) -> str:
+def rounded(value: float, spread: float = 0.0) -> str:
     """A number with the digits that its uncertainty leaves."""
     if not math.isfinite(value) or value == 0:
         return f"{value:g}"
@@ -106,9 +101,9 @@ def amount(value: float, spread: float = 0.0) -> str:
 
 
 def _plain(value: float) -> str:
-    rounded = f"{value:.4f}"
-    if 1e-3 <= abs(value) < 1e6 and abs(float(rounded) - value) <= 1e-12 * abs(value):
-        return rounded
+    short = f"{value:.4f}"
+    if 1e-3 <= abs(value) < 1e6 and abs(float(short) - value) <= 1e-12 * abs(value):
+        return short
     return f"{value:.12g}"
 
 

@@ -1,14 +1,14 @@
-"""What an engine does in many states, and how far that is from a planar mechanism's equations of motion.
+"""An engine's answers in many states, and their residuals in a planar mechanism's equations of motion.
 
-Accelerations are put into the equations (:func:`furiko.reference.planar.torques`): whatever torque is then left over
-is divided by what rounding explains of it. One number a state and a hinge, which is at most one where both are the same
-mechanism; and linear in most of a mechanism's parameters, so that these can be solved for.
+The engine's accelerations are put into the equations (:func:`furiko.reference.planar_tree.torques`): the residual
+torque is divided by what rounding explains of it. That gives one number for each state and hinge, at most one where
+engine and mechanism are the same, and linear in most of the mechanism's parameters, so that these can be solved for.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,23 +21,19 @@ from ..reference.rounding.bounds import EPSILON, allowed
 
 Array = NDArray[np.float64]
 
-# Readers of files turn frames into one another: a handful of roundings a body that the engine's own count has not.
-READING = 4
-STATES = 32
-QUANTUM = 2.0**-30
-
-
-class Asked(Protocol):
-    """All that an engine is asked for here, in absolute angles (B, n)."""
-
-    def accelerations(self, theta: Array, omega: Array) -> Array: ...
+# Roundings a body in readers of model files, which turn frames into one another; an engine's own count has them not.
+READER_ROUNDINGS = 4
+LEAST_STATES = 32
+ANGLE_QUANTUM = 2.0**-30  # [rad], and [rad/s] of rates
 
 
 @dataclass(frozen=True)
 class Measurement:
-    """Motions and the generalised forces with which the engine says they come about: ``theta`` [rad], ``omega``,
-    ``alpha`` and ``torque`` [N m], shape (S, n), absolute. ``forward``: rows of forward dynamics, where nothing drives.
-    ``accuracy``: relative accuracy of the engine's operations.
+    """States, accelerations and the generalised forces that belong to them, according to the engine.
+
+    ``theta`` [rad], ``omega`` [rad/s], ``alpha`` [rad/s²] and ``torque`` [N m], shape (S, n), of absolute angles.
+    ``forward`` (S,): rows of forward dynamics, without applied torques. ``accuracy``: relative accuracy of the engine's
+    operations.
     """
 
     parents: tuple[int, ...]
@@ -51,34 +47,35 @@ class Measurement:
     def __len__(self) -> int:
         return len(self.theta)
 
-    def scale(self, p: Parameters) -> Array:
-        """What rounding explains of each relative row [N m], (S, n)."""
-        bound = READING * allowed(len(self.parents), self.accuracy) * EPSILON
+    def tolerances(self, p: Parameters) -> Array:
+        """What rounding explains of each hinge's residual torque [N m], (S, n)."""
+        bound = READER_ROUNDINGS * allowed(len(self.parents), self.accuracy) * EPSILON
         sizes = planar.magnitudes(self.parents, p, self.theta, self.omega, self.alpha)
         # An engine that factorises the mass matrix has its rounding there: see :mod:`furiko.reference.rounding.bounds`.
         root = np.sqrt(planar.stretched_inertias(self.parents, p))
-        felt = np.abs(relative(self.parents, self.alpha)) @ root
-        return np.asarray(np.maximum(bound * np.maximum(sizes, root * felt[:, None]), 1e-290))
+        coupled = np.abs(relative(self.parents, self.alpha)) @ root
+        return np.asarray(np.maximum(bound * np.maximum(sizes, root * coupled[:, None]), 1e-290))
 
-    def left_over(self, p: Parameters, scale: Array) -> Array:
-        """Relative rows of (equations − torque) over ``scale``; leading axes of ``p`` come first: (…, S, n)."""
+    def residuals(self, p: Parameters, tolerances: Array) -> Array:
+        """Residual torque of each hinge over ``tolerances``; leading axes of ``p`` come first: (…, S, n)."""
         rows = planar.torques(self.parents, p, self.theta, self.omega, self.alpha) - self.torque
-        return np.asarray(planar.relative_rows(self.parents, rows) / scale)
+        return np.asarray(planar.relative_rows(self.parents, rows) / tolerances)
 
     def worst(self, p: Parameters) -> float:
-        """The largest of them in magnitude: at most one where the engine has these parameters."""
-        return float(np.max(np.abs(self.left_over(p, self.scale(p))), initial=0.0))
+        """The largest residual over its tolerance: at most one where the engine has these parameters."""
+        return float(np.max(np.abs(self.residuals(p, self.tolerances(p))), initial=0.0))
 
     def only(self, chosen: NDArray[np.bool_]) -> Measurement:
-        """Some of the rows."""
+        """The chosen (S,) rows alone."""
         theta, omega, alpha, torque = (rows[chosen] for rows in (self.theta, self.omega, self.alpha, self.torque))
         return Measurement(self.parents, theta, omega, alpha, torque, self.forward[chosen], self.accuracy)
 
 
-def probe_states(mechanism: Mechanism, count: int = STATES, seed: int = 1) -> tuple[Array, Array]:
-    """Angles all round the circle, inside the hinges' stops where there are some; rates of both signs, none small.
+def probe_states(mechanism: Mechanism, count: int = LEAST_STATES, seed: int = 1) -> tuple[Array, Array]:
+    """Absolute angles [rad] and rates [rad/s] for comparisons, shape (count, n) each.
 
-    Multiples of a power of two, so that relative angles are exact. Shape (count, n) each.
+    Angles all round the circle, inside the joint limits where there are some; rates of both signs, none small.
+    Multiples of a power of two, so that relative angles are exact.
     """
     generator = np.random.Generator(np.random.PCG64(seed))
     n = mechanism.n
@@ -96,11 +93,11 @@ def probe_states(mechanism: Mechanism, count: int = STATES, seed: int = 1) -> tu
 
 
 def _quantised(values: Array) -> Array:
-    return np.asarray(np.round(values / QUANTUM) * QUANTUM)
+    return np.asarray(np.round(values / ANGLE_QUANTUM) * ANGLE_QUANTUM)
 
 
 def relative(parents: tuple[int, ...], values: Array) -> Array:
-    """Each link's angle (rate, acceleration) less its parent's."""
+    """Each link's angle (rate, acceleration) minus its parent's: (S, n) from (S, n)."""
     found = values.copy()
     for i, parent in enumerate(parents):
         if parent != SUPPORT:
@@ -118,25 +115,25 @@ def absolute(parents: tuple[int, ...], values: Array) -> Array:
 
 
 def measure(engine: Any, mechanism: Mechanism, accuracy: float = EPSILON, seed: int = 1) -> Measurement:
-    """Ask an engine in :func:`probe_states`: forward dynamics, and inverse dynamics where it has them.
+    """Ask an engine for forward dynamics in :func:`probe_states`, and for inverse dynamics where it has them.
 
-    Raises RuntimeError where it answers with NaN or infinity.
+    Raises RuntimeError where an answer has the wrong shape, NaN or infinity.
     """
-    theta, omega = probe_states(mechanism, max(STATES, 2 * mechanism.n), seed)
+    theta, omega = probe_states(mechanism, max(LEAST_STATES, 2 * mechanism.n), seed)
     alpha = _finite("accelerations", engine.accelerations(theta, omega), theta.shape)
     parts = [(theta, omega, alpha, np.zeros_like(alpha))]
     if has_inverse_dynamics(engine):
         generator = np.random.Generator(np.random.PCG64(seed + 1))
-        asked = _quantised(np.abs(omega).max() ** 2 * generator.uniform(-1, 1, theta.shape))
-        torque = _finite("inverse dynamics", engine.inverse_dynamics(theta, omega, asked), theta.shape)
-        parts.append((theta, omega, asked, torque))
+        given = _quantised(np.abs(omega).max() ** 2 * generator.uniform(-1, 1, theta.shape))
+        torque = _finite("inverse dynamics", engine.inverse_dynamics(theta, omega, given), theta.shape)
+        parts.append((theta, omega, given, torque))
     theta, omega, alpha, torque = (np.concatenate([part[k] for part in parts]) for k in range(4))
     forward = np.concatenate([np.full(len(part[0]), k == 0) for k, part in enumerate(parts)])
     return Measurement(mechanism.parents, theta, omega, alpha, torque, forward, accuracy)
 
 
 def has_inverse_dynamics(engine: Any) -> bool:
-    """Whether the engine gives generalised forces."""
+    """Whether the engine has inverse dynamics."""
     info = getattr(engine, "info", None)
     missing = getattr(info, "missing", {})
     return hasattr(engine, "inverse_dynamics") and "inverse_dynamics" not in missing

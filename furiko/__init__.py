@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .derivations.audit.audit import audit
     from .derivations.grading.grade import grade
-    from .derivations.grading.result import Diagnosis
-    from .diagnosis.diagnose import diagnose
+    from .diagnosis.model_files.diagnose import diagnose
+    from .diagnosis.model_files.result import Diagnosis
     from .engines import engine_names, load_engine
     from .models import EngineMissing, InvalidInput, NLegPendulum, RodChain, to_mjcf, to_urdf
     from .reference.energies import energy
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _HOMES = {
-    "Diagnosis": "derivations.grading.result",
+    "Diagnosis": "diagnosis.model_files.result",
     "EngineMissing": "models",
     "InvalidInput": "models",
     "NLegPendulum": "models",
@@ -33,7 +33,7 @@ _HOMES = {
     "accelerations": "reference.kernels.forward_dynamics",
     "audit": "derivations.audit.audit",
     "check": "run",
-    "diagnose": "diagnosis.diagnose",
+    "diagnose": "diagnosis.model_files.diagnose",
     "energy": "reference.energies",
     "engine_names": "engines",
     "grade": "derivations.grading.grade",

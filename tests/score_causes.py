@@ -1,8 +1,10 @@
-"""How well causes are named: recall and precision over planted faults, false alarms over sound models, sensitivity.
+"""Score of the named causes: recall and precision over planted faults, false alarms over sound models, sensitivity.
+
+Run it from a checkout, where pytest imports it too:
 
     python tests/score_causes.py [--plants 25] [--sound 500] [--json FILE]
 
-``--plants`` of each fault; every random number follows from its index, so that a run can be repeated.
+``--plants``: how many of each fault. Every random number follows from its index, so that a run can be repeated.
 """
 
 from __future__ import annotations
@@ -10,19 +12,18 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import sys
 from collections import Counter
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
+from faults.engines import NAMES, OF_ENGINES, WrappedEngine
+from faults.mechanisms import Shape, free, with_link
+from faults.model_files import IN_FILES, diagnosed, planted_in_file, sound_model
+from faults.readers import OF_READERS, misreading
+from faults.runs import OF_RUNS
 
-sys.path.insert(0, str(Path(__file__).parent))
-
-from engine_faults import NAMES, OF_ENGINES, OF_READERS, OF_RUNS, Asked, misreading
-from model_faults import IN_FILES, Shape, diagnosed, free, planted_in_file, sound_model, with_link
-
-from furiko.diagnosis.diagnose import diagnose
+from furiko import diagnose
 from furiko.diagnosis.explain import explain
 from furiko.diagnosis.explain_motion import explain_motion
 from furiko.engines import load_engine
@@ -61,8 +62,8 @@ def findings_of(place, cause, seed):
         file, readers = misreading(cause, rng)
         return diagnose(file, None, readers).findings
     if place == "run":
-        engine, wanted, integrator, parted = OF_RUNS[cause](rng)
-        return explain_motion(engine, wanted, integrator, parted=parted)
+        engine, wanted, integrator, diverged = OF_RUNS[cause](rng)
+        return explain_motion(engine, wanted, integrator, diverged=diverged)
     engine, wanted = OF_ENGINES[cause](rng)
     return explain(engine, wanted)
 
@@ -123,15 +124,13 @@ def changed_by(mechanism, kind, i, delta):
         return with_link(mechanism, i, inertia=link.inertia * (1 + delta))
     if kind == "length":
         return with_link(mechanism, i + 1, hinge=(mechanism.links[i + 1].hinge[0] * (1 + delta), 0.0))
-    from dataclasses import replace
-
     return replace(mechanism, gravity=(mechanism.gravity[0] * (1 + delta), 0.0))
 
 
 def estimated(mechanism, kind, i, delta, name):
     """Whether a change is detected, and its size told within a tenth, by an engine that hides what it compiled."""
     other = changed_by(mechanism, kind, i, delta)
-    engine = Asked(load_engine(name, Shape(PlanarTree(other.links, other.gravity[0]))), shows=False)
+    engine = WrappedEngine(load_engine(name, Shape(PlanarTree(other.links, other.gravity[0]))), shows=False)
     for finding in explain(engine, mechanism):
         if finding.cause != kind or not isinstance(finding.measured, float) or not finding.expected:
             continue

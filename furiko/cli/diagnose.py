@@ -18,9 +18,9 @@ from .output import print_json
 @json_option
 def diagnose(model: Path, against: str | None, as_json: bool) -> int:
     """Check how engines read an MJCF or URDF file; say why they differ."""
-    from ..diagnosis.diagnose import diagnose as diagnose_file
+    from ..diagnosis.model_files.diagnose import diagnose as diagnose_file
 
-    found = diagnose_file(model, against, apart=True)
+    found = diagnose_file(model, against, isolated=True)
     if as_json:
         print_json(found.to_json())
     else:

@@ -3,9 +3,11 @@
 import fake_engines
 import numpy as np
 import pytest
-from engine_faults import NAMES, OF_ENGINES, OF_READERS, OF_RUNS
-from model_faults import Shape, random_tree
-from score_causes import PLACES, false_alarms, findings_of, precision, score, sensitivity
+from faults.engines import NAMES, OF_ENGINES
+from faults.mechanisms import Shape, free, random_tree
+from faults.readers import OF_READERS
+from faults.runs import OF_RUNS
+from score_causes import PLACES, estimated, false_alarms, findings_of, precision, score, sensitivity, uneven_chain
 
 from furiko import NLegPendulum, RodChain
 from furiko.diagnosis.explain import explain
@@ -70,7 +72,7 @@ def test_no_integrator_that_is_right_is_explained(name):
         ("Nan", "unexplained"),
     ],
 )
-def test_the_zoo_is_not_explained_away(wrong, cause):
+def test_a_wrong_engine_without_a_known_cause_is_unexplained(wrong, cause):
     system = NLegPendulum((1.0, 0.8), (1.0, 0.5))
     findings = explain(getattr(fake_engines, wrong)(system), system)
     assert [finding.cause for finding in findings] == [cause]
@@ -95,7 +97,7 @@ def test_two_causes_that_fit_equally_are_both_named():
 
     findings = explain(Silent(), system)
     assert [finding.cause for finding in findings] == ["armature", "inertia"]
-    assert all("would explain it as well" in finding.says for finding in findings)
+    assert all("would explain it equally well" in finding.says for finding in findings)
     assert findings[0].measured == pytest.approx(0.01, rel=1e-9)
     # What the engine compiled decides.
     assert [finding.cause for finding in explain(engine, system)] == ["armature"]
@@ -103,8 +105,6 @@ def test_two_causes_that_fit_equally_are_both_named():
 
 @pytest.mark.parametrize("kind", ["mass", "length", "inertia", "gravity"])
 def test_a_change_of_one_in_ten_billion_is_detected_and_sized(kind):
-    from score_causes import estimated, free, uneven_chain
-
     mechanism = free(uneven_chain(5))
     for i in [0] if kind == "gravity" else range(4 if kind == "length" else 5):
         assert estimated(mechanism, kind, i, 1e-10, "pinocchio-aba"), (kind, i)

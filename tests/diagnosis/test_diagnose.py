@@ -8,9 +8,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from model_faults import diagnosed, free, planted_in_file, random_tree, sound_model
+from faults.mechanisms import free, random_tree
+from faults.model_files import IN_FILES, diagnosed, planted_in_file, sound_model
+from faults.writing import Style, written
 
-from furiko.diagnosis.diagnose import diagnose
+from furiko import Diagnosis, diagnose
+from furiko.engines.model_files.adapter import READERS
 from furiko.models import InvalidInput, catalogue, find_scene, to_mjcf, to_urdf
 from furiko.models.readers.model_file import model_from_text
 
@@ -104,13 +107,7 @@ def test_what_looks_odd_and_is_sound_raises_no_alarm(seed):
     assert causes(found) == [], found.text()
 
 
-PLANTS = ["armature", "damping", "dry-friction", "stiffness", "joint-limit", "mass", "length", "inertia", "gravity",
-          "gravity-turned", "com-displaced", "inertial-com-rotated", "point-mass-patched", "inertia-from-geoms",
-          "degree-vs-radian", "spring-reference", "joint-dropped-by-parser", "joint-added",
-          "colliding-geoms"]  # fmt: skip
-
-
-@pytest.mark.parametrize("cause", PLANTS)
+@pytest.mark.parametrize("cause", IN_FILES)
 def test_a_fault_planted_in_a_file_is_named_first(cause):
     for seed in range(3):
         plant = planted_in_file(cause, np.random.default_rng(seed))
@@ -124,7 +121,7 @@ def test_the_value_that_explains_it_is_given(tmp_path):
     (tmp_path / "a.xml").write_text(text)
     (finding,) = (f for f in diagnose(tmp_path / "a.xml", "rods-3").findings)
     assert (finding.cause, finding.where, finding.measured, finding.expected) == ("armature", "joint 2", 0.01, 0.0)
-    assert "joint 2: armature 0.0100 kg m²" in finding.says
+    assert "joint 2: armature: found 0.0100 kg m², expected none" in finding.says
 
 
 @pytest.mark.parametrize("relative", [1e-9, 1e-10])
@@ -145,8 +142,9 @@ def test_small_differences_of_a_file_are_found_and_sized(tmp_path, field, relati
 
 
 def test_json_has_what_the_contract_says():
-    found = diagnose(model_from_text(ACROBOT, "arm.xml")).to_json()
-    again = json.loads(json.dumps(found))
+    found = diagnose(model_from_text(ACROBOT, "arm.xml"))
+    assert isinstance(found, Diagnosis)
+    again = json.loads(json.dumps(found.to_json()))
     assert again["verdict"] == "differs"
     assert {"cause", "where", "measured", "expected", "says"} == set(again["findings"][0])
     assert set(again["engines"]) == {"mujoco", "pinocchio-aba", "exudyn-tree"}
@@ -174,11 +172,19 @@ def test_bad_words_for_what_is_wanted(against):
         diagnose(model_from_text(ACROBOT, "arm.xml"), against)
 
 
+@pytest.mark.parametrize("isolated", [False, True])
+@pytest.mark.parametrize("names", [(), ("mujoco",), ("exudyn-tree", "mujoco")])
+def test_only_the_given_engines_are_asked(names, isolated):
+    file = model_from_text(to_mjcf(find_scene("rods-2").system), "rods.xml")
+    found = diagnose(file, "rods-2", {name: READERS[name] for name in names}, isolated=isolated)
+    assert tuple(found.engines) == names
+    assert all(engine["status"] == "agrees" for engine in found.engines.values())
+    assert found.exit_status == (0 if names else 3)
+
+
 def test_gravity_is_taken_from_what_a_urdf_is_held_against(tmp_path):
     mechanism = free(random_tree(np.random.default_rng(1), n=3))
     weak = replace(mechanism, gravity=(1.62, 0.0), gravity_vector=(0, 0, -1.62))
-    from model_faults import Style, written
-
     text = written(mechanism, Style("urdf"), np.random.default_rng(0))
     assert diagnosed(text, "urdf", weak).verdict == "agrees"
     assert math.isclose(model_from_text(text).mechanism.gravity[0], 9.81)
@@ -189,13 +195,13 @@ def test_ten_links_against_three_engines_in_a_fresh_process(tmp_path):
     """Measured: 0.7 s; with a fault to explain 1 s. No time is asserted: a busy machine is not a fault."""
     text = to_mjcf(find_scene("rods-10").system)
     (tmp_path / "a.xml").write_text(text.replace('name="hinge04" ', 'name="hinge04" armature="0.01" '))
-    code = f"from furiko.checks.diagnose import diagnose; assert diagnose({str(tmp_path / 'a.xml')!r}).findings"
+    code = f"import furiko; assert furiko.diagnose({str(tmp_path / 'a.xml')!r}).findings"
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
 def test_where_nothing_weighs_only_coupling_tells():
     """Turning the inner link's centre about its hinge changes no inertia and no coupling: nothing but its weight."""
-    from furiko.diagnosis.matching import same_motion
+    from furiko.diagnosis.model_files.matching import same_motion
     from furiko.models import Link, PlanarTree
 
     def mechanism(angle):

@@ -91,5 +91,5 @@ def test_a_difference_is_given_its_cause_with_what_was_measured(run_cell):
     results = run_cell("fake_engines:SignFlipped", "rods-3")
     for check in ("accelerations", "terms G"):
         assert results[check].cause == "angle-convention"
-        assert "counted from upwards" in results[check].reason
+        assert "counted from the upward vertical" in results[check].reason
     assert run_cell("fake_engines:HiddenArmature")["model fields"].outcome == "differs"

@@ -1,30 +1,28 @@
-"""Planted faults of engines and adapters: a real engine that was given something else, or is asked wrongly.
+"""Real engines that were given another mechanism, or are asked in another convention.
 
-Each function makes (cause, engine, what is expected); the engine answers in absolute angles as adapters do.
+Each function of :data:`OF_ENGINES` returns (engine, expected mechanism); the engine answers in absolute angles, as
+adapters do.
 """
 
 from __future__ import annotations
 
 import math
-import re
 from dataclasses import replace
-from typing import Any
 
 import mujoco
 import numpy as np
 import pinocchio
-from model_faults import Shape, free, fused, off, random_style, random_tree, with_hinge, with_link, written
 
-from furiko.engines import Integrator, load_engine
-from furiko.engines.model_files.adapter import READERS, Reader
+from furiko.engines import load_engine
 from furiko.models import PlanarTree, to_urdf
-from furiko.models.readers.model_file import model_from_text
 from furiko.models.tree import SUPPORT
+
+from .mechanisms import Shape, free, fused, off, random_tree, with_link
 
 NAMES = ("mujoco", "pinocchio-aba", "exudyn-tree", "pinocchio-crba")
 
 
-class Asked:
+class WrappedEngine:
     """An engine behind an adapter that may hide what it compiled."""
 
     def __init__(self, engine, shows):
@@ -46,18 +44,18 @@ class Asked:
 def engine(rng, tree, name=None, shows=None):
     name = str(rng.choice(NAMES)) if name is None else name
     shows = bool(rng.random() < 0.7) if shows is None else shows
-    return Asked(load_engine(name, Shape(tree)), shows)
+    return WrappedEngine(load_engine(name, Shape(tree)), shows)
 
 
-def adapter(asked):
-    return asked._engine._engine
+def adapter(given_engine):
+    return given_engine._engine._engine
 
 
 def chain_or_more(rng, least=1, **given):
     return random_tree(rng, n=int(rng.integers(least, 11)), **given)
 
 
-# --- Numbers --------------------------------------------------------------------------------------------------------
+# --- Numbers ----------------------------------------------------------------------------------------------------------
 
 
 def on_other(rng, wanted, other):
@@ -108,25 +106,25 @@ def gravity(rng):
 
 def gravity_turned(rng):
     tree = chain_or_more(rng)
-    asked = engine(rng, tree, str(rng.choice(["mujoco", "pinocchio-aba"])))
+    given_engine = engine(rng, tree, str(rng.choice(["mujoco", "pinocchio-aba"])))
     angle = float(rng.choice([-1, 1]) * rng.uniform(0.05, 1))
     vector = tree.gravity * np.array([math.sin(angle), 0.0, -math.cos(angle)])
-    model = adapter(asked)._model
+    model = adapter(given_engine)._model
     if hasattr(model, "opt"):
         model.opt.gravity[:] = vector
     else:
         model.gravity.linear = vector
-    return asked, free(tree)
+    return given_engine, free(tree)
 
 
 def hidden(rng, attribute, everywhere=False):
     tree = chain_or_more(rng)
-    asked = engine(rng, tree, "mujoco")
-    model = adapter(asked)._model
+    given_engine = engine(rng, tree, "mujoco")
+    model = adapter(given_engine)._model
     value = float(10 ** rng.uniform(-3, 0))
     which = slice(None) if everywhere or rng.random() < 0.3 else int(rng.integers(tree.n))
     getattr(model, attribute)[which] = value
-    return asked, free(tree)
+    return given_engine, free(tree)
 
 
 def armature(rng):
@@ -138,12 +136,12 @@ def damping(rng):
 
 
 def stiffness(rng):
-    asked, wanted = hidden(rng, "jnt_stiffness")
-    adapter(asked)._model.qpos_spring[:] = rng.uniform(-1, 1, wanted.n)
-    return asked, wanted
+    given_engine, wanted = hidden(rng, "jnt_stiffness")
+    adapter(given_engine)._model.qpos_spring[:] = rng.uniform(-1, 1, wanted.n)
+    return given_engine, wanted
 
 
-class Rubbing(Asked):
+class WithDryFriction(WrappedEngine):
     """MuJoCo with a torque of constant size against each hinge's relative rate."""
 
     def __init__(self, inner, sizes, parents):
@@ -177,23 +175,23 @@ def friction(rng):
     tree = chain_or_more(rng)
     sizes = np.zeros(tree.n)
     sizes[int(rng.integers(tree.n))] = 10 ** rng.uniform(-3, 0)
-    return Rubbing(engine(rng, tree, "mujoco"), sizes, tree.parents), free(tree)
+    return WithDryFriction(engine(rng, tree, "mujoco"), sizes, tree.parents), free(tree)
 
 
 def limit(rng):
     tree = chain_or_more(rng)
-    asked = engine(rng, tree, "mujoco", shows=False)
-    model = adapter(asked)._model
+    given_engine = engine(rng, tree, "mujoco", shows=False)
+    model = adapter(given_engine)._model
     i = int(rng.integers(tree.n))
     model.jnt_limited[i], model.jnt_range[i] = 1, [-rng.uniform(0.5, 2.5), rng.uniform(0.5, 2.5)]
     model.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)
-    return asked, free(tree)
+    return given_engine, free(tree)
 
 
-# --- Asked wrongly --------------------------------------------------------------------------------------------------
+# --- Other conventions ------------------------------------------------------------------------------------------------
 
 
-class Turned(Asked):
+class InOtherConvention(WrappedEngine):
     """The adapter changes angles, rates and accelerations on the way by the wrong matrices."""
 
     def __init__(self, inner, angles, rates=None, answers=None, offset=0.0):
@@ -224,14 +222,14 @@ def convention(rng):
     inner, s, same = engine(rng, tree), sums(tree), np.eye(tree.n)
     way = int(rng.integers(5))
     if way == 0:
-        return Turned(inner, s), free(tree)
+        return InOtherConvention(inner, s), free(tree)
     if way == 1:
-        return Turned(inner, same, same, np.linalg.inv(s)), free(tree)
+        return InOtherConvention(inner, same, same, np.linalg.inv(s)), free(tree)
     if way == 2:
-        return Turned(inner, np.linalg.inv(s)), free(tree)
+        return InOtherConvention(inner, np.linalg.inv(s)), free(tree)
     if way == 3:
-        return Turned(inner, -same, offset=math.pi), free(tree)
-    return Turned(inner, -same, same, same), free(tree)
+        return InOtherConvention(inner, -same, offset=math.pi), free(tree)
+    return InOtherConvention(inner, -same, same, same), free(tree)
 
 
 def degrees(rng):
@@ -240,10 +238,10 @@ def degrees(rng):
     way = int(rng.integers(3))
     inner = engine(rng, tree)
     if way == 0:
-        return Turned(inner, factor * same), free(tree)
+        return InOtherConvention(inner, factor * same), free(tree)
     if way == 1:
-        return Turned(inner, factor * same, same), free(tree)
-    return Turned(inner, same, same, factor * same), free(tree)
+        return InOtherConvention(inner, factor * same, same), free(tree)
+    return InOtherConvention(inner, same, same, factor * same), free(tree)
 
 
 def order(rng):
@@ -259,7 +257,7 @@ def order(rng):
         swapped = np.arange(n)
         swapped[a], swapped[b] = b, a
         matrix = np.eye(n)[swapped]
-    return Turned(engine(rng, tree), matrix), free(tree)
+    return InOtherConvention(engine(rng, tree), matrix), free(tree)
 
 
 class Unnormalised:
@@ -296,7 +294,7 @@ def unnormalised(rng):
     return Unnormalised(tree, joint, off(rng)), free(tree)
 
 
-class Single(Asked):
+class InSinglePrecision(WrappedEngine):
     """Takes and gives numbers of 24 bits."""
 
     def accelerations(self, theta, omega):
@@ -311,7 +309,7 @@ class Single(Asked):
 def single(rng):
     tree = chain_or_more(rng)
     inner = engine(rng, tree)
-    return Single(inner._engine, inner.shows), free(tree)
+    return InSinglePrecision(inner._engine, inner.shows), free(tree)
 
 
 def dropped(rng):
@@ -340,186 +338,4 @@ OF_ENGINES = {
     "continuous-joint-not-normalised": unnormalised,
     "float32": single,
     "joint-dropped-by-parser": dropped,
-}
-
-
-# --- Engines that misread a file ------------------------------------------------------------------------------------
-
-
-def misread(reader, change):
-    """A reader to whom the file's text comes changed: what an engine with a faulty parser makes of it."""
-
-    class Misreading:
-        def __init__(self, given):
-            self.given = given
-
-        def load(self, model):
-            return self.given.load(replace(model, text=change(model.text)))
-
-        def __getattr__(self, name):
-            return getattr(self.given, name)
-
-    return Misreading(reader)
-
-
-def no_rotation(text):
-    """Inertials without their orientation."""
-    return re.sub(r"(<inertial[^>]*?) quat='[^']*'", r"\1", re.sub(r'(<inertial[^>]*?) quat="[^"]*"', r"\1", text))
-
-
-def unit_inertials(text):
-    return re.sub(r"<inertial[^>]*/>", '<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>', text)
-
-
-def fixed_not_turned(text):
-    """Bodies fixed to others as if they were not turned."""
-    return re.sub(r'(<body name="[^"]*_fixed0"[^>]*?) quat="[^"]*"', r"\1", text)
-
-
-def geoms_rule(text):
-    return text.replace("<compiler ", '<compiler inertiafromgeom="true" ', 1)
-
-
-def other_gravity(text):
-    return re.sub(r'gravity="[^"]*"', 'gravity="0 0 -3.7"', text)
-
-
-def misreading(cause, rng):
-    """(file, readers, cause): one engine of three misreads the file, or all do."""
-    style = random_style(rng, "mjcf")
-    style.full, style.turn_inertials, style.split = False, True, False
-    wanted = free(random_tree(rng, kind="chain", bobs=False))
-    change = {
-        "urdf-inertial-rpy-lost": no_rotation,
-        "fused-static-frame": fixed_not_turned,
-        "inertial-ignored": unit_inertials,
-        "inertia-from-geoms": geoms_rule,
-        "gravity": other_gravity,
-        "theory-is-wrong": unit_inertials,
-    }[cause]
-    if cause == "fused-static-frame":
-        style.split = True
-    if cause == "gravity":
-        style.turn_world = False
-    if cause == "inertia-from-geoms":
-        for i, link in enumerate(wanted.links):
-            style.geoms[i] = f"<geom type='capsule' size='0.03 {link.length / 2!r}' contype='0' conaffinity='0'/>"
-    file = model_from_text(written(wanted, style, rng), "planted.xml")
-    readers: dict[str, Reader | Any] = dict(READERS)
-    names = ("mujoco", "pinocchio-aba") if cause == "theory-is-wrong" else ("mujoco",)
-    for name in names:
-        readers[name] = misread(READERS[name], change)
-    return file, readers
-
-
-OF_READERS = ("urdf-inertial-rpy-lost", "fused-static-frame", "inertial-ignored", "inertia-from-geoms", "gravity",
-              "theory-is-wrong")  # fmt: skip
-
-
-# --- Runs -----------------------------------------------------------------------------------------------------------
-
-
-class Runs(Asked):
-    """MuJoCo, whose runs are tampered with."""
-
-    def __init__(self, tree, run):
-        super().__init__(load_engine("mujoco", Shape(tree)), False)
-        self.run = run
-
-    def trajectory(self, theta, omega, integrator, step, steps):
-        return self.run(super().trajectory, theta, omega, integrator, step, steps)
-
-
-RK4, EULER = Integrator("RK4", 4), Integrator("Euler", 1)
-
-
-def runs_late(rng):
-    tree = chain_or_more(rng)
-    only_rates = rng.random() < 0.5
-
-    def run(inner, theta, omega, name, step, steps):
-        before = inner(theta, omega, name, step, steps - 1) if steps > 1 else (theta, omega)
-        return (inner(theta, omega, name, step, steps)[0], before[1]) if only_rates else before
-
-    return Runs(tree, run), free(tree), RK4, False
-
-
-def runs_first_order(rng):
-    tree = chain_or_more(rng)
-    return Runs(tree, lambda inner, t, w, _, h, k: inner(t, w, "Euler", h, k)), free(tree), RK4, False
-
-
-def runs_damped(rng):
-    tree = chain_or_more(rng)
-    share = float(10 ** rng.uniform(-4, -1))
-
-    def run(inner, theta, omega, name, step, steps):
-        for _ in range(steps):
-            theta, omega = inner(theta, omega, name, step, 1)
-            omega = omega * (1 - share * step)
-        return theta, omega
-
-    return Runs(tree, run), free(tree), RK4, False
-
-
-def runs_dissipating(rng):
-    """Rates are put right for the constraints after each step: the harder they pull, the more is lost."""
-    tree = chain_or_more(rng)
-    loss = float(10 ** rng.uniform(-6, -3))
-
-    def run(inner, theta, omega, name, step, steps):
-        for _ in range(steps):
-            theta, omega = inner(theta, omega, name, step, 1)
-            omega = omega * (1 - loss * abs(math.sin(theta.sum())))
-        return theta, omega
-
-    return Runs(tree, run), free(tree), RK4, False
-
-
-def runs_single(rng):
-    tree = chain_or_more(rng)
-
-    def run(inner, theta, omega, name, step, steps):
-        for _ in range(steps):
-            theta, omega = inner(theta, omega, name, step, 1)
-            theta, omega = theta.astype(np.float32).astype(float), omega.astype(np.float32).astype(float)
-        return theta, omega
-
-    return Runs(tree, run), free(tree), RK4, False
-
-
-def runs_reset(rng):
-    """MuJoCo as it comes: after a NaN it begins anew. (One link alone stays stable: its torque is bounded.)"""
-    tree = chain_or_more(rng, 2, kind="chain")
-    runs = Runs(tree, lambda inner, *given: inner(*given))
-    adapter(runs)._model.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
-    return runs, free(tree), EULER, False
-
-
-def runs_implicit(rng):
-    """MuJoCo's Euler as it comes, on hinges with damping."""
-    tree = chain_or_more(rng)
-    wanted = free(tree)
-    for i in range(tree.n):
-        wanted = with_hinge(wanted, i, damping=float(rng.uniform(0.05, 1)))
-    runs = Runs(tree, lambda inner, *given: inner(*given))
-    # MuJoCo's own order is depth first.
-    adapter(runs)._model.dof_damping[adapter(runs)._hinges] = [hinge.damping for hinge in wanted.hinges]
-    return runs, wanted, EULER, False
-
-
-def runs_chaotic(rng):
-    tree = chain_or_more(rng)
-    return Runs(tree, lambda inner, *given: inner(*given)), free(tree), RK4 if rng.random() < 0.5 else EULER, True
-
-
-OF_RUNS = {
-    "stale-derived-state": runs_late,
-    "first-order-integrator": runs_first_order,
-    "damping": runs_damped,
-    "constraint-dissipation": runs_dissipating,
-    "float32": runs_single,
-    "silent-reset": runs_reset,
-    "implicit-damping": runs_implicit,
-    "chaos-only": runs_chaotic,
 }

@@ -1,4 +1,4 @@
-"""What acts in some states and not in others: a hinge's stop, or geoms that touch."""
+"""Torques that act in some states only: joint limits and contacts."""
 
 from __future__ import annotations
 
@@ -10,28 +10,28 @@ import numpy as np
 from ..models.mechanism import Mechanism
 from ..reference import planar_tree as planar
 from ..reference.planar_tree import Parameters
-from .conventions import FAR
-from .finding import Finding, joint
+from .conventions import LARGE_RESIDUAL
+from .finding import Finding, joint_label
 from .measurement import Array, Measurement, absolute, probe_states, relative
 
 
-def in_some_states(
+def limits_and_contacts(
     engine: Any, m: Mechanism, p: Parameters, measured: Measurement, compiled: Mechanism | None, who: str
 ) -> list[Finding]:
-    """A torque that is there in some states and not in others: a stop, or a contact."""
+    """A residual torque in some states and none in the others: a joint limit, or a contact."""
     forward = measured.only(measured.forward)
-    left = np.abs(forward.left_over(p, forward.scale(p)))
-    bad = left > 1
+    residuals = np.abs(forward.residuals(p, forward.tolerances(p)))
+    bad = residuals > 1
     states = bad.any(axis=1)
-    if not states.any() or float(np.median(left.max(axis=1)[states])) < FAR:
+    if not states.any() or float(np.median(residuals.max(axis=1)[states])) < LARGE_RESIDUAL:
         return []
     if states.all() or (~states).sum() < 2:
-        # Fewer quiet states than can be told from chance: look at small angles, where stops do not act.
-        return _only_further_out(engine, m, p, who)
-    return _stops_or_contacts(engine, m, forward, bad, who)
+        # Too few states without a residual to be no accident: try smaller angles, where limits do not act.
+        return _beyond_small_angles(engine, m, p, who)
+    return _limits_or_contacts(engine, m, forward, bad, who)
 
 
-def _only_further_out(engine: Any, m: Mechanism, p: Parameters, who: str) -> list[Finding]:
+def _beyond_small_angles(engine: Any, m: Mechanism, p: Parameters, who: str) -> list[Finding]:
     theta, omega = probe_states(m, 64, seed=5)
     phi = relative(m.parents, theta)
     shrunk = phi * np.linspace(0.02, 1.0, len(phi))[:, None]
@@ -40,43 +40,43 @@ def _only_further_out(engine: Any, m: Mechanism, p: Parameters, who: str) -> lis
     if not np.isfinite(alpha).all():
         return []
     near = Measurement(m.parents, theta, omega, alpha, np.zeros_like(alpha), np.ones(len(theta), dtype=bool))
-    left = np.abs(near.left_over(p, near.scale(p)))
-    bad = left > 1
+    residuals = np.abs(near.residuals(p, near.tolerances(p)))
+    bad = residuals > 1
     states = bad.any(axis=1)
     few = states.all() or not states.any() or (~states).sum() < 3
-    if few or float(np.median(left.max(axis=1)[states])) < FAR:
+    if few or float(np.median(residuals.max(axis=1)[states])) < LARGE_RESIDUAL:
         return []
-    return _stops_or_contacts(engine, m, near, bad, who)
+    return _limits_or_contacts(engine, m, near, bad, who)
 
 
-def _stops_or_contacts(engine: Any, m: Mechanism, measured: Measurement, bad: Any, who: str) -> list[Finding]:
+def _limits_or_contacts(engine: Any, m: Mechanism, measured: Measurement, bad: Any, who: str) -> list[Finding]:
     phi = relative(m.parents, measured.theta)
-    findings, told = [], np.zeros(len(phi), dtype=bool)
+    findings, explained = [], np.zeros(len(phi), dtype=bool)
     for i in range(m.n):
         rows = bad[:, i]
         if not rows.any():
             continue
         low, high = _free_range(phi[:, i], rows)
         outside = (phi[:, i] < low) | (phi[:, i] > high)
-        # Moving back fast, a hinge may be let go beyond its stop: most states there are held, none inside.
+        # A hinge that moves back fast may be free beyond its limit: most states there are held, none inside.
         if (~outside).sum() < 3 or rows[outside].mean() < 0.6:
             continue
-        told |= rows
-        stops = _stop_angles(engine, m, i, low, high, phi[rows, i])
-        words = " and ".join(f"{side:.4g}" for side in stops if side is not None)
-        name = joint(m, i)
-        seen = f"in {int(rows.sum())} of {len(phi)} states"
-        says = f"{who}: {name} is held back beyond {words} rad, {seen}; inside, all agrees"
-        findings.append(Finding("joint-limit", name, words, "turns freely", says))
-    if told.all() or (bad.any(axis=1) == told).all():
+        explained |= rows
+        limits = _limit_angles(engine, m, i, low, high, phi[rows, i])
+        words = " and ".join(f"{side:.4g}" for side in limits if side is not None)
+        name = joint_label(m, i)
+        seen = f"{int(rows.sum())} of {len(phi)} states"
+        says = f"{who}: {name}: found a limit at {words} rad, expected none: beyond it {seen} differ, inside all agree"
+        findings.append(Finding("joint-limit", name, words, "no limits", says))
+    if explained.all() or (bad.any(axis=1) == explained).all():
         return findings
     states = int(bad.any(axis=1).sum())
-    says = f"{who}: in {states} of {len(phi)} states something pushes, in the others all agrees: geoms that touch"
+    says = f"{who}: an additional torque in {states} of {len(phi)} states, none in the others: geoms are in contact"
     return [*findings, Finding("colliding-geoms", who, states, 0, says)]
 
 
 def _free_range(phi: Array, held: Any) -> tuple[float, float]:
-    """Between which two held angles (or the ends of the circle) most free ones lie, as the free ones' own range."""
+    """The range of free angles between two held ones (or the ends of the circle), where most free ones lie."""
     ends = np.concatenate([[-np.inf], np.sort(phi[held]), [np.inf]])
     free = phi[~held]
     counts = [int(((free > a) & (free < b)).sum()) for a, b in itertools.pairwise(ends)]
@@ -85,8 +85,8 @@ def _free_range(phi: Array, held: Any) -> tuple[float, float]:
     return (float(inside.min()), float(inside.max())) if inside.size else (np.inf, -np.inf)
 
 
-def _stop_angles(engine: Any, m: Mechanism, i: int, low: float, high: float, beyond: Array) -> list[float | None]:
-    """Where the stop begins, by halving between the last free angle and the first held one."""
+def _limit_angles(engine: Any, m: Mechanism, i: int, low: float, high: float, beyond: Array) -> list[float | None]:
+    """Angles [rad] of the lower and upper limit, by bisection between the last free angle and the first held one."""
     p = planar.parameters(m)
     found: list[float | None] = []
     middle_of_free = (low + high) / 2

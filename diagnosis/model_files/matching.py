@@ -1,7 +1,7 @@
-"""Which link of a file is which of a mechanism, and from where each angle is counted: the same mechanism, other frames.
+"""The links of a file assigned to those of a mechanism, and their frames turned alike: one mechanism, other frames.
 
-A link's frame may be turned in it, links may be written in another order and seen from behind, and mass may be moved
-along with a hinge without changing the motion. Only what is left after that is a difference.
+A file may turn a link's frame, write links in another order, look at them from behind, or shift mass from a link to its
+parent at their hinge, without changing the motion. Only what is left after that is a difference.
 """
 
 from __future__ import annotations
@@ -13,15 +13,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..models.mechanism import Mechanism
-from ..models.tree import SUPPORT, Link
-from .measurement import Array
+from ...models.mechanism import Mechanism
+from ...models.tree import SUPPORT, Link
+from ..measurement import Array
 
-MOST_LEGS = 6  # up to here all orders of the links on one link are tried
+MOST_CHILDREN_PERMUTED = 6  # of one link: up to here all their orders are tried
 
 
 def rearranged(found: Mechanism, order: Sequence[int], turns: Sequence[float]) -> Mechanism:
-    """Links in the order given, the frame of each (new) link turned by ``turns`` [rad]: θ is counted from there."""
+    """Links in the order given (new → old), each new link's frame, its zero angle, turned by ``turns`` [rad]."""
     place = {old: new for new, old in enumerate(order)} | {SUPPORT: SUPPORT}
     links, hinges = [], []
     for new, old in enumerate(order):
@@ -41,7 +41,7 @@ def rearranged(found: Mechanism, order: Sequence[int], turns: Sequence[float]) -
 
 
 def mirrored(found: Mechanism) -> Mechanism:
-    """The same seen from behind."""
+    """The same mechanism seen from behind: all angles change sign."""
     links = tuple(replace(k, hinge=(k.hinge[0], -k.hinge[1]), com=(k.com[0], -k.com[1])) for k in found.links)
     hinges = tuple(
         replace(h, rest=-h.rest, sense=-h.sense, stops=None if h.stops is None else (-h.stops[1], -h.stops[0]))
@@ -67,18 +67,21 @@ def _cos_sin(angle: float) -> tuple[float, float]:
 
 
 @dataclass(frozen=True)
-class Base:
-    """What the motion depends on and nothing else, for each link: inertia of all that hangs rigidly below about its
-    hinge; their first moment about it, as seen from each link that carries it and by gravity (complex numbers whose
-    argument is the frame's business)."""
+class BaseParameters:
+    """Base parameters: exactly what the motion depends on, for each link.
+
+    ``inertia`` [kg m²] about its hinge, with the mass of its whole subtree at the children's hinges; ``moment`` [kg m],
+    its first moment; ``coupling`` [kg m²] to each ancestor; ``weight`` [N m]: complex numbers whose argument depends on
+    the links' frames.
+    """
 
     inertia: Array
     moment: Array  # complex, (n,)
-    coupling: Array  # complex, (n, n): [i, j], j carried by i
+    coupling: Array  # complex, (n, n): [i, j], j in the subtree of i
     weight: Array  # complex, (n,)
 
 
-def base_parameters(m: Mechanism) -> Base:
+def base_parameters(m: Mechanism) -> BaseParameters:
     """M_jj = inertia_j; M_ij = Re(coupling_ij e^{i(θ_j − θ_i)}); gravity's row j has weight_j."""
     n = m.n
     mass = np.array([k.mass for k in m.links])
@@ -100,14 +103,14 @@ def base_parameters(m: Mechanism) -> Base:
             coupling[i, j] = np.conj(hinge[child]) * moment[j]
             child, i = i, m.links[i].parent
     weight = np.conj(complex(*m.gravity)) * moment
-    return Base(inertia, moment, coupling, weight)
+    return BaseParameters(inertia, moment, coupling, weight)
 
 
 def natural_turns(found: Mechanism, expected: Mechanism) -> Iterator[list[float]]:
-    """Ways to turn each link's frame so that it lies in it as the expected link does, likelier ones first.
+    """Angles [rad] by which to turn each link's frame so that it lies as the expected one does, likelier ones first.
 
-    Not at all; by the hinges of what it carries, or its centre of mass where it carries nothing; by the first moment of
-    all that it carries.
+    Not at all; by its children's hinges, or its centre of mass where it has no children; by its first moment; by its
+    centre of mass.
     """
     n = found.n
     yield [0.0] * n
@@ -137,14 +140,15 @@ def _argument(z: complex) -> float:
 
 
 def same_motion(found: Mechanism, expected: Mechanism, tolerance: float = 1e-12) -> bool:
-    """Whether both move alike when each angle is counted from where it suits (ideal hinges).
+    """Whether both have the same motion on ideal hinges, for some zero angle of each link.
 
-    In the base parameters a link's frame only shows as an argument, which is taken from one of them for each link.
+    ``tolerance``: relative. In the base parameters a link's frame shows only as an argument of complex numbers, which
+    one of them gives for each link.
     """
     a, b = base_parameters(found), base_parameters(expected)
-    turn = _frames_turned(a, b, expected.parents, weighed=any(expected.gravity) or any(found.gravity))
+    turn = _frames_turned(a, b, expected.parents, has_gravity=any(expected.gravity) or any(found.gravity))
     scale = max(float(np.max(np.abs(b.inertia))), 1e-300)
-    # Tolerances follow the links: a slight link hanging on a heavy one is held to its own size.
+    # Each link has its own tolerance: a light link on a heavy one is compared with its own inertia.
     own = np.maximum(np.abs(b.inertia), 1e-12 * scale)
     if (np.abs(a.inertia - b.inertia) > tolerance * own).any():
         return False
@@ -158,12 +162,12 @@ def same_motion(found: Mechanism, expected: Mechanism, tolerance: float = 1e-12)
     return bool((np.abs(a.weight / turn - b.weight) <= tolerance * sizes_of_weight).all())
 
 
-def _frames_turned(a: Base, b: Base, parents: Sequence[int], weighed: bool) -> Array:
-    """e^{iψ} for each link, ψ the angle by which its frame is turned: from gravity's pull, or where nothing weighs from
-    its coupling to the link that carries it (where a link on the support is counted from is then all the same)."""
+def _frames_turned(a: BaseParameters, b: BaseParameters, parents: Sequence[int], has_gravity: bool) -> Array:
+    """e^{iψ} for each link, ψ the angle by which its frame is turned: from its weight, or without gravity from its
+    coupling to its parent (the zero angle of a link on the world is then arbitrary)."""
     turn = np.ones(len(parents), dtype=complex)
     for j, parent in enumerate(parents):
-        if weighed:
+        if has_gravity:
             seen = a.moment[j] * np.conj(b.moment[j])
         elif parent != SUPPORT:
             seen = a.coupling[parent, j] * turn[parent] * np.conj(b.coupling[parent, j])
@@ -175,7 +179,7 @@ def _frames_turned(a: Base, b: Base, parents: Sequence[int], weighed: bool) -> A
 
 
 def orders(found: Mechanism, expected: Mechanism) -> Iterator[list[int]]:
-    """Ways to see ``found``'s links as ``expected``'s, the likeliest first; none where they branch otherwise."""
+    """Orders in which ``found``'s links are ``expected``'s, the likeliest first; none if the trees differ."""
     if found.n != expected.n:
         return
     yielded = []
@@ -192,7 +196,7 @@ def orders(found: Mechanism, expected: Mechanism) -> Iterator[list[int]]:
 
 
 def _match(found: Mechanism, a: int, expected: Mechanism, b: int) -> tuple[float, dict[int, int]] | None:
-    """Least difference between what hangs on link a and on link b, and which link is which: expected → found."""
+    """Least difference between the subtrees of link a and of link b, and the assignment: expected → found."""
     memo: dict[tuple[int, int], tuple[float, dict[int, int]] | None] = {}
     ours = {i: [c for c in range(found.n) if found.links[c].parent == i] for i in range(-1, found.n)}
     theirs = {i: [c for c in range(expected.n) if expected.links[c].parent == i] for i in range(-1, expected.n)}
@@ -206,12 +210,12 @@ def _match(found: Mechanism, a: int, expected: Mechanism, b: int) -> tuple[float
         mine, wanted = ours[i], theirs[j]
         if len(mine) != len(wanted):
             return None
-        own = 0.0 if i == SUPPORT else unlike(found, i, expected, j)
+        own = 0.0 if i == SUPPORT else difference_of_links(found, i, expected, j)
         if not mine:
             return own, {} if i == SUPPORT else {j: i}
         costs = {(x, y): match(x, y) for x in mine for y in wanted}
         chosen: tuple[float, tuple[int, ...]] | None = None
-        for way in _ways(mine, wanted, costs):
+        for way in _assignments(mine, wanted, costs):
             parts = [costs[x, y] for x, y in zip(way, wanted, strict=True)]
             if all(part is not None for part in parts):
                 total = sum(part[0] for part in parts if part is not None)
@@ -225,17 +229,17 @@ def _match(found: Mechanism, a: int, expected: Mechanism, b: int) -> tuple[float
             pairs |= part[1] if part is not None else {}
         return own + chosen[0], pairs
 
-    # Deepest first, so that the recursion stays shallow however long a chain is.
+    # Deepest first, so that the recursion stays shallow in long chains.
     for i in range(found.n - 1, -1, -1):
         for j in range(expected.n - 1, -1, -1):
             match(i, j)
     return match(a, b)
 
 
-def _ways(
+def _assignments(
     mine: list[int], wanted: list[int], costs: dict[tuple[int, int], tuple[float, dict[int, int]] | None]
 ) -> Iterator[tuple[int, ...]]:
-    if len(mine) <= MOST_LEGS:
+    if len(mine) <= MOST_CHILDREN_PERMUTED:
         yield from itertools.permutations(mine)
         return
     from scipy.optimize import linear_sum_assignment
@@ -245,8 +249,8 @@ def _ways(
     yield tuple(mine[c] for _, c in sorted(zip(rows, columns, strict=True)))
 
 
-def unlike(found: Mechanism, i: int, expected: Mechanism, j: int) -> float:
-    """How different two links are: each number counts up to one."""
+def difference_of_links(found: Mechanism, i: int, expected: Mechanism, j: int) -> float:
+    """A sum of relative differences of two links' numbers, each at most one."""
     a, b = found.links[i], expected.links[j]
     pairs = (
         (a.mass, b.mass),
@@ -258,12 +262,12 @@ def unlike(found: Mechanism, i: int, expected: Mechanism, j: int) -> float:
 
 
 def without_hinge(m: Mechanism, k: int) -> Mechanism:
-    """The mechanism with link k fixed to what carries it, at angle zero (to the support: left out)."""
+    """The mechanism with link k fixed to its parent at angle zero (to the world: left out)."""
     parent = m.links[k].parent
     place = {SUPPORT: SUPPORT}
     links: list[Link] = []
     hinges, names = [], []
-    lost = m.links[k]
+    removed = m.links[k]
     for i, link in enumerate(m.links):
         if i == k:
             place[i] = place[parent]
@@ -271,20 +275,20 @@ def without_hinge(m: Mechanism, k: int) -> Mechanism:
         place[i] = len(links)
         moved = link
         if link.parent == k and parent != SUPPORT:
-            moved = replace(link, hinge=(link.hinge[0] + lost.hinge[0], link.hinge[1] + lost.hinge[1]))
+            moved = replace(link, hinge=(link.hinge[0] + removed.hinge[0], link.hinge[1] + removed.hinge[1]))
         if i == parent:
-            moved = _fused(link, lost)
+            moved = _merged(link, removed)
         links.append(replace(moved, parent=place[link.parent]))
         hinges.append(m.hinges[i])
         names.append(m.link_names[i])
     return replace(m, links=tuple(links), hinges=tuple(hinges), link_names=tuple(names))
 
 
-def _fused(link: Link, lost: Link) -> Link:
-    total = link.mass + lost.mass
-    at = (lost.hinge[0] + lost.com[0], lost.hinge[1] + lost.com[1])
-    share = lost.mass / total if total else 0.0
+def _merged(link: Link, removed: Link) -> Link:
+    total = link.mass + removed.mass
+    at = (removed.hinge[0] + removed.com[0], removed.hinge[1] + removed.com[1])
+    share = removed.mass / total if total else 0.0
     com = (link.com[0] + share * (at[0] - link.com[0]), link.com[1] + share * (at[1] - link.com[1]))
-    inertia = link.inertia + lost.inertia
-    inertia += link.mass * math.dist(link.com, com) ** 2 + lost.mass * math.dist(at, com) ** 2
+    inertia = link.inertia + removed.inertia
+    inertia += link.mass * math.dist(link.com, com) ** 2 + removed.mass * math.dist(at, com) ** 2
     return replace(link, mass=total, com=com, inertia=inertia)

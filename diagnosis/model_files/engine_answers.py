@@ -1,0 +1,118 @@
+"""Engines asked about a model file, in this process or each in a worker process of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from ...engines.model_files.adapter import FileEngine, Reader
+from ...engines.quiet import silenced
+from ...engines.workers.isolated import Call, NotReturned, call_isolated
+from ...models import InvalidInput
+from ...models.mechanism import Mechanism
+from ...models.readers.model_file import ModelFile
+from ...reference import planar_tree as planar
+from ..finding import Finding
+from ..measurement import Array, measure
+from .engine_causes import accuracy_for, engine_causes
+from .engine_view import theory_for, view_for_comparison
+from .result import mechanism_to_json
+
+TIMEOUT = 60.0  # [s] for one engine; ten links take less than one
+MOST_FINDINGS = 40  # shown for one engine
+LONGEST_MESSAGE = 300  # characters of an engine's own message
+
+
+@dataclass
+class EngineAnswer:
+    """One engine's answer about a model file.
+
+    ``status``: ``agrees``, ``differs``, ``missing``, ``refused`` or ``failed``; ``accelerations``: in the probe states,
+    (S, n) [rad/s²]; ``residual``: the largest residual torque over its tolerance; ``native``: whether the engine reads
+    the file itself.
+    """
+
+    name: str
+    status: str
+    says: str = ""
+    findings: list[Finding] = field(default_factory=list)
+    compiled: Mechanism | None = None
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+    accelerations: Array | None = None
+    residual: float = 0.0
+    native: bool = True
+
+    def to_json(self) -> dict[str, Any]:
+        """The engine's entry in the JSON of ``furiko diagnose``."""
+        content: dict[str, Any] = {"status": self.status, "says": self.says, "reads the file itself": self.native}
+        if self.compiled is not None:
+            content |= {"compiled": mechanism_to_json(self.compiled), "residual": self.residual, **self.settings}
+        return content
+
+
+def ask_engines(file: ModelFile, readers: Sequence[Reader], *, isolated: bool) -> list[EngineAnswer]:
+    """The answer of each engine, in the order of ``readers``; ``isolated``: each from a worker process of its own."""
+    if not isolated:
+        with silenced():
+            return [ask(reader, file) for reader in readers]
+    calls = [Call(ask, (reader, file)) for reader in readers]
+    answers = zip(readers, call_isolated(calls, TIMEOUT), strict=True)
+    return [_failed(reader, answer.reason) if isinstance(answer, NotReturned) else answer for reader, answer in answers]
+
+
+def _failed(reader: Reader, reason: str) -> EngineAnswer:
+    findings = [Finding("unexplained", reader.name, None, None, f"{reader.name}: {reason}")]
+    return EngineAnswer(reader.name, "failed", reason, findings=findings, native=reader.native)
+
+
+def ask(reader: Reader, file: ModelFile) -> EngineAnswer:
+    """One engine's answer about the file, with the causes where it differs from furiko's reading of it."""
+    with np.errstate(all="ignore"):
+        try:
+            engine = reader.load(file)
+        except ImportError as error:
+            return EngineAnswer(reader.name, "missing", f"pip install {reader.package} [{error}]", native=reader.native)
+        except (ValueError, RuntimeError) as error:
+            return _refused(reader, _one_line(error)[:LONGEST_MESSAGE])
+        return _compared(reader, engine, file)
+
+
+def _refused(reader: Reader, message: str) -> EngineAnswer:
+    answer = EngineAnswer(reader.name, "refused", message, native=reader.native)
+    if "inertia" in message and reader.native:
+        answer.findings = [Finding("inertia-rejected", reader.name, None, None, f"{reader.name}: {message}")]
+    return answer
+
+
+def _compared(reader: Reader, engine: FileEngine, file: ModelFile) -> EngineAnswer:
+    """The engine's accelerations and inverse dynamics against what the file says."""
+    answer = EngineAnswer(reader.name, "agrees", settings=engine.settings(), notes=engine.notes(), native=reader.native)
+    view = view_for_comparison(engine, reader)
+    theory = theory_for(file.mechanism, reader, view)
+    try:
+        answer.compiled = engine.compiled()
+        measured = measure(view, theory, accuracy_for(theory))
+    except (RuntimeError, ValueError, InvalidInput) as error:
+        answer.status = "differs"
+        answer.findings = [Finding("unexplained", reader.name, None, None, f"{reader.name}: {_one_line(error)}")]
+        return answer
+    answer.accelerations = measured.alpha[measured.forward]
+    answer.residual = measured.worst(planar.parameters(theory))
+    if answer.residual > 1:
+        found = engine_causes(reader, view, file, theory, measured, answer.compiled)[:MOST_FINDINGS]
+        answer.status = "differs"
+        answer.findings = [_with_engine_name(finding, reader.name) for finding in found]
+        answer.says = f"{len(found)} finding{'s' * (len(found) != 1)}"
+    return answer
+
+
+def _with_engine_name(finding: Finding, name: str) -> Finding:
+    return finding if name in finding.where else replace(finding, where=f"{name}: {finding.where}")
+
+
+def _one_line(error: Exception) -> str:
+    return " ".join(str(error).split())
