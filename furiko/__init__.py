@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .derivations.audit.audit import audit
     from .derivations.grading.grade import grade
-    from .derivations.grading.result import Diagnosis
+    from .derivations.grading.grade_record import Grade
     from .diagnosis.diagnose import diagnose
     from .engines import engine_names, load_engine
     from .models import EngineMissing, InvalidInput, NLegPendulum, RodChain, to_mjcf, to_urdf
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _HOMES = {
-    "Diagnosis": "derivations.grading.result",
     "EngineMissing": "models",
+    "Grade": "derivations.grading.grade_record",
     "InvalidInput": "models",
     "NLegPendulum": "models",
     "Report": "reports",
@@ -45,8 +45,8 @@ _HOMES = {
 }
 
 __all__ = [
-    "Diagnosis",
     "EngineMissing",
+    "Grade",
     "InvalidInput",
     "NLegPendulum",
     "Report",

@@ -341,18 +341,18 @@ def grade(
         from .derivations.grading.grade import grade as grade_file
 
         assert file is not None
-        diagnosis = grade_file(file)
+        graded = grade_file(file)
     else:
         from .derivations.grading.grade_callable import grade_callable
 
         if system is None or links is None:
             raise click.UsageError("--callable needs --system and --links")
-        diagnosis = grade_callable(function, system, links)
+        graded = grade_callable(function, system, links)
     if as_json:
-        print_json(diagnosis.to_dict())
+        print_json(graded.to_dict())
     else:
-        click.echo(diagnosis.text("ja" if japanese else "en"))
-    return diagnosis.exit_status
+        click.echo(graded.text("ja" if japanese else "en"))
+    return graded.exit_status
 
 
 @cli.command()

@@ -1,4 +1,4 @@
-"""Formulas seen at one random point of a finite field: what makes comparing thousands of wrong derivations fast.
+"""Formulas evaluated at one random point of a finite field, so that thousands of wrong derivations are compared fast.
 
 At a point, a formula is a number modulo a prime of 61 bits, cos x and sin x being (z + 1/z)/2 and (z - 1/z)/2i with a
 square root i of -1. Two different formulas of degree d agree there with probability at most d/2⁶¹, below 10⁻¹⁵ for
@@ -27,7 +27,7 @@ class Point:
         draw = random.Random(f"furiko {space.n} {seed}")  # fixed: a verdict is the same every time
         n = space.n
         self.space = space
-        self.values = [draw.randrange(2, PRIME) for _ in range(space.symbols)]
+        self.values = [draw.randrange(2, PRIME) for _ in range(space.symbol_count)]
         if equal_lengths:
             self.values[2 * n : 3 * n] = [self.values[2 * n]] * n
         if equal_masses:
@@ -78,7 +78,7 @@ class Point:
         found = self._products.get(e)
         if found is None:
             found = 1
-            for value, power in zip(self.values, digits(e, self.space.symbols), strict=True):
+            for value, power in zip(self.values, digits(e, self.space.symbol_count), strict=True):
                 if power:
                     found = found * pow(value, power, PRIME) % PRIME
             self._products[e] = found

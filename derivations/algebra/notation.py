@@ -7,7 +7,7 @@ import re
 
 from flint import fmpq
 
-from .symbols import Mechanism
+from .symbols import Symbols
 from .trig import COS, Formula, Space, digits, unit
 
 SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
@@ -128,7 +128,7 @@ def pretty(ascii_text: str) -> str:
     return out.replace("*", " ").replace("-", "−")
 
 
-def term_name(m: Mechanism, i: int, q: int) -> str:
+def term_name(m: Symbols, i: int, q: int) -> str:
     """Where a term stands in the documents' matrix form.
 
     ``A[i,j]`` multiplies θ̈_j and ``B[i,j]`` θ̇_j²; gravity is ``B[i,i]`` in Shiki's (3.12), and here ``G[i]`` for
@@ -146,14 +146,14 @@ def term_name(m: Mechanism, i: int, q: int) -> str:
     return f"{motion_text(m.space, q)} in row {i + 1}"
 
 
-def solved_term_name(m: Mechanism, i: int, q: int) -> str:
+def solved_term_name(m: Symbols, i: int, q: int) -> str:
     """Where a term stands in a row that is solved for α_i."""
     if q == unit(i):
         return f"a{i + 1}: denominator"
     return f"a{i + 1}: {motion_text(m.space, q) if q else 'g'}"
 
 
-def equation_number(m: Mechanism) -> str:
+def equation_number(m: Symbols) -> str:
     """The documents' number of the matrix form that :func:`term_name` speaks of."""
     if m.kind == "rod-chain":
         return "18"

@@ -87,7 +87,7 @@ class Quotient:
         return _checked(budget.product(self.top, other.top), below, self.degree + other.degree, budget)
 
     def inverse(self) -> Quotient:
-        """One over it; the caller has seen to it that it is not zero."""
+        """The reciprocal; the caller must exclude zero."""
         top = CONSTANT_ONE
         for factor, power in self.below.items():
             top = top * factor.power(power)

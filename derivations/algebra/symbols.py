@@ -13,7 +13,7 @@ KINDS = ("n-leg", "rod-chain")
 
 
 @dataclass(frozen=True)
-class Mechanism:
+class Symbols:
     """An n-leg pendulum (Shiki) or a chain of uniform rods (Takeno) with symbols for numbers; ``n`` angles."""
 
     kind: str
@@ -50,6 +50,6 @@ class Mechanism:
 
 
 @lru_cache(maxsize=64)
-def mechanism(kind: str, n: int) -> Mechanism:
+def symbols_of(kind: str, n: int) -> Symbols:
     """The mechanism of a kind with n angles; the same object each time, so that what was derived for it is kept."""
-    return Mechanism(kind, n)
+    return Symbols(kind, n)

@@ -13,7 +13,7 @@ from typing import Any, Literal
 import numpy as np
 
 from ...reference import EQUATIONS, SLIPS, Equation
-from ..algebra.symbols import mechanism
+from ..algebra.symbols import symbols_of
 from ..algebra.trig import constant
 from .claims import SOLVES, differences
 from .cost import costs_of
@@ -26,7 +26,7 @@ EXACT_SIZES, BALL_SIZES, POINTS = (2, 3, 4), (6, 10), 2
 
 
 @dataclass(frozen=True)
-class Judged:
+class JudgedEquation:
     """One equation. ``evidence`` says how it was judged; the rest is for misprints and conditions."""
 
     document: str
@@ -45,7 +45,7 @@ class Judged:
 class Audit:
     """The whole audit. ``slips`` stand outside the numbered formulas and were found by reading, not by computing."""
 
-    equations: tuple[Judged, ...]
+    equations: tuple[JudgedEquation, ...]
     slips: tuple[dict[str, str], ...]
     open_questions: tuple[Question, ...] = field(default=())
 
@@ -77,7 +77,7 @@ def audit() -> Audit:
     )
 
 
-def judge(equation: Equation) -> Judged:
+def judge(equation: Equation) -> JudgedEquation:
     """Judge one equation by what is printed; where that fails, its correction must hold."""
     evidence = _evidence(equation, as_printed=True)
     misprint = not evidence["holds"]
@@ -87,7 +87,7 @@ def judge(equation: Equation) -> Judged:
             raise AssertionError(f"{equation.label}: neither what is printed nor its correction holds")
     condition = equation.condition and _condition_needed(equation)
     judgement: Judgement = "misprint" if misprint else "holds-if" if condition else "holds"
-    return Judged(
+    return JudgedEquation(
         equation.document, equation.number, judgement, _says(equation, judgement), equation.formula, evidence,
         equation.condition if condition else "", equation.printed_formula, equation.correction if misprint else "",
         tuple(cost.to_dict() for cost in costs_of(_key(equation))) if misprint else (),
@@ -147,7 +147,7 @@ def _holds_exactly(equation: Equation, n: int, as_printed: bool) -> bool:
 
 @lru_cache(maxsize=16)
 def _exact(document: str, n: int, equal_lengths: bool) -> dict[str, Any]:
-    values = exact_values(mechanism(_kind(document), n), equal_lengths)
+    values = exact_values(symbols_of(_kind(document), n), equal_lengths)
     return values | {"e": array([constant(1)] * n), "index": 0}
 
 

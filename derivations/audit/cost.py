@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from ..algebra.symbols import Mechanism, mechanism
+from ..algebra.symbols import Symbols, symbols_of
 from ..mistakes.catalogue import catalogue
-from ..steps.derivation import Row, derive, right
+from ..steps.derivation import Row, correct_derivation, derive
 from ..steps.motion import Parameters, RowMotion, divergence_time
 
 STATES = 2000
@@ -34,10 +34,10 @@ class Cost:
         return {name: (None if value == float("inf") else value) for name, value in asdict(self).items()}
 
 
-def cost(reading: str, m: Mechanism, wrong: list[Row]) -> Cost:
+def cost(reading: str, m: Symbols, wrong: list[Row]) -> Cost:
     """The cost of wrong rows: 2000 random states; motions from rest at 0.2 rad, and at 2 rad."""
     parameters = parameters_of(m)
-    true, false = RowMotion(m, right(m).rows, parameters), RowMotion(m, wrong, parameters)
+    true, false = RowMotion(m, correct_derivation(m).rows, parameters), RowMotion(m, wrong, parameters)
     draw = np.random.default_rng(20)
     theta, omega = draw.uniform(-np.pi, np.pi, (STATES, m.n)), draw.normal(0, 3, (STATES, m.n))
     expected = true.accelerations(theta, omega)
@@ -48,7 +48,7 @@ def cost(reading: str, m: Mechanism, wrong: list[Row]) -> Cost:
     return Cost(reading, m.kind, m.n, float(np.median(error)), float(error.max()), small, large)
 
 
-def parameters_of(m: Mechanism) -> Parameters:
+def parameters_of(m: Symbols) -> Parameters:
     """The mechanism that costs are told for."""
     return Parameters(LENGTHS[: m.n], MASSES[: m.n] if m.kind == "n-leg" else ())
 
@@ -57,19 +57,19 @@ def costs_of(key: str) -> list[Cost]:
     """The costs of one misprint: one for each way of reading it."""
     return [
         cost(reading, m, derive(m, [_named(m, name)]).rows)
-        for reading, m, name in READINGS.get(key, [])
+        for reading, m, name in INTERPRETATIONS.get(key, [])
     ]  # fmt: skip
 
 
-def _named(m: Mechanism, name: str) -> Any:
+def _named(m: Symbols, name: str) -> Any:
     return next(mistake for mistake in catalogue(m) if mistake.name == name)
 
 
-READINGS: dict[str, list[tuple[str, Mechanism, str]]] = {
-    "shiki 2.1": [("positions as printed", mechanism("n-leg", 3), "wrong-length-in-position:3:3:2")],
-    "shiki 3.4": [("Lagrangian as printed", mechanism("n-leg", 4), "length-missing-in-speed:1:1")],
+INTERPRETATIONS: dict[str, list[tuple[str, Symbols, str]]] = {
+    "shiki 2.1": [("positions as printed", symbols_of("n-leg", 3), "wrong-length-in-position:3:3:2")],
+    "shiki 3.4": [("Lagrangian as printed", symbols_of("n-leg", 4), "length-missing-in-speed:1:1")],
     "takeno 12": [
-        ("l_m read as l_j", mechanism("rod-chain", 3), "sum-index-own"),
-        ("l_m read as l_n", mechanism("rod-chain", 3), "sum-index-last"),
+        ("l_m read as l_j", symbols_of("rod-chain", 3), "sum-index-own"),
+        ("l_m read as l_n", symbols_of("rod-chain", 3), "sum-index-last"),
     ],
 }

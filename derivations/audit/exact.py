@@ -15,7 +15,7 @@ from flint import fmpq
 from numpy.typing import NDArray
 
 from ...reference.arithmetic import Objects
-from ..algebra.symbols import Mechanism
+from ..algebra.symbols import Symbols
 from ..algebra.trig import HALF, NOTHING, Formula, Space, constant, unit
 from ..mistakes.views import divided
 
@@ -107,7 +107,7 @@ def exact_arithmetic() -> Objects:
     return Objects("exact", _number, Angle.cos, Angle.sin)
 
 
-def exact_values(m: Mechanism, equal_lengths: bool = False) -> dict[str, Any]:
+def exact_values(m: Symbols, equal_lengths: bool = False) -> dict[str, Any]:
     """Every symbol of the documents, and what first principles give, for one mechanism; all as formulas."""
     s, n = m.space, m.n
     place = 2 * n
@@ -156,7 +156,7 @@ def exact_values(m: Mechanism, equal_lengths: bool = False) -> dict[str, Any]:
     return values
 
 
-def _matrices(m: Mechanism, row: Sequence[Formula], gravity: Sequence[Formula], l: Array) -> dict[str, Any]:
+def _matrices(m: Symbols, row: Sequence[Formula], gravity: Sequence[Formula], l: Array) -> dict[str, Any]:
     """What multiplies each acceleration and each squared rate in Lagrange's rows, and gravity; [N m] per unit."""
     s, n = m.space, m.n
     parts = [s.split(f) for f in row]
@@ -166,7 +166,7 @@ def _matrices(m: Mechanism, row: Sequence[Formula], gravity: Sequence[Formula], 
 
 
 def _forces(
-    m: Mechanism,
+    m: Symbols,
     joints: list[list[Formula]],
     centres: list[list[Formula]],
     velocity: list[list[Formula]],

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ...models import NLegPendulum, RodChain
 from ...reference import mass_matrix
-from ..algebra.symbols import mechanism
+from ..algebra.symbols import symbols_of
 from ..grading.grade import grade_text
 from ..mistakes.catalogue import catalogue
 from ..steps.derivation import derive
@@ -115,7 +115,7 @@ links = 2
 
 def wikipedia() -> Question:
     """The remark on the coefficients of 2018: a double rod pendulum without the rods' own inertia."""
-    m = mechanism("rod-chain", 2)
+    m = symbols_of("rod-chain", 2)
     mistake = next(x for x in catalogue(m) if x.name == "inertia-missing")
     answer = grade_text(WIKIPEDIA)
     spoilt = cost("rods' own inertia forgotten", m, derive(m, [mistake]).rows)

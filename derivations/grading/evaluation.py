@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from flint import fmpq
 
 from ..algebra.quotient import Budget, Quotient, number
-from ..algebra.symbols import Mechanism
+from ..algebra.symbols import Symbols
 from ..algebra.trig import COS, SIN, Formula
 from .parser import Call, Name, Node, Number, Power, Product, Sum, Symbol
 from .tokens import fail
@@ -21,9 +21,9 @@ WORDS = {"t": "angle", "w": "rate", "a": "acceleration", "l": "length", "m": "ma
 class Evaluation:
     """Evaluates the lines of one file, for one mechanism, within one budget."""
 
-    def __init__(self, mechanism: Mechanism) -> None:
-        self.mechanism = mechanism
-        self.space = mechanism.space
+    def __init__(self, symbols: Symbols) -> None:
+        self.symbols = symbols
+        self.space = symbols.space
         self.budget = Budget()
         self.definitions: dict[str, Node] = {}
         self._values: dict[str, Quotient] = {}
@@ -81,7 +81,7 @@ class Evaluation:
         if letter == "g":
             return Quotient(space.g, {}, 1)
         if letter == "r":
-            if self.mechanism.kind != "rod-chain":
+            if self.symbols.kind != "rod-chain":
                 fail(node.at, "rho is the line density of a rod chain; an n-leg pendulum has masses m1, m2, …")
             return Quotient(space.rho, {}, 1)
         if index > space.n:
@@ -90,10 +90,10 @@ class Evaluation:
             return self._without_index(node)
         place = index - 1
         if letter == "I":
-            if self.mechanism.kind != "rod-chain":
+            if self.symbols.kind != "rod-chain":
                 fail(node.at, "I is the inertia of a rod; the point masses of an n-leg pendulum have none")
-            return Quotient(self.mechanism.inertia(place), {}, 4)
-        symbol = {"w": space.w, "a": space.a, "l": space.l, "m": self.mechanism.mass}[letter]
+            return Quotient(self.symbols.inertia(place), {}, 4)
+        symbol = {"w": space.w, "a": space.a, "l": space.l, "m": self.symbols.mass}[letter]
         return Quotient(symbol(place), {}, 2)
 
     def _without_index(self, node: Symbol) -> Quotient:
@@ -102,8 +102,8 @@ class Evaluation:
             return Quotient(self.space.l(0), {}, 1)
         if node.letter == "m":
             self.equal_masses = True
-            self.equal_lengths = self.equal_lengths or self.mechanism.kind == "rod-chain"
-            return Quotient(self.mechanism.mass(0), {}, 2)
+            self.equal_lengths = self.equal_lengths or self.symbols.kind == "rod-chain"
+            return Quotient(self.symbols.mass(0), {}, 2)
         if self.space.n == 1:
             return self._symbol(Symbol(node.letter, 1, node.at))
         return fail(node.at, f"this {WORDS[node.letter]} has no index; which of the {self.space.n} links is it?")

@@ -5,8 +5,8 @@ from __future__ import annotations
 import random
 import string
 
-from ..algebra.symbols import mechanism
-from ..steps.derivation import right
+from ..algebra.symbols import symbols_of
+from ..steps.derivation import correct_derivation
 from .rewriting import rewritten
 
 FRAGMENTS = [
@@ -26,8 +26,8 @@ def hostile(draw: random.Random) -> str:
 
 
 def _valid(draw: random.Random) -> str:
-    m = mechanism(draw.choice(("n-leg", "rod-chain")), draw.choice((2, 3)))
-    return rewritten(m, right(m).rows, draw)
+    m = symbols_of(draw.choice(("n-leg", "rod-chain")), draw.choice((2, 3)))
+    return rewritten(m, correct_derivation(m).rows, draw)
 
 
 def _damaged(draw: random.Random) -> str:

@@ -16,12 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..algebra.notation import pretty, sub, text
-from ..algebra.symbols import Mechanism, mechanism
+from ..algebra.symbols import Symbols, symbols_of
 from ..algebra.trig import NOTHING, Formula
-from ..grading.result import STAGES_EN, STAGES_JA
+from ..grading.grade_record import STAGES_EN, STAGES_JA
 from ..mistakes.catalogue import catalogue
 from ..mistakes.views import is_multiple
-from ..steps.derivation import Derivation, Mistake, Stage, add, derive, right
+from ..steps.derivation import Derivation, Mistake, Stage, add, correct_derivation, derive
 from ..steps.motion import Parameters, RowMotion
 from .choices import CHOICES, Choice
 
@@ -61,14 +61,14 @@ def write_lesson(path: Path) -> Path:
 
 
 def _entry(number: int, choice: Choice) -> dict[str, Any]:
-    m = mechanism(choice.kind, choice.n)
+    m = symbols_of(choice.kind, choice.n)
     mistake = next(x for x in catalogue(m) if x.name == choice.name)
     wrong = derive(m, [mistake])
     pairs = list(changed_lines(m, mistake, wrong))
     rows = [
-        tuple(Line(f"row {i + 1}", _shown(m, _sum_of_row(m, d, i))) for d in (wrong, right(m)))
+        tuple(Line(f"row {i + 1}", _shown(m, _sum_of_row(m, d, i))) for d in (wrong, correct_derivation(m)))
         for i in range(m.n)
-        if not is_multiple(wrong.rows[i], right(m).rows[i])
+        if not is_multiple(wrong.rows[i], correct_derivation(m).rows[i])
     ]  # fmt: skip
     true, false = _true_motion(m), RowMotion(m, wrong.rows, _parameters(m))
     right_frames, wrong_frames = _true_frames(m), _frames(false)
@@ -87,11 +87,11 @@ def _entry(number: int, choice: Choice) -> dict[str, Any]:
 # The wrong line and the right one -------------------------------------------------------------------------------------
 
 
-def changed_lines(m: Mechanism, mistake: Mistake, wrong: Derivation) -> Iterator[tuple[Line, Line]]:
+def changed_lines(m: Symbols, mistake: Mistake, wrong: Derivation) -> Iterator[tuple[Line, Line]]:
     """The lines of the stage at which a mistake is made that it changes, wrong and right; at most four."""
     told = 0
     for (name, formula), (_, other) in zip(
-        _lines(m, wrong, mistake.stage), _lines(m, right(m), mistake.stage), strict=True
+        _lines(m, wrong, mistake.stage), _lines(m, correct_derivation(m), mistake.stage), strict=True
     ):
         if formula != other and told < 4:
             told += 1
@@ -99,7 +99,7 @@ def changed_lines(m: Mechanism, mistake: Mistake, wrong: Derivation) -> Iterator
 
 
 def _lines(  # noqa: PLR0911 -- one for each stage
-    m: Mechanism, d: Derivation, stage: Stage
+    m: Symbols, d: Derivation, stage: Stage
 ) -> list[tuple[str, Formula]]:
     """What stands on the page at a stage, line by line."""
     every = range(m.n)
@@ -132,11 +132,11 @@ def _lines(  # noqa: PLR0911 -- one for each stage
     return [(f"0 = (row {i + 1})", _sum_of_row(m, d, i)) for i in every]
 
 
-def _sum_of_row(m: Mechanism, d: Derivation, i: int) -> Formula:
+def _sum_of_row(m: Symbols, d: Derivation, i: int) -> Formula:
     return m.space.join(d.rows[i]) if d.rows[i] else NOTHING
 
 
-def _shown(m: Mechanism, f: Formula) -> str:
+def _shown(m: Symbols, f: Formula) -> str:
     return pretty(text(m.space, f))
 
 
@@ -176,17 +176,17 @@ def _chunk(kind: bytes, data: bytes) -> bytes:
 # How it moves ---------------------------------------------------------------------------------------------------------
 
 
-def _parameters(m: Mechanism) -> Parameters:
+def _parameters(m: Symbols) -> Parameters:
     return Parameters(LENGTHS[: m.n], MASSES[: m.n] if m.kind == "n-leg" else ())
 
 
 @cache
-def _true_motion(m: Mechanism) -> RowMotion:
-    return RowMotion(m, right(m).rows, _parameters(m))
+def _true_motion(m: Symbols) -> RowMotion:
+    return RowMotion(m, correct_derivation(m).rows, _parameters(m))
 
 
 @cache
-def _true_frames(m: Mechanism) -> list[list[float]]:
+def _true_frames(m: Symbols) -> list[list[float]]:
     return _frames(_true_motion(m))
 
 

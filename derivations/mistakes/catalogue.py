@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from ..algebra.symbols import Mechanism
+from ..algebra.symbols import Symbols
 from ..steps.derivation import Mistake
 from .energy import energy_mistakes
 from .motion import motion_mistakes
@@ -12,11 +12,11 @@ from .rows import row_mistakes
 
 
 @lru_cache(maxsize=16)
-def catalogue(m: Mechanism) -> tuple[Mistake, ...]:
+def catalogue(m: Symbols) -> tuple[Mistake, ...]:
     """Every single mistake that is known for a mechanism, earlier stages first; names are unique."""
     return (*energy_mistakes(m), *motion_mistakes(m), *row_mistakes(m))
 
 
-def codes(m: Mechanism) -> tuple[str, ...]:
+def codes(m: Symbols) -> tuple[str, ...]:
     """The kinds of mistake, in order of first appearance."""
     return tuple(dict.fromkeys(mistake.code for mistake in catalogue(m)))

@@ -8,7 +8,7 @@ from typing import TypeVar
 from flint import fmpq
 
 from ..algebra.notation import sub
-from ..algebra.symbols import Mechanism
+from ..algebra.symbols import Symbols
 from ..algebra.trig import HALF, NOTHING, Formula
 from ..steps.derivation import ROTATION, Derivation, Mistake, Pair, Stage, segment_position
 
@@ -41,12 +41,12 @@ def instead(value: Formula) -> Callable[[Formula], Formula]:
     return lambda f: value
 
 
-def body(m: Mechanism, b: int) -> tuple[str, str]:
+def body(m: Symbols, b: int) -> tuple[str, str]:
     """What mass b is called, in English and Japanese."""
     return (f"rod {b + 1}", f"棒{b + 1}") if m.kind == "rod-chain" else (f"mass {b + 1}", f"質点{b + 1}")
 
 
-def energy_mistakes(m: Mechanism) -> Iterator[Mistake]:
+def energy_mistakes(m: Symbols) -> Iterator[Mistake]:
     """All of them, for one mechanism."""
     for b in range(m.n):
         yield from _position(m, b)
@@ -64,7 +64,7 @@ def energy_mistakes(m: Mechanism) -> Iterator[Mistake]:
 # Positions ------------------------------------------------------------------------------------------------------------
 
 
-def _position(m: Mechanism, b: int) -> Iterator[Mistake]:
+def _position(m: Symbols, b: int) -> Iterator[Mistake]:
     s, (en, ja) = m.space, body(m, b)
     fractions = dict(m.path(b))
     for k, fraction in fractions.items():
@@ -129,7 +129,7 @@ def _position(m: Mechanism, b: int) -> Iterator[Mistake]:
         )  # fmt: skip
 
 
-def _relative(m: Mechanism, b: int, k: int, fraction: fmpq) -> tuple[Formula, Formula]:
+def _relative(m: Symbols, b: int, k: int, fraction: fmpq) -> tuple[Formula, Formula]:
     """The segment of link k if every angle were measured from the link above."""
     s, angle, link = m.space, {}, k
     while link >= 0:
@@ -156,7 +156,7 @@ def y_instead(y: Formula) -> Callable[[Pair], Pair]:
     return lambda v: (v[0], y)
 
 
-def _velocity(m: Mechanism, b: int) -> Iterator[Mistake]:
+def _velocity(m: Symbols, b: int) -> Iterator[Mistake]:
     s, (en, ja) = m.space, body(m, b)
     for k, fraction in m.path(b):
         x, y = segment_position(m, k, fraction)
@@ -226,7 +226,7 @@ def _velocity(m: Mechanism, b: int) -> Iterator[Mistake]:
 # Squared speeds -------------------------------------------------------------------------------------------------------
 
 
-def _speed(m: Mechanism, b: int) -> Iterator[Mistake]:
+def _speed(m: Symbols, b: int) -> Iterator[Mistake]:
     s, (en, ja) = m.space, body(m, b)
     path = [k for k, _ in m.path(b)]
     for k in path:
@@ -266,7 +266,7 @@ def _part(
     )  # fmt: skip
 
 
-def _cross(m: Mechanism, b: int, pair: tuple[int, int]) -> Iterator[Mistake]:
+def _cross(m: Symbols, b: int, pair: tuple[int, int]) -> Iterator[Mistake]:
     s, (en, ja), (j, k) = m.space, body(m, b), pair
     cross = f"2 l{sub(j)} l{sub(k)} θ̇{sub(j)} θ̇{sub(k)} cos(θ{sub(j)} - θ{sub(k)})"
     cosine, sine, plus = s.cos({j: 1, k: -1}), s.sin({j: 1, k: -1}), s.cos({j: 1, k: 1})
@@ -312,7 +312,7 @@ def _coefficient_of(f: Formula, wave: Formula) -> Formula:
 # Energies -------------------------------------------------------------------------------------------------------------
 
 
-def _energy(m: Mechanism, b: int) -> Iterator[Mistake]:
+def _energy(m: Symbols, b: int) -> Iterator[Mistake]:
     s, (en, ja) = m.space, body(m, b)
     mass = m.mass(b)
 
@@ -368,7 +368,7 @@ def _energy(m: Mechanism, b: int) -> Iterator[Mistake]:
         yield from _height(m, b, k, fraction)
 
 
-def _height(m: Mechanism, b: int, k: int, fraction: fmpq) -> Iterator[Mistake]:
+def _height(m: Symbols, b: int, k: int, fraction: fmpq) -> Iterator[Mistake]:
     s, (en, ja) = m.space, body(m, b)
     th = f"θ{sub(k)}"
 
@@ -406,7 +406,7 @@ def _height(m: Mechanism, b: int, k: int, fraction: fmpq) -> Iterator[Mistake]:
         )  # fmt: skip
 
 
-def _lagrangian(m: Mechanism, b: int) -> Iterator[Mistake]:
+def _lagrangian(m: Symbols, b: int) -> Iterator[Mistake]:
     en, ja = body(m, b)
 
     def shared(times: int) -> Callable[[Derivation], None]:
@@ -441,7 +441,7 @@ def everywhere(
     return Mistake(code, stage, (), english, japanese, apply)
 
 
-def _everywhere(m: Mechanism) -> Iterator[Mistake]:
+def _everywhere(m: Symbols) -> Iterator[Mistake]:
     s = m.space
 
     def swap(d: Derivation, b: int) -> None:
@@ -518,7 +518,7 @@ def _everywhere(m: Mechanism) -> Iterator[Mistake]:
 # Mistakes that only rods, or only point masses, invite ----------------------------------------------------------------
 
 
-def _rods(m: Mechanism) -> Iterator[Mistake]:
+def _rods(m: Symbols) -> Iterator[Mistake]:
     s = m.space
 
     def scaled(factor: fmpq) -> Callable[[Derivation, int], None]:
@@ -578,7 +578,7 @@ def _rods(m: Mechanism) -> Iterator[Mistake]:
             yield everywhere(code, stage, f"Of every rod, {english}.", f"すべての棒：{japanese}。", change)
 
 
-def _point_masses(m: Mechanism) -> Iterator[Mistake]:
+def _point_masses(m: Symbols) -> Iterator[Mistake]:
     s = m.space
 
     def turning(share: fmpq) -> Callable[[Derivation, int], None]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from ..algebra.notation import sub
-from ..algebra.symbols import Mechanism
+from ..algebra.symbols import Symbols
 from ..algebra.trig import HALF, NOTHING, Formula, Space, digit
 from ..steps.derivation import Derivation, Mistake, Stage, add
 from .energy import at, body, everywhere
@@ -13,7 +13,7 @@ from .energy import at, body, everywhere
 Change = Callable[[Derivation, int], None]
 
 
-def motion_mistakes(m: Mechanism) -> Iterator[Mistake]:
+def motion_mistakes(m: Symbols) -> Iterator[Mistake]:
     """All of them, for one mechanism."""
     for i in range(m.n):
         yield from _one_row(m, i)
@@ -25,7 +25,7 @@ def motion_mistakes(m: Mechanism) -> Iterator[Mistake]:
         yield from _moments(m)
 
 
-def _coupled(m: Mechanism, i: int) -> list[int]:
+def _coupled(m: Symbols, i: int) -> list[int]:
     """The angles whose difference from θ_i stands in the Lagrangian."""
     if m.kind == "rod-chain":
         return [j for j in range(m.n) if j != i]
@@ -127,7 +127,7 @@ ROWS: list[tuple[str, Stage, Change, str, str]] = [
 ]  # fmt: skip
 
 
-def _one_row(m: Mechanism, i: int) -> Iterator[Mistake]:
+def _one_row(m: Symbols, i: int) -> Iterator[Mistake]:
     for code, stage, change, english, japanese in ROWS:
         yield Mistake(
             code, stage, (i,), f"Row {i + 1}: {english}.", f"第{i + 1}式：{japanese}。",
@@ -135,14 +135,14 @@ def _one_row(m: Mechanism, i: int) -> Iterator[Mistake]:
         )  # fmt: skip
 
 
-def _all_rows(m: Mechanism) -> Iterator[Mistake]:
+def _all_rows(m: Symbols) -> Iterator[Mistake]:
     if m.n == 1:
         return
     for code, stage, change, english, japanese in ROWS:
         yield everywhere(code, stage, f"In every row, {english}.", f"すべての式：{japanese}。", change)
 
 
-def _one_pair(m: Mechanism, i: int, j: int) -> Iterator[Mistake]:
+def _one_pair(m: Symbols, i: int, j: int) -> Iterator[Mistake]:
     s = m.space
     difference, en = f"cos(θ{sub(i)} - θ{sub(j)})", f"Row {i + 1}"
     derivative = f"-(θ̇{sub(i)} - θ̇{sub(j)}) sin(θ{sub(i)} - θ{sub(j)})"
@@ -214,7 +214,7 @@ def _one_pair(m: Mechanism, i: int, j: int) -> Iterator[Mistake]:
 # Newton's road --------------------------------------------------------------------------------------------------------
 
 
-def _forces(m: Mechanism) -> Iterator[Mistake]:
+def _forces(m: Symbols) -> Iterator[Mistake]:
     s = m.space
 
     def weightless(d: Derivation, b: int) -> None:
@@ -252,7 +252,7 @@ def _forces(m: Mechanism) -> Iterator[Mistake]:
             )  # fmt: skip
 
 
-def _turned(m: Mechanism, f: Formula, factor: int) -> Formula:
+def _turned(m: Symbols, f: Formula, factor: int) -> Formula:
     """The terms with ω² times a factor."""
     n = m.n
     kept = {}
@@ -264,7 +264,7 @@ def _turned(m: Mechanism, f: Formula, factor: int) -> Formula:
     return Formula(kept)
 
 
-def _moments(m: Mechanism) -> Iterator[Mistake]:
+def _moments(m: Symbols) -> Iterator[Mistake]:
     def lower(factor: int) -> Change:
         def change(d: Derivation, j: int) -> None:
             d.lower[j] = d.lower[j].times(factor)

@@ -7,17 +7,17 @@ from collections.abc import Callable, Iterator
 from flint import fmpq
 
 from ..algebra.notation import motion_text, pretty, sub, term_name
-from ..algebra.symbols import Mechanism
+from ..algebra.symbols import Symbols
 from ..algebra.trig import COS, HALF, NOTHING, Formula, Key, Space, digit, digits, unit
-from ..steps.derivation import Derivation, Mistake, Row, right
+from ..steps.derivation import Derivation, Mistake, Row, correct_derivation
 from .energy import everywhere, times
 
 Change = Callable[[Formula], Formula]
 
 
-def row_mistakes(m: Mechanism) -> Iterator[Mistake]:
+def row_mistakes(m: Symbols) -> Iterator[Mistake]:
     """All of them, for one mechanism."""
-    for i, row in enumerate(right(m).rows):
+    for i, row in enumerate(correct_derivation(m).rows):
         for q, coefficient in row.items():
             yield from _whole_term(m, i, q, coefficient)
             yield from _symbols(m, i, q, coefficient)
@@ -39,14 +39,14 @@ def replace(d: Derivation, i: int, q: int, f: Formula, at: int | None = None) ->
     d.rows[i] = row
 
 
-def _told(m: Mechanism, i: int, q: int) -> tuple[str, str]:
+def _told(m: Symbols, i: int, q: int) -> tuple[str, str]:
     """What a term is called: its place in the matrix form, and what it multiplies."""
     what = "g" if not q else pretty(motion_text(m.space, q))
     kind = ("the gravity term", "重力の項") if not q else (f"the {what} term", f"{what} の項")
     return f"Row {i + 1}, {kind[0]} ({term_name(m, i, q)})", f"第{i + 1}式の{kind[1]} ({term_name(m, i, q)})"
 
 
-def _term(m: Mechanism, i: int, q: int, code: str, english: str, japanese: str, change: Change, *more: int) -> Mistake:
+def _term(m: Symbols, i: int, q: int, code: str, english: str, japanese: str, change: Change, *more: int) -> Mistake:
     en, ja = _told(m, i, q)
     return Mistake(
         code, "equation", (i, *_places(m.space, q), *more), f"{en}: {english}.", f"{ja}：{japanese}。",
@@ -59,7 +59,7 @@ def _places(s: Space, q: int) -> tuple[int, ...]:
     return tuple(place for place, power in enumerate(digits(q, 2 * s.n)) for _ in range(abs(power)))
 
 
-def _whole_term(m: Mechanism, i: int, q: int, f: Formula) -> Iterator[Mistake]:
+def _whole_term(m: Symbols, i: int, q: int, f: Formula) -> Iterator[Mistake]:
     s = m.space
     yield _term(m, i, q, "sign", "the sign is wrong", "符号が逆です", lambda f: -f)
     yield _term(m, i, q, "term-missing", "it is missing", "抜けています", lambda f: NOTHING)
@@ -118,10 +118,10 @@ def _waves(s: Space, f: Formula, change: Callable[[dict[int, int], int], Formula
     return result
 
 
-def _symbols(m: Mechanism, i: int, q: int, f: Formula) -> Iterator[Mistake]:
+def _symbols(m: Symbols, i: int, q: int, f: Formula) -> Iterator[Mistake]:
     """Mistakes in what all terms of a coefficient have in common: l, m."""
     s, n = m.space, m.n
-    exponents = [digits(e, s.symbols) for e, _, _ in f.terms]
+    exponents = [digits(e, s.symbol_count) for e, _, _ in f.terms]
     for letter, offset in (("l", 2 * n), ("m", 3 * n)):
         common = [k for k in range(n) if all(e[offset + k] > 0 for e in exponents)]
         for k in common:
@@ -155,7 +155,7 @@ def _symbols(m: Mechanism, i: int, q: int, f: Formula) -> Iterator[Mistake]:
 _WORDS = {"l": "length", "m": "mass"}
 
 
-def _parts(m: Mechanism, i: int, q: int, f: Formula) -> Iterator[Mistake]:
+def _parts(m: Symbols, i: int, q: int, f: Formula) -> Iterator[Mistake]:
     """Mistakes in a sum of masses or lengths: a summand missing, or taken without its fraction."""
     s = m.space
     if len(f) < 2:
@@ -174,16 +174,16 @@ def _parts(m: Mechanism, i: int, q: int, f: Formula) -> Iterator[Mistake]:
             )  # fmt: skip
 
 
-def _own(m: Mechanism, key: Key) -> tuple[int, ...]:
+def _own(m: Symbols, key: Key) -> tuple[int, ...]:
     """The link that a summand is about, as a place for the mistake's name."""
     s, n = m.space, m.n
-    powers = digits(key[0], s.symbols)
+    powers = digits(key[0], s.symbol_count)
     offset = 3 * n if m.kind == "n-leg" else 2 * n
     return tuple(k for k in range(n) for _ in range(powers[offset + k]) if powers[offset + k] > 0)
 
 
 def _summand(s: Space, key: Key) -> str:
-    powers = digits(key[0], s.symbols)
+    powers = digits(key[0], s.symbol_count)
     return " ".join(
         s.names[place] + (f"^{power}" if power != 1 else "")
         for place, power in enumerate(powers)
@@ -203,7 +203,7 @@ def _summand_sized(key: Key, size: int) -> Change:
     return change
 
 
-def _motion(m: Mechanism, i: int, q: int) -> Iterator[Mistake]:
+def _motion(m: Symbols, i: int, q: int) -> Iterator[Mistake]:
     """The right coefficient with the wrong rate or acceleration."""
     s, n = m.space, m.n
     powers = {place: power for place, power in enumerate(digits(q, 2 * n)) if power}
@@ -248,7 +248,7 @@ def _is_acceleration(s: Space, q: int) -> bool:
     return any(digit(q, k) for k in range(s.n))
 
 
-def _row_scaled(m: Mechanism, i: int) -> Iterator[Mistake]:
+def _row_scaled(m: Symbols, i: int) -> Iterator[Mistake]:
     """Row i divided, or multiplied, by something on one side of the equals sign only."""
     s = m.space
     factors: list[tuple[str, Formula, tuple[int, ...]]] = [(f"l{sub(i)}", s.l(i), (i,))]
@@ -278,7 +278,7 @@ def _row_scaled(m: Mechanism, i: int) -> Iterator[Mistake]:
     )  # fmt: skip
 
 
-def _matrix(m: Mechanism) -> Iterator[Mistake]:
+def _matrix(m: Symbols) -> Iterator[Mistake]:
     s, n = m.space, m.n
 
     def other_side(d: Derivation, i: int) -> None:
@@ -329,7 +329,7 @@ def _matrix(m: Mechanism) -> Iterator[Mistake]:
     yield from (_chain_matrix(m) if m.kind == "rod-chain" else _star_matrix(m))
 
 
-def _star_matrix(m: Mechanism) -> Iterator[Mistake]:
+def _star_matrix(m: Symbols) -> Iterator[Mistake]:
     s, n = m.space, m.n
     for i in range(1, n):
         for j in range(1, n):
@@ -346,7 +346,7 @@ def _star_matrix(m: Mechanism) -> Iterator[Mistake]:
             )  # fmt: skip
 
 
-def _chain_matrix(m: Mechanism) -> Iterator[Mistake]:
+def _chain_matrix(m: Symbols) -> Iterator[Mistake]:
     """Takeno's L_j = l_j/2 + Σ_{i>j} l_i and α_jk = L_max(j,k) - δ_jk l_j/6, put together wrongly."""
     s, n = m.space, m.n
 

@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
-from ..algebra.symbols import Mechanism
+from ..algebra.symbols import Symbols
 from ..algebra.trig import CONSTANT_ONE, COS, NOTHING, Formula, Key, Space
 from ..steps.derivation import Row
-from .images import View
+from .known_mistakes import View
 
 
-def columns_to_absolute(m: Mechanism) -> tuple[dict[int, int], ...]:
+def columns_to_absolute(m: Symbols) -> tuple[dict[int, int], ...]:
     """Relative angles by absolute ones: q_k = θ_k - θ_parent."""
     return tuple({k: 1} | ({m.parent(k): -1} if m.parent(k) >= 0 else {}) for k in range(m.n))
 
 
-def columns_to_relative(m: Mechanism) -> tuple[dict[int, int], ...]:
+def columns_to_relative(m: Symbols) -> tuple[dict[int, int], ...]:
     """Absolute angles by relative ones: θ_k = Σ q over the links from the support to k."""
     columns: list[dict[int, int]] = []
     for k in range(m.n):
@@ -27,18 +27,18 @@ def columns_to_relative(m: Mechanism) -> tuple[dict[int, int], ...]:
 
 def merged(view: View, f: Formula) -> Formula:
     """All lengths, all masses, written as the first, where the derivation has one symbol for them."""
-    n = view.mechanism.n
+    n = view.symbols.n
     places: dict[int, int] = {}
     if view.equal_lengths:
         places |= {2 * n + k: 2 * n for k in range(1, n)}
     if view.equal_masses:
         places |= {3 * n + k: 3 * n for k in range(1, n)}
-    return view.mechanism.space.rename(f, places) if places else f
+    return view.symbols.space.rename(f, places) if places else f
 
 
 def for_view(view: View, rows: Sequence[Row]) -> list[Row]:
     """The rows of a derivation as a view has them: Lagrange's rows of the relative angles, symbols merged."""
-    m = view.mechanism
+    m = view.symbols
     if view.relative:
         rows = _relative_rows(m, rows)
     if not (view.equal_lengths or view.equal_masses):
@@ -46,7 +46,7 @@ def for_view(view: View, rows: Sequence[Row]) -> list[Row]:
     return [{q: g for q, f in row.items() if (g := merged(view, f))} for row in rows]
 
 
-def _relative_rows(m: Mechanism, rows: Sequence[Row]) -> list[Row]:
+def _relative_rows(m: Symbols, rows: Sequence[Row]) -> list[Row]:
     sums: list[Row] = [{} for _ in rows]
     for j, row in enumerate(rows):
         i = j

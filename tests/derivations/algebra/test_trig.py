@@ -14,7 +14,7 @@ from furiko.derivations.algebra.trig import Formula, Space, constant, digit, dig
 SPACE = Space(3)
 THETA = sympy.symbols("t1:4", real=True)
 SYMBOLS = sympy.symbols(list(SPACE.names), positive=True)
-ALL = st.integers(0, SPACE.symbols - 1)
+ALL = st.integers(0, SPACE.symbol_count - 1)
 
 
 def in_sympy(f):

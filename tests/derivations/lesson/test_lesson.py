@@ -8,11 +8,11 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 
-from furiko.derivations.algebra.symbols import mechanism
+from furiko.derivations.algebra.symbols import symbols_of
 from furiko.derivations.lesson.choices import CHOICES
 from furiko.derivations.lesson.lesson import GRID, changed_lines, lesson
 from furiko.derivations.mistakes.catalogue import catalogue
-from furiko.derivations.steps.derivation import derive, right
+from furiko.derivations.steps.derivation import correct_derivation, derive
 
 
 class Page(HTMLParser):
@@ -69,12 +69,12 @@ def test_motions_start_alike_and_part(page):
 
 @pytest.mark.parametrize("choice", CHOICES, ids=[choice.name for choice in CHOICES])
 def test_each_has_a_wrong_and_a_right_line(choice):
-    m = mechanism(choice.kind, choice.n)
+    m = symbols_of(choice.kind, choice.n)
     mistake = next(mistake for mistake in catalogue(m) if mistake.name == choice.name)
     lines = list(changed_lines(m, mistake, derive(m, [mistake])))
     assert lines
     assert all(wrong.name == good.name and wrong.formula != good.formula for wrong, good in lines)
-    assert right(m).rows != derive(m, [mistake]).rows
+    assert correct_derivation(m).rows != derive(m, [mistake]).rows
 
 
 def test_no_mistake_stands_there_twice():

@@ -10,7 +10,7 @@ EXIT_STATUS: dict[Verdict, int] = {"correct": 0, "wrong": 1, "undecided": 1}
 
 
 @dataclass(frozen=True)
-class Finding:
+class WrongTerm:
     """One wrong term. ``equation``: the documents' number; ``row``: its label in what was handed in.
 
     ``found`` and ``expected`` are in the scaling of the row as it was handed in, everything on its left side.
@@ -27,7 +27,7 @@ class Finding:
 
 
 @dataclass(frozen=True)
-class Named:
+class NamedMistake:
     """One mistake that explains what was found; ``also``: further mistakes that lead to the very same equations."""
 
     cause: str
@@ -39,12 +39,12 @@ class Named:
 
 
 @dataclass(frozen=True)
-class Diagnosis:
+class Grade:
     """The answer to one derivation. ``alternatives``: other sets of mistakes that explain it as well."""
 
     verdict: Verdict
-    findings: tuple[Finding, ...] = ()
-    mistakes: tuple[Named, ...] = ()
+    findings: tuple[WrongTerm, ...] = ()
+    mistakes: tuple[NamedMistake, ...] = ()
     alternatives: tuple[tuple[str, ...], ...] = ()
     notes: tuple[str, ...] = ()
     notes_ja: tuple[str, ...] = ()
@@ -65,7 +65,7 @@ class Diagnosis:
         return _english(self) if language == "en" else _japanese(self)
 
 
-def _english(d: Diagnosis) -> str:
+def _english(d: Grade) -> str:
     head = {"correct": "Correct.", "wrong": "Wrong.", "undecided": "Undecided."}[d.verdict]
     lines = [head]
     for mistake in d.mistakes:
@@ -79,7 +79,7 @@ def _english(d: Diagnosis) -> str:
     return "\n".join([*lines, *(f"  {note}" for note in d.notes)])
 
 
-def _japanese(d: Diagnosis) -> str:
+def _japanese(d: Grade) -> str:
     head = {"correct": "正しい導出です。", "wrong": "誤りがあります。", "undecided": "判定できません。"}[d.verdict]
     lines = [head]
     for mistake in d.mistakes:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from ..algebra.notation import motion_text, pretty, text
-from ..algebra.symbols import Mechanism
+from ..algebra.symbols import Symbols
 from ..algebra.trig import COS, Formula
 from ..mistakes.views import divided
 
 Told = tuple[str, str, str]  # code, English, Japanese
 
 
-def told(m: Mechanism, i: int, q: int, found: Formula, expected: Formula, name: str) -> Told:
+def told(m: Symbols, i: int, q: int, found: Formula, expected: Formula, name: str) -> Told:
     """The code and the sentence for the term with motion ``q`` of row i, which is called ``name``."""
     what = "gravity" if not q else pretty(motion_text(m.space, q))
     code, english, japanese = _difference(m, found, expected)
@@ -19,7 +19,7 @@ def told(m: Mechanism, i: int, q: int, found: Formula, expected: Formula, name: 
     return code, f"{where}: {english}.", f"{wo}：{japanese}。"
 
 
-def _difference(m: Mechanism, found: Formula, expected: Formula) -> Told:
+def _difference(m: Symbols, found: Formula, expected: Formula) -> Told:
     if not found:
         return "term-missing", "it is missing", "抜けています"
     if not expected:
@@ -32,7 +32,7 @@ def _difference(m: Mechanism, found: Formula, expected: Formula) -> Told:
     return _part(m, found, expected)
 
 
-def _factor(m: Mechanism, factor: Formula) -> Told:
+def _factor(m: Symbols, factor: Formula) -> Told:
     if factor.is_number():
         size = factor.number()
         if size == -1:
@@ -43,7 +43,7 @@ def _factor(m: Mechanism, factor: Formula) -> Told:
     return "factor-wrong", f"there is a factor {shown} too many", f"余分な {shown} が掛かっています"
 
 
-def _part(m: Mechanism, found: Formula, expected: Formula) -> Told:
+def _part(m: Symbols, found: Formula, expected: Formula) -> Told:
     """One part of a sum: missing, with the wrong sign, or one too many."""
     difference = found - expected
     for key, c in difference.terms.items():
