@@ -15,9 +15,9 @@ from flint import fmpq
 from numpy.typing import NDArray
 
 from ...reference.arithmetic import Objects
+from ..algebra.multiples import divided
 from ..algebra.symbols import Symbols
 from ..algebra.trig import HALF, NOTHING, Formula, Space, constant, unit
-from ..mistakes.views import divided
 
 Array = NDArray[Any]
 

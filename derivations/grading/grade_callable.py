@@ -22,8 +22,9 @@ from ...models.errors import InvalidInput, nearest
 from ..algebra.symbols import KINDS, Symbols, symbols_of
 from ..algebra.trig import COS, NOTHING, digits, unit
 from ..mistakes.catalogue import catalogue
-from ..mistakes.known_mistakes import MOST_LINKS, KnownMistakes, View, known_mistakes
+from ..mistakes.known_mistakes import MOST_LINKS, KnownMistakes, known_mistakes
 from ..steps.derivation import Mistake, Row, correct_derivation, derive
+from ..steps.views import View
 from .explain import ranked
 from .grade import answer, named, same_equations
 from .grade_record import Grade

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from ..algebra.fingerprint import Vector
 from ..algebra.trig import Formula
-from ..mistakes.known_mistakes import KnownMistakes, View, known_mistakes
-from ..mistakes.views import columns_to_absolute, merged
+from ..mistakes.known_mistakes import KnownMistakes, known_mistakes
 from ..steps.derivation import Row, lagrange_rows
+from ..steps.views import View, columns_to_absolute, merged
 from .submission import Submission
 
 

@@ -17,8 +17,9 @@ from typing import Any
 
 from ...models.errors import InvalidInput
 from ..algebra.symbols import KINDS, Symbols, symbols_of
-from ..mistakes.known_mistakes import KnownMistakes, View, known_mistakes
+from ..mistakes.known_mistakes import KnownMistakes, known_mistakes
 from ..steps.derivation import NEWTON_STAGES, Mistake, correct_derivation, derive
+from ..steps.views import View
 from .explain import LAGRANGE_STAGES
 from .grade import grade_text
 from .grade_record import Grade

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from ..algebra.multiples import divided
 from ..algebra.notation import motion_text, pretty, text
 from ..algebra.symbols import Symbols
 from ..algebra.trig import COS, Formula
-from ..mistakes.views import divided
 
 Told = tuple[str, str, str]  # code, English, Japanese
 

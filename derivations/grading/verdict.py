@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ..algebra.fingerprint import PRIME, Point, solved
+from ..algebra.multiples import is_multiple
 from ..algebra.notation import equation_number
 from ..algebra.trig import digits
-from ..mistakes.views import for_view, is_multiple
 from ..steps.derivation import Row, correct_derivation
+from ..steps.views import for_view
 from .explain import factors
 from .grade_record import WrongTerm
 from .prepared import Prepared

@@ -9,13 +9,14 @@ from functools import cached_property
 from flint import fmpq
 
 from ..algebra.fingerprint import PRIME
+from ..algebra.multiples import by_waves, common_factor, exact_factor, is_multiple
 from ..algebra.notation import equation_number, solved_term_name, term_name, text
 from ..algebra.symbols import Symbols
 from ..algebra.trig import CONSTANT_ONE, COS, NOTHING, Formula
 from ..mistakes.known_mistakes import KnownMistakes
-from ..mistakes.views import by_waves, columns_to_relative, common_factor, exact_factor, for_view, is_multiple, merged
 from ..steps.derivation import Mistake, Row, correct_derivation, derive
 from ..steps.solved_form import is_solved, solved_rows
+from ..steps.views import columns_to_relative, for_view, merged
 from .explain import Alignment, factors, partial
 from .grade_record import WrongTerm
 from .prepared import Prepared, PreparedRow

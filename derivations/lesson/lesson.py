@@ -15,12 +15,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..algebra.multiples import is_multiple
 from ..algebra.notation import pretty, sub, text
 from ..algebra.symbols import Symbols, symbols_of
 from ..algebra.trig import NOTHING, Formula
 from ..grading.grade_record import STAGES_EN, STAGES_JA
 from ..mistakes.catalogue import catalogue
-from ..mistakes.views import is_multiple
 from ..steps.derivation import Derivation, Mistake, Stage, add, correct_derivation, derive
 from ..steps.motion import Parameters, RowMotion
 from .choices import CHOICES, Choice

@@ -6,23 +6,13 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 from ..algebra.fingerprint import Point, Vector, combine
-from ..algebra.symbols import Symbols
 from ..algebra.trig import unit
 from ..steps.derivation import Derivation, Mistake, correct_derivation, derive
+from ..steps.views import View
 from .catalogue import catalogue
 
 # The catalogue grows with the cube of the links: beyond these, wrong terms are told one by one and no mistake is named.
 MOST_LINKS = {"n-leg": 8, "rod-chain": 6}
-
-
-@dataclass(frozen=True)
-class View:
-    """How rows are looked at: in which angles, and whether all lengths, all masses, are one symbol."""
-
-    symbols: Symbols
-    relative: bool = False
-    equal_lengths: bool = False
-    equal_masses: bool = False
 
 
 @dataclass(frozen=True)

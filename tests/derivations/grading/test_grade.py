@@ -25,8 +25,9 @@ from handwritten import (
 from furiko.derivations.algebra.symbols import symbols_of
 from furiko.derivations.grading.grade import grade, grade_text
 from furiko.derivations.grading.rewriting import plain
-from furiko.derivations.mistakes.known_mistakes import View, known_mistakes
+from furiko.derivations.mistakes.known_mistakes import known_mistakes
 from furiko.derivations.steps.derivation import correct_derivation, derive
+from furiko.derivations.steps.views import View
 from furiko.models.errors import InvalidInput
 
 RIGHT = {

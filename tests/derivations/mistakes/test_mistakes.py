@@ -3,12 +3,13 @@
 import pytest
 from handwritten import ROW_1, ROW_2, SHIKI_2_10, TAKENO_18, TAKENO_19, toml
 
+from furiko.derivations.algebra.multiples import is_multiple
 from furiko.derivations.algebra.symbols import KINDS, symbols_of
 from furiko.derivations.grading.submission import parse_submission
 from furiko.derivations.mistakes.catalogue import catalogue, codes
-from furiko.derivations.mistakes.known_mistakes import View, known_mistakes
-from furiko.derivations.mistakes.views import is_multiple
+from furiko.derivations.mistakes.known_mistakes import known_mistakes
 from furiko.derivations.steps.derivation import correct_derivation, derive
+from furiko.derivations.steps.views import View
 
 
 @pytest.mark.parametrize("n", [2, 3, 4])

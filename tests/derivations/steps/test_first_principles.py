@@ -14,9 +14,9 @@ from handwritten import (
     toml,
 )
 
+from furiko.derivations.algebra.multiples import is_multiple
 from furiko.derivations.algebra.symbols import KINDS, symbols_of
 from furiko.derivations.grading.submission import parse_submission
-from furiko.derivations.mistakes.views import is_multiple
 from furiko.derivations.steps.derivation import _newton_side, _row, correct_derivation, lagrange_rows
 from furiko.derivations.steps.motion import Parameters, RowMotion
 from furiko.models import NLegPendulum, RodChain
