@@ -21,10 +21,10 @@ from handwritten import (
     lagrangian,
     toml,
 )
+from rewritten_derivations import plain
 
 from furiko.derivations.algebra.symbols import symbols_of
 from furiko.derivations.grading.grade import grade, grade_text
-from furiko.derivations.grading.rewriting import plain
 from furiko.derivations.mistakes.known_mistakes import known_mistakes
 from furiko.derivations.steps.derivation import correct_derivation, derive
 from furiko.derivations.steps.views import View

@@ -5,9 +5,10 @@ from __future__ import annotations
 import random
 import string
 
-from ..algebra.symbols import symbols_of
-from ..steps.derivation import correct_derivation
-from .rewriting import rewritten
+from rewritten_derivations import rewritten
+
+from furiko.derivations.algebra.symbols import symbols_of
+from furiko.derivations.steps.derivation import correct_derivation
 
 FRAGMENTS = [
     "(", ")", "{", "}", "[", "]", "^", "**", "=", "==", "+", "-", "/", "*", "\\frac", "\\frac{", "\\ddot", "\\dot{",

@@ -12,10 +12,10 @@ from collections.abc import Sequence
 
 from flint import fmpq
 
-from ..algebra.notation import angle_text, sub
-from ..algebra.symbols import Symbols
-from ..algebra.trig import COS, Formula, digits
-from ..steps.derivation import Row
+from furiko.derivations.algebra.notation import angle_text, sub
+from furiko.derivations.algebra.symbols import Symbols
+from furiko.derivations.algebra.trig import COS, Formula, digits
+from furiko.derivations.steps.derivation import Row
 
 Term = tuple[bool, str]  # negative, and the text of its magnitude
 

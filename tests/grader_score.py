@@ -1,7 +1,9 @@
-"""Measures the grader: ``python -m furiko.derivations.grading.score [--quick] [--json]``.
+"""How well derivations are graded: mistakes named, right equations accepted, malformed inputs refused, and how fast.
+
+    python tests/grader_score.py [--quick] [--json]
 
 Every single mistake of the catalogue (2, 3 and 4 angles, both mechanisms), random pairs of mistakes, random rewritings
-of right equations, and hostile inputs, each handed in as text and graded as a stranger's file would be.
+of right equations, and malformed or hostile inputs. Each is written as text and graded like any user's file.
 """
 
 from __future__ import annotations
@@ -10,21 +12,26 @@ import argparse
 import json
 import random
 import resource
+import sys
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
+from pathlib import Path
 from typing import Any
 
-from ...models.errors import InvalidInput
-from ..algebra.symbols import KINDS, Symbols, symbols_of
-from ..mistakes.known_mistakes import KnownMistakes, known_mistakes
-from ..steps.derivation import NEWTON_STAGES, Mistake, correct_derivation, derive
-from ..steps.views import View
-from .explain import LAGRANGE_STAGES
-from .grade import grade_text
-from .grade_record import Grade
-from .hostile import hostile
-from .rewriting import plain, rewritten
+sys.path.insert(0, str(Path(__file__).parent))
+
+from hostile_derivations import hostile
+from rewritten_derivations import plain, rewritten
+
+from furiko.derivations.algebra.symbols import KINDS, Symbols, symbols_of
+from furiko.derivations.grading.explain import LAGRANGE_STAGES
+from furiko.derivations.grading.grade import grade_text
+from furiko.derivations.grading.grade_record import Grade
+from furiko.derivations.mistakes.known_mistakes import KnownMistakes, known_mistakes
+from furiko.derivations.steps.derivation import NEWTON_STAGES, Mistake, correct_derivation, derive
+from furiko.derivations.steps.views import View
+from furiko.models.errors import InvalidInput
 
 SIZES = (2, 3, 4)
 
