@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import base64
 import json
+import os
 import struct
 import zlib
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -15,6 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...models.errors import InvalidInput
 from ..algebra.multiples import is_multiple
 from ..algebra.notation import pretty, sub, text
 from ..algebra.symbols import Symbols, symbols_of
@@ -55,8 +58,25 @@ def lesson() -> str:
 
 
 def write_lesson(path: Path) -> Path:
-    """Write the page to a file."""
-    path.write_text(lesson(), encoding="utf-8")
+    """Write the page to a file, whole or not at all; returns its path.
+
+    Raises :class:`InvalidInput` where the file cannot be written. A device or a pipe is written directly.
+    """
+    if os.path.isdir(path):  # unlike pathlib, os.path refuses no name
+        raise InvalidInput(f"{path}: is a folder; give the name of a file for the lesson")
+    special = os.path.exists(path) and not os.path.isfile(path)
+    draft = path if special else path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        with draft.open("w", encoding="utf-8", newline="\n") as file:  # opened first: a wrong path is refused at once
+            file.write(lesson())
+        if not special:
+            draft.replace(path)
+    except OSError as error:
+        raise InvalidInput(f"{path}: the lesson cannot be written: {error.strerror or error}") from None
+    finally:
+        if not special:
+            with suppress(OSError):
+                draft.unlink()
     return path
 
 
