@@ -20,7 +20,7 @@ MOST_KEPT = 100_000  # products and waves whose values are kept: a point serves 
 Vector = dict[int, int]  # a row at the point: value of the coefficient of each product of motion
 
 
-class Point:
+class RandomPoint:
     """Random values for all symbols of a space. ``equal_lengths``, ``equal_masses``: one value for all l, all m."""
 
     def __init__(self, space: Space, equal_lengths: bool = False, equal_masses: bool = False, seed: int = 0) -> None:

@@ -7,7 +7,7 @@ equations are those of the energies that come out. Of the documents nothing is u
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -240,6 +240,3 @@ def array(formulas: Any) -> Array:
     out = np.empty(len(nested), dtype=object)
     out[:] = [Exact(f) for f in nested]  # type: ignore[arg-type]
     return out
-
-
-Vanishes = Callable[[Any], bool]

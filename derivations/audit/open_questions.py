@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -19,18 +19,13 @@ from .cost import cost
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class Question:
+class Question(msgspec.Struct, frozen=True):
     """What is open, the answer, the argument for it, and measured numbers."""
 
     question: str
     answer: str
     argument: str
-    numbers: dict[str, Any] = field(default_factory=dict)
-
-    def to_dict(self) -> dict[str, Any]:
-        """For JSON."""
-        return asdict(self)
+    numbers: dict[str, Any]
 
 
 def open_questions(states: int = 200) -> list[Question]:
@@ -130,7 +125,7 @@ def wikipedia() -> Question:
             "verdict": answer.verdict,
             "named": [named.cause for named in answer.mistakes],
             "terms": [[f.term, f.found, f.expected] for f in answer.findings],
-            "cost": spoilt.to_dict(),
+            "cost": msgspec.to_builtins(spoilt),
             "small oscillations [rad/s], l = 1 m": _frequencies(),
         },
     )

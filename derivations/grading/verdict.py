@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..algebra.fingerprint import PRIME, Point, solved
+from ..algebra.fingerprint import PRIME, RandomPoint, solved
 from ..algebra.multiples import is_multiple
 from ..algebra.notation import equation_number
 from ..algebra.trig import digits
@@ -61,7 +61,7 @@ def is_correct_together(given: Prepared) -> bool:
     target = solved(given.vectors, known.accelerations)
     if target is None or target != solved(known.right, known.accelerations):
         return False
-    second = Point(m.space, known.view.equal_lengths, known.view.equal_masses, seed=1)
+    second = RandomPoint(m.space, known.view.equal_lengths, known.view.equal_masses, seed=1)
     base: list[Row] = for_view(known.view, correct_derivation(m).rows)
     return solved([second.vector(row.row) for row in given.rows], known.accelerations) == solved(
         [second.vector(row) for row in base], known.accelerations

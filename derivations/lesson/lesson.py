@@ -25,7 +25,7 @@ from ..algebra.trig import NOTHING, Formula
 from ..grading.grade_record import STAGES_EN, STAGES_JA
 from ..mistakes.catalogue import catalogue
 from ..steps.derivation import Derivation, Mistake, Stage, add, correct_derivation, derive
-from ..steps.motion import Parameters, RowMotion
+from ..steps.motion import ParameterValues, RowMotion
 from .choices import CHOICES, Choice
 
 Array = NDArray[np.float64]
@@ -38,7 +38,7 @@ RATES = (1.5, -1.0, 0.5)  # rad/s, of the map
 
 
 @dataclass(frozen=True)
-class Line:
+class PageLine:
     """What is told of one step: its name, and its formula."""
 
     name: str
@@ -86,7 +86,7 @@ def _entry(number: int, choice: Choice) -> dict[str, Any]:
     wrong = derive(m, [mistake])
     pairs = list(changed_lines(m, mistake, wrong))
     rows = [
-        tuple(Line(f"row {i + 1}", _shown(m, _sum_of_row(m, d, i))) for d in (wrong, correct_derivation(m)))
+        tuple(PageLine(f"row {i + 1}", _shown(m, _sum_of_row(m, d, i))) for d in (wrong, correct_derivation(m)))
         for i in range(m.n)
         if not is_multiple(wrong.rows[i], correct_derivation(m).rows[i])
     ]  # fmt: skip
@@ -107,7 +107,7 @@ def _entry(number: int, choice: Choice) -> dict[str, Any]:
 # The wrong line and the right one -------------------------------------------------------------------------------------
 
 
-def changed_lines(m: Symbols, mistake: Mistake, wrong: Derivation) -> Iterator[tuple[Line, Line]]:
+def changed_lines(m: Symbols, mistake: Mistake, wrong: Derivation) -> Iterator[tuple[PageLine, PageLine]]:
     """The lines of the stage at which a mistake is made that it changes, wrong and right; at most four."""
     told = 0
     for (name, formula), (_, other) in zip(
@@ -115,7 +115,7 @@ def changed_lines(m: Symbols, mistake: Mistake, wrong: Derivation) -> Iterator[t
     ):
         if formula != other and told < 4:
             told += 1
-            yield Line(name, _shown(m, formula)), Line(name, _shown(m, other))
+            yield PageLine(name, _shown(m, formula)), PageLine(name, _shown(m, other))
 
 
 def _lines(  # noqa: PLR0911 -- one for each stage
@@ -196,8 +196,8 @@ def _chunk(kind: bytes, data: bytes) -> bytes:
 # How it moves ---------------------------------------------------------------------------------------------------------
 
 
-def _parameters(m: Symbols) -> Parameters:
-    return Parameters(LENGTHS[: m.n], MASSES[: m.n] if m.kind == "n-leg" else ())
+def _parameters(m: Symbols) -> ParameterValues:
+    return ParameterValues(LENGTHS[: m.n], MASSES[: m.n] if m.kind == "n-leg" else ())
 
 
 @cache

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
-from ..algebra.fingerprint import Point, Vector, combine
+from ..algebra.fingerprint import RandomPoint, Vector, combine
 from ..algebra.trig import unit
 from ..steps.derivation import Derivation, Mistake, correct_derivation, derive
 from ..steps.views import View
@@ -32,7 +32,7 @@ class KnownMistakes:
     def __init__(self, view: View) -> None:
         self.view = view
         self.symbols = view.symbols
-        self.point = Point(view.symbols.space, view.equal_lengths, view.equal_masses)
+        self.point = RandomPoint(view.symbols.space, view.equal_lengths, view.equal_masses)
         self._divisors = [self.point.value(self.symbols.divisor(i)) for i in range(self.symbols.n)]
         self._right_rows = correct_derivation(self.symbols).rows
         self._right_vectors = [self.point.vector(row) for row in self._right_rows]

@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Parameters:
+class ParameterValues:
     """Numbers for the symbols: lengths [m], masses [kg] or, of rods, the line density [kg/m], gravity [m/s²]."""
 
     lengths: tuple[float, ...]
@@ -34,7 +34,7 @@ class Parameters:
 class RowMotion:
     """Accelerations that rows give, for numbers in place of l, m, g, ρ; batched over states."""
 
-    def __init__(self, m: Symbols, rows: Sequence[Row], parameters: Parameters) -> None:
+    def __init__(self, m: Symbols, rows: Sequence[Row], parameters: ParameterValues) -> None:
         self.n = n = m.n
         values = parameters.values(m)
         coefficients, waves, phases, places, powers = [], [], [], [], []

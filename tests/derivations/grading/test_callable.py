@@ -9,7 +9,7 @@ from furiko.derivations.algebra.symbols import symbols_of
 from furiko.derivations.grading.grade_callable import grade_accelerations, grade_callable, samples
 from furiko.derivations.mistakes.catalogue import catalogue
 from furiko.derivations.steps.derivation import derive
-from furiko.derivations.steps.motion import Parameters, RowMotion
+from furiko.derivations.steps.motion import ParameterValues, RowMotion
 from furiko.models.errors import InvalidInput
 
 MODULE = """
@@ -143,4 +143,4 @@ def test_every_mistake_that_determines_the_motion_is_recognised(kind):
 def _parameters(m, state):
     given = state["parameters"]
     masses = tuple(given["masses"]) if m.kind == "n-leg" else ()
-    return Parameters(tuple(given["lengths"]), masses, given.get("density", 1.0), given["gravity"])
+    return ParameterValues(tuple(given["lengths"]), masses, given.get("density", 1.0), given["gravity"])

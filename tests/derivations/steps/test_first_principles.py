@@ -18,7 +18,7 @@ from furiko.derivations.algebra.multiples import is_multiple
 from furiko.derivations.algebra.symbols import KINDS, symbols_of
 from furiko.derivations.grading.submission import parse_submission
 from furiko.derivations.steps.derivation import _newton_side, _row, correct_derivation, lagrange_rows
-from furiko.derivations.steps.motion import Parameters, RowMotion
+from furiko.derivations.steps.motion import ParameterValues, RowMotion
 from furiko.models import NLegPendulum, RodChain
 from furiko.reference import literal_accelerations
 
@@ -93,7 +93,7 @@ def test_numbers_are_the_theorys(system):
     theta, omega = draw.uniform(-3, 3, (50, system.n)), draw.normal(0, 3, (50, system.n))
     m = symbols_of(system.kind, system.n)
     density = getattr(system, "density", 1.0)
-    parameters = Parameters(system.lengths, system.masses if system.kind == "n-leg" else (), density)
+    parameters = ParameterValues(system.lengths, system.masses if system.kind == "n-leg" else (), density)
     found = RowMotion(m, correct_derivation(m).rows, parameters).accelerations(theta, omega)
     # both solve a well-conditioned system of five unknowns in double precision
     np.testing.assert_allclose(found, literal_accelerations(system, theta, omega), rtol=1e-11, atol=1e-11)
@@ -104,7 +104,7 @@ def test_a_motion_keeps_the_small_swings_period():
     m = symbols_of("rod-chain", 1)
     rate = np.sqrt(1.5 * 9.81 / 1.2)
     times = np.linspace(0, 2, 401)
-    angles = RowMotion(m, correct_derivation(m).rows, Parameters((1.2,))).trajectory(
+    angles = RowMotion(m, correct_derivation(m).rows, ParameterValues((1.2,))).trajectory(
         np.array([1e-4]), np.zeros(1), 2.0, 400
     )
     np.testing.assert_allclose(angles[:, 0], 1e-4 * np.cos(rate * times), atol=1e-10)
