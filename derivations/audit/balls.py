@@ -20,7 +20,6 @@ from ...reference.arithmetic import balls
 
 Array = NDArray[Any]
 TIME, SHIFT, RATE = 1, 2, 4  # bits of the nilpotent units; a part is named by the units it has
-PARTS = 8
 
 
 class Nilpotent:

@@ -150,13 +150,13 @@ def exact_values(m: Symbols, equal_lengths: bool = False) -> dict[str, Any]:
         "lagrangian": Exact(lagrangian), "momentum": array(momentum), "momentum_rate": array(momentum_rate),
         "dL_dtheta": array(slope), "row": array(row),
     }  # fmt: skip
-    values |= _matrices(m, row, [s.by_angle(_sum(potential), i) for i in range(n)], values["l"])
+    values |= _matrices(m, row, [s.by_angle(_sum(potential), i) for i in range(n)])
     if m.kind == "rod-chain":
         values |= _forces(m, joints, centres, velocity, values)
     return values
 
 
-def _matrices(m: Symbols, row: Sequence[Formula], gravity: Sequence[Formula], l: Array) -> dict[str, Any]:
+def _matrices(m: Symbols, row: Sequence[Formula], gravity: Sequence[Formula]) -> dict[str, Any]:
     """What multiplies each acceleration and each squared rate in Lagrange's rows, and gravity; [N m] per unit."""
     s, n = m.space, m.n
     parts = [s.split(f) for f in row]

@@ -57,7 +57,7 @@ class Evaluation:
                 return product
             case Power(base=base, exponent=exponent, at=at):
                 value = self.value(base)
-                if exponent < 0 and not value.top:
+                if exponent < 0 and not value.numerator:
                     fail(at, "zero to a negative power")
                 self.budget.at = at
                 return value.power(exponent, self.budget)
@@ -68,7 +68,7 @@ class Evaluation:
         value = self.value(node)
         if above:
             return value
-        if not value.top:
+        if not value.numerator:
             fail(node.at, "a division by zero")
         return value.inverse()
 

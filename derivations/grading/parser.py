@@ -166,10 +166,10 @@ class _Parser:
         at, sign = self.next.at, 1
         while self.next.kind == "operator" and self.next.text in ("+", "-"):
             sign = sign if self.advance().text == "+" else -sign
-        node = self.powered(self.primary(depth), depth)
+        node = self.powered(self.primary(depth))
         return node if sign > 0 else Sum(((-1, node),), at)
 
-    def powered(self, base: Node, depth: int) -> Node:
+    def powered(self, base: Node) -> Node:
         token = self.next
         if token.kind != "operator" or not token.text.startswith("^"):
             return base

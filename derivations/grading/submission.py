@@ -142,7 +142,7 @@ def _rows(evaluation: Evaluation, table: object) -> tuple[tuple[str, Formula], .
 
 def _row(evaluation: Evaluation, line: object) -> Formula:
     left, right = parse_equation(_line(line), frozenset(evaluation.definitions))
-    return evaluation.value(left).plus(evaluation.value(right), -1, evaluation.budget).top
+    return evaluation.value(left).plus(evaluation.value(right), -1, evaluation.budget).numerator
 
 
 def _lagrangian(evaluation: Evaluation, line: object) -> Formula:
@@ -151,9 +151,9 @@ def _lagrangian(evaluation: Evaluation, line: object) -> Formula:
         return evaluation.value(parse_expression(written, frozenset(evaluation.definitions)))
 
     value = _located("lagrangian", read)
-    if value.below:
+    if value.denominator:
         raise InvalidInput("lagrangian: column 1: a sum stands below a fraction bar; a Lagrangian has none")
-    return value.top
+    return value.numerator
 
 
 def _line(line: object) -> str:

@@ -27,11 +27,6 @@ def catalogue(m: Symbols) -> tuple[Mistake, ...]:
     return (*_up_to_lagrangian(m), *lagrange_mistakes(m), *newton_euler_mistakes(m), *_in_rows(m))
 
 
-def codes(m: Symbols) -> tuple[str, ...]:
-    """The kinds of mistake, in order of first appearance."""
-    return tuple(dict.fromkeys(mistake.code for mistake in catalogue(m)))
-
-
 def _up_to_lagrangian(m: Symbols) -> Iterator[Mistake]:
     for b in range(m.n):
         yield from position_mistakes(m, b)

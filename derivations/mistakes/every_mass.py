@@ -19,7 +19,7 @@ def every_mass_mistakes(m: Symbols) -> Iterator[Mistake]:
         d.position[b] = {k: (-y, -x) for k, (x, y) in d.position[b].items()}
 
     def relative(d: Derivation, b: int) -> None:
-        d.position[b] = {k: relative_segment(m, b, k, f) for k, f in m.path(b)}
+        d.position[b] = {k: relative_segment(m, k, f) for k, f in m.path(b)}
 
     def binomial(d: Derivation, b: int) -> None:
         d.square[b] = {pair: f for pair, f in d.square[b].items() if pair[0] == pair[1]}

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 
 from ..algebra.notation import sub
 from ..algebra.symbols import Symbols
-from ..algebra.trig import HALF, NOTHING, Formula, Space, digit
+from ..algebra.trig import HALF, NOTHING, Formula, digit
 from ..steps.derivation import Derivation, Mistake, Stage, add
 from .changes import at, everywhere
 
@@ -16,7 +16,7 @@ Change = Callable[[Derivation, int], None]
 def lagrange_mistakes(m: Symbols) -> Iterator[Mistake]:
     """All of them, for one mechanism."""
     for i in range(m.n):
-        yield from _one_row(m, i)
+        yield from _one_row(i)
         for j in _coupled(m, i):
             yield from _one_pair(m, i, j)
     yield from _all_rows(m)
@@ -29,7 +29,7 @@ def _coupled(m: Symbols, i: int) -> list[int]:
     return list(range(1, m.n)) if i == 0 else [0]
 
 
-def _with(s: Space, f: Formula, j: int) -> Formula:
+def _with(f: Formula, j: int) -> Formula:
     """The terms whose angle contains θ_j."""
     return Formula({key: c for key, c in f.terms.items() if digit(key[1], j)})
 
@@ -120,7 +120,7 @@ ROWS: list[tuple[str, Stage, Change, str, str]] = [
 ]  # fmt: skip
 
 
-def _one_row(m: Symbols, i: int) -> Iterator[Mistake]:
+def _one_row(i: int) -> Iterator[Mistake]:
     for code, stage, change, english, japanese in ROWS:
         yield Mistake(
             code, stage, (i,), f"Row {i + 1}: {english}.", f"第{i + 1}式：{japanese}。",
@@ -136,7 +136,6 @@ def _all_rows(m: Symbols) -> Iterator[Mistake]:
 
 
 def _one_pair(m: Symbols, i: int, j: int) -> Iterator[Mistake]:
-    s = m.space
     difference, en = f"cos(θ{sub(i)} - θ{sub(j)})", f"Row {i + 1}"
     derivative = f"-(θ̇{sub(i)} - θ̇{sub(j)}) sin(θ{sub(i)} - θ{sub(j)})"
 
@@ -144,7 +143,7 @@ def _one_pair(m: Symbols, i: int, j: int) -> Iterator[Mistake]:
         def apply(d: Derivation) -> None:
             changed = {}
             for k, f in d.convective[i].items():
-                pair = _with(s, f, j)
+                pair = _with(f, j)
                 kept = pair.times(sign) if (keep_own if k == i else keep_other) else NOTHING
                 changed[k] = f - pair + kept
             d.convective[i] = changed
@@ -153,13 +152,13 @@ def _one_pair(m: Symbols, i: int, j: int) -> Iterator[Mistake]:
 
     def slope(factor: int) -> Callable[[Derivation], None]:
         def apply(d: Derivation) -> None:
-            pair = _with(s, d.kinetic_slope[i], j)
+            pair = _with(d.kinetic_slope[i], j)
             d.kinetic_slope[i] = d.kinetic_slope[i] - pair + pair.times(factor)
 
         return apply
 
     def no_cross_momentum(d: Derivation) -> None:
-        d.momentum[i] = d.momentum[i] - _with(s, d.momentum[i], j)
+        d.momentum[i] = d.momentum[i] - _with(d.momentum[i], j)
 
     if len(_coupled(m, i)) > 1:  # with a single partner it is the mistake of the whole row
         yield Mistake(

@@ -75,11 +75,11 @@ def position_mistakes(m: Symbols, b: int) -> Iterator[Mistake]:
             f"In the position of {en}, θ{sub(b)} is taken as measured from the link above it; "
             "it is measured from the vertical.",
             f"{ja}の位置で θ{sub(b)} を上のリンクからの角としています。鉛直線からの角です。",
-            lambda d: put(d.position, b, b, relative_segment(m, b, b, fractions[b])),
+            lambda d: put(d.position, b, b, relative_segment(m, b, fractions[b])),
         )  # fmt: skip
 
 
-def relative_segment(m: Symbols, b: int, k: int, fraction: fmpq) -> tuple[Formula, Formula]:
+def relative_segment(m: Symbols, k: int, fraction: fmpq) -> tuple[Formula, Formula]:
     """The segment of link k if every angle were measured from the link above."""
     s, angle, link = m.space, {}, k
     while link >= 0:
