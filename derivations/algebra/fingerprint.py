@@ -2,7 +2,7 @@
 
 At a point, a formula is a number modulo a prime of 61 bits, cos x and sin x being (z + 1/z)/2 and (z - 1/z)/2i with a
 square root i of -1. Two different formulas of degree d agree there with probability at most d/2⁶¹, below 10⁻¹⁵ for
-anything that the reader lets in; what is then told to a student is worked out exactly.
+any derivation that is accepted; the wrong terms that are reported are computed exactly.
 """
 
 from __future__ import annotations

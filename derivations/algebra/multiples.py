@@ -30,7 +30,10 @@ def exact_factor(
 
 
 def divided(f: Formula, by: Formula) -> Formula | None:
-    """f / by where it is easily told: by a single product, a single term with the same wave, or term against term."""
+    """f / by, where it is found without polynomial division: ``by`` is one product, one term, or matches term by term.
+
+    None elsewhere, also where the quotient exists.
+    """
     if by.is_monomial():
         return f * by.inverse_monomial()
     if len(by) == 1:

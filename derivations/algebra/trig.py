@@ -194,7 +194,7 @@ def unit(place: int) -> int:
 
 @dataclass(frozen=True)
 class Space:
-    """The symbols of a system of ``n`` angles and where each stands in a packed exponent.
+    """The symbols of a system of ``n`` angles and the place of each in a packed exponent.
 
     Order: α₁…αₙ, ω₁…ωₙ (together the *motion*), l₁…lₙ, m₁…mₙ, g, ρ. Indices count from 0 here.
     """

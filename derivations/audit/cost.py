@@ -1,4 +1,4 @@
-"""What a misprint would have cost somebody who had implemented it as it stands."""
+"""The errors of an implementation of a misprint as it is printed."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from ..steps.derivation import Row, correct_derivation, derive
 from ..steps.motion import ParameterValues, RowMotion, divergence_time
 
 STATES = 2000
-LENGTHS, MASSES = (1.3, 0.8, 0.6, 0.9), (1.0, 0.5, 0.7, 0.4)  # unequal: what a misprint spoils must be able to show
-DURATION, STEPS = 20.0, 8000  # 2.5 ms a step: both motions are known to far better than 0.1 rad over the times told
+LENGTHS, MASSES = (1.3, 0.8, 0.6, 0.9), (1.0, 0.5, 0.7, 0.4)  # unequal, so that a wrong length or mass shows
+DURATION, STEPS = 20.0, 8000  # 2.5 ms a step: both motions are known to far better than 0.1 rad over the times reported
 
 
 class Cost(Struct, frozen=True):
@@ -48,7 +48,7 @@ def cost(reading: str, m: Symbols, wrong: list[Row]) -> Cost:
 
 
 def parameters_of(m: Symbols) -> ParameterValues:
-    """The mechanism that costs are told for."""
+    """The lengths and masses that costs are measured with."""
     return ParameterValues(LENGTHS[: m.n], MASSES[: m.n] if m.kind == "n-leg" else ())
 
 

@@ -1,8 +1,8 @@
-"""First principles in the exact algebra: every symbol of the documents as a formula, to hold their equations against.
+"""First principles in the exact algebra: every symbol of the documents as a formula, to compare their equations with.
 
 Positions are differentiated into velocities; a rod's kinetic energy is the integral over its mass (Simpson's rule is
 exact for it, the speed squared being quadratic along a rod), so that no moment of inertia is put in; Lagrange's
-equations are those of the energies that come out. Of the documents nothing is used but what their letters mean.
+equations are those of the energies that come out. Only the meaning of the letters is taken from the documents.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class Exact:
 
 
 class Angle:
-    """A sum of angles, as stands inside cos and sin."""
+    """A sum of angles, the argument of cos or sin."""
 
     __slots__ = ("parts", "space")
 
@@ -103,7 +103,7 @@ def _number(x: Any) -> Any:
 
 
 def exact_arithmetic() -> Objects:
-    """The documents' equations run in it like in any other arithmetic; it cannot solve."""
+    """An arithmetic in which the documents' equations can be evaluated; it cannot solve linear systems."""
     return Objects("exact", _number, Angle.cos, Angle.sin)
 
 
@@ -157,7 +157,7 @@ def exact_values(m: Symbols, equal_lengths: bool = False) -> dict[str, Any]:
 
 
 def _matrices(m: Symbols, row: Sequence[Formula], gravity: Sequence[Formula]) -> dict[str, Any]:
-    """What multiplies each acceleration and each squared rate in Lagrange's rows, and gravity; [N m] per unit."""
+    """Joint-space inertia matrix, matrix of the squared rates, and gravity, from Lagrange's rows."""
     s, n = m.space, m.n
     parts = [s.split(f) for f in row]
     inertia = array([[part.get(unit(k), NOTHING) for k in range(n)] for part in parts])
@@ -172,14 +172,14 @@ def _forces(
     velocity: list[list[Formula]],
     values: dict[str, Any],
 ) -> dict[str, Any]:
-    """Takeno's vectors and coefficients: joint forces from the balance of all that hangs below a joint."""
+    """Takeno's vectors and coefficients: joint reaction forces from the balance of the subtree below a joint."""
     s, n = m.space, m.n
     acceleration = array([[s.by_time(x) for x in v] for v in velocity])
     mass, l = values["m"], values["l"]
     weight = np.empty((n, 2), dtype=object)
     weight[:, 0], weight[:, 1] = acceleration[:, 0] * mass, (acceleration[:, 1] + values["g"]) * mass
     force = array([[NOTHING, NOTHING] for _ in range(n + 1)])
-    for k in reversed(range(n)):  # what hangs below joint k pulls at it with its weight and its inertia
+    for k in reversed(range(n)):  # the links below joint k load it with their weight and inertia
         force[k] = force[k + 1] - weight[k]
     position = array(centres)
     cosines = np.array([Exact(s.cos({k: 1})) for k in range(n)], dtype=object)

@@ -31,7 +31,7 @@ class Evaluation:
         self.equal_lengths = self.equal_masses = False
 
     def value(self, node: Node) -> Quotient:  # noqa: PLR0911 -- one for each kind of node
-        """The formula that a tree stands for. Raises InvalidInput with the column of what makes no sense."""
+        """The formula of a tree. Raises InvalidInput, with the column, where it has no meaning."""
         match node:
             case Number(value=value):
                 return number(value)
@@ -75,9 +75,9 @@ class Evaluation:
     def _symbol(self, node: Symbol) -> Quotient:
         letter, index, space = node.letter, node.index, self.space
         if letter == "t":
-            fail(node.at, "an angle stands outside cos and sin; the exact equations have it only inside")
+            fail(node.at, "an angle outside cos and sin; the exact equations have angles only inside")
         if letter == "p":
-            fail(node.at, "π stands outside cos and sin; an equation of motion has none")
+            fail(node.at, "π outside cos and sin; an equation of motion has none")
         if letter == "g":
             return Quotient(space.g, {}, 1)
         if letter == "r":
@@ -174,7 +174,7 @@ class Evaluation:
                 return {PI: named.quarters * QUARTER} | {k: fmpq(h, 2) for k, h in named.halves.items()}
             case Number(value=value) if not value:
                 return {}
-        return fail(node.at, "inside cos and sin stand sums and differences of angles, as in cos(t1 - t2)")
+        return fail(node.at, "inside cos and sin, a sum or difference of angles is expected, as in cos(t1 - t2)")
 
     def _scaled(self, node: Product, parts: tuple[tuple[bool, Node], ...]) -> dict[int, fmpq]:
         factor, form = fmpq(1), None

@@ -24,7 +24,7 @@ MOST_FACTORS = 14  # guesses at a row's factor that are followed
 MOST_EXPLANATIONS = 8
 COMPOSED_FIRST = 80  # mistakes that are tried as the first of two that do not add: those that leave least unexplained
 COMPOSED_TRIES = 600  # derivations with two mistakes that are worked out; about a quarter of a second
-LAGRANGE_STAGES = ("velocity", "speed", "energy", "lagrangian", "momentum", "derivative")  # not on Newton's road
+LAGRANGE_STAGES = ("velocity", "speed", "energy", "lagrangian", "momentum", "derivative")  # not on the way by forces
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,7 @@ def singles_solved(known: KnownMistakes, rows: Sequence[Vector]) -> list[tuple[M
 
 
 class Remainder:
-    """What is to be explained: the wrong rows, as numbers, each with guesses at the factor it was scaled by.
+    """The wrong rows, which are to be explained, as numbers, each with guesses at the factor it was scaled by.
 
     ``taken``: a mistake that is already taken as made; the guesses then come from its rows too, since it may have left
     no term of the right row as it was.
@@ -111,7 +111,7 @@ class Remainder:
         self.base = [known.point.linear(row) for row in known.right]
 
     def after(self, entry: KnownMistake | None) -> dict[int, set[int]] | None:
-        """What is left of each wrong row when a mistake is taken as made; None where it spoils a row that is right."""
+        """What remains of each wrong row after the change that a mistake makes; None where it changes a right row."""
         changes = entry.change if entry is not None else {}
         if not self.settled.isdisjoint(changes):
             return None
@@ -128,7 +128,7 @@ class Remainder:
 
 
 def usual_factors(known: KnownMistakes, i: int) -> list[int]:
-    """What people scale a row by: what Lagrange leaves on it, and signs."""
+    """Factors that rows are usually scaled by: those that Lagrange's equations leave, and signs."""
     m, point = known.symbols, known.point
     s = m.space
     one = point.value(m.divisor(i))
@@ -149,8 +149,8 @@ def sums(known: KnownMistakes, rows: Sequence[Vector], remainder: Remainder) -> 
         left = remainder.after(first)
         if not left or (len(left) == len(remainder.rows) and remainder.rows.keys().isdisjoint(first.change)):
             continue
-        row = min(left, key=lambda i: len(left[i]))
-        for number in left[row]:
+        row, numbers = min(left.items(), key=lambda item: len(item[1]))
+        for number in numbers:
             for second in table[row].get(number, ()):
                 if second is not first and _explains(left, second) and _can_add(known, first, second, given):
                     pair = (first.mistake, second.mistake)
@@ -292,7 +292,7 @@ def explanations(known: KnownMistakes, rows: Sequence[Vector], alignment: Alignm
     return ranked(found)[:MOST_EXPLANATIONS]
 
 
-# Mistakes that share their equations with a likelier one are told after it.
+# Mistakes that share their equations with a likelier one are listed after it.
 UNLIKELY = {
     "inertia-counted-twice": 2, "rod-inertia-for-point-mass": 1, "rate-not-squared": 1, "x-sign": 1,
     "inner-derivative-missing": 1, "mass-counted-twice": 1, "carriers-halved": 1, "rate-product": 1,

@@ -33,7 +33,7 @@ def grade_submission(submission: Submission) -> Grade:
     if is_correct_row_by_row(given):
         return answer(given.known, "correct")
     if is_correct_together(given):
-        note = "The rows are combinations of the documents' rows, and determine the same accelerations."
+        note = "The rows are combinations of the documents' rows and give the same accelerations."
         note_ja = "各行は文献の式の一次結合で、同じ加速度を与えます。"
         return answer(given.known, "correct", notes=(note,), notes_ja=(note_ja,))
     matches = matching(given)
@@ -50,7 +50,7 @@ def answer(known: KnownMistakes, verdict: Verdict, **parts: object) -> Grade:
 def _incomplete(given: Prepared, there: set[int]) -> Grade:
     """Every row is right, but not all are there."""
     missing = [f"θ{i + 1}" for i in range(given.known.symbols.n) if i not in there]
-    note = f"What is there is right; the equation of {' and '.join(missing)} is not there."
+    note = f"The given equations are right; the equation of {' and '.join(missing)} is missing."
     note_ja = f"書かれている式は正しいですが、足りない式があります：{'、'.join(missing)}"
     return answer(given.known, "undecided", notes=(note,), notes_ja=(note_ja,))
 
@@ -64,36 +64,36 @@ def _wrong(given: Prepared) -> Grade:
         found = [ms for ms in found if all(mistake.stage not in AFTER_LAGRANGIAN for mistake in ms)]
     if not found:
         return _unexplained(given, finder, alignment)
-    told = same_equations(known, found)
-    mistakes = told[0][0]
+    groups = same_equations(known, found)
+    mistakes = groups[0][0]
     findings = (
         finder.lagrangian(given.lagrangian, mistakes)
         if given.lagrangian is not None
         else finder.explained(mistakes, given.rows)
     )
-    alternatives = tuple(tuple(mistake.name for mistake in others) for others, _ in told[1:])
-    return answer(known, "wrong", findings=findings, mistakes=named(*told[0]), alternatives=alternatives)
+    alternatives = tuple(tuple(mistake.name for mistake in others) for others, _ in groups[1:])
+    return answer(known, "wrong", findings=findings, mistakes=named(*groups[0]), alternatives=alternatives)
 
 
 def _unexplained(given: Prepared, finder: WrongTermFinder, alignment: Alignment) -> Grade:
-    spoilt = empty_and_repeated(given)
-    if spoilt and given.lagrangian is None:
-        return answer(given.known, "wrong", findings=spoilt)
+    useless = empty_and_repeated(given)
+    if useless and given.lagrangian is None:
+        return answer(given.known, "wrong", findings=useless)
     if given.lagrangian is not None:
-        note = "No mistake of the catalogue leads to this Lagrangian."
+        note = "No mistake in the catalogue leads to this Lagrangian."
         note_ja = "このラグランジアンになる誤りは目録にありません。"
         findings = finder.lagrangian(given.lagrangian, ())
         return answer(given.known, "wrong", findings=findings, notes=(note,), notes_ja=(note_ja,))
     findings = finder.unexplained(given, alignment)
     if given.known.has_catalogue:
         return answer(given.known, "wrong", findings=findings)
-    note = "With so many links the terms are told one by one; mistakes of earlier steps are not looked for."
+    note = "With so many links, wrong terms are listed one by one; mistakes in earlier steps are not searched for."
     note_ja = "リンクが多いので、違う項だけを示します（前の段階の誤りは探しません）。"
     return answer(given.known, "wrong", findings=findings, notes=(note,), notes_ja=(note_ja,))
 
 
 def named(mistakes: Sequence[Mistake], twins: Sequence[Sequence[Mistake]]) -> tuple[NamedMistake, ...]:
-    """Mistakes as they are told, each with those that lead to the very same equations."""
+    """Mistakes as records, each with the names of those that lead to the same equations."""
     return tuple(
         NamedMistake(m.code, m.name, m.stage, m.english, m.japanese, tuple(twin.name for twin in others))
         for m, others in zip(mistakes, twins, strict=True)
@@ -103,7 +103,7 @@ def named(mistakes: Sequence[Mistake], twins: Sequence[Sequence[Mistake]]) -> tu
 def same_equations(
     known: KnownMistakes, found: Sequence[tuple[Mistake, ...]]
 ) -> list[tuple[tuple[Mistake, ...], list[list[Mistake]]]]:
-    """Explanations that are the same but for names of the same equations, told as one.
+    """Explanations grouped: those that lead to the same equations under other names are one.
 
     Each with, for each of its mistakes, the others that lead to the very same equations.
     """

@@ -1,4 +1,4 @@
-"""Grades a function θ̈ = f(θ, ω, parameters) from its accelerations alone, by holding them against the catalogue.
+"""Grades a function θ̈ = f(θ, ω, parameters) from its accelerations alone, by comparing them with the catalogue.
 
 In random states of random mechanisms, the accelerations are put into the right equations; a row that they do not
 satisfy is wrong by a residual, and a mistake explains it if its own equations are satisfied instead. Two mistakes are
@@ -138,13 +138,13 @@ def grade_accelerations(drawn: Samples, accelerations: Array) -> Grade:
     if not found:
         wrong = [i + 1 for i in range(m.n) if np.any(np.abs(residual[i]) > ALLOWED * scale[i])]
         rows = ", ".join(map(str, wrong))
-        note = f"The accelerations do not satisfy row {rows}; no mistake of the catalogue explains it."
+        note = f"The accelerations do not satisfy row {rows}; no mistake in the catalogue explains it."
         return answer(known, "wrong", notes=(note, NO_SANDBOX), notes_ja=(NO_SANDBOX_JA,))
-    told = same_equations(known, found)
-    mistakes = told[0][0]
-    alternatives = tuple(tuple(x.name for x in others) for others, _ in told[1:])
+    groups = same_equations(known, found)
+    mistakes = groups[0][0]
+    alternatives = tuple(tuple(x.name for x in others) for others, _ in groups[1:])
     findings = WrongTermFinder(known).explained(mistakes, ())
-    return answer(known, "wrong", findings=findings, mistakes=named(*told[0]), alternatives=alternatives, **notes)
+    return answer(known, "wrong", findings=findings, mistakes=named(*groups[0]), alternatives=alternatives, **notes)
 
 
 def _explanations(

@@ -1,4 +1,4 @@
-"""What was handed in, made ready for comparison: exact rows in absolute angles, and how they look at a point."""
+"""A derivation prepared for comparison: exact rows in absolute angles, and their values at a random point."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class PreparedRow:
 
 @dataclass(frozen=True)
 class Prepared:
-    """A whole derivation. ``lagrangian``: it was handed in, and ``rows`` are Lagrange's equations of it."""
+    """A whole derivation. ``lagrangian``: it was given, and ``rows`` are Lagrange's equations of it."""
 
     known: KnownMistakes
     rows: tuple[PreparedRow, ...]
@@ -36,7 +36,7 @@ class Prepared:
 
 
 def prepare(submission: Submission) -> Prepared:
-    """Make a submission ready."""
+    """Prepare a derivation that was read."""
     m = submission.symbols
     is_lagrangian = submission.lagrangian is not None
     view = View(m, submission.relative and not is_lagrangian, submission.equal_lengths, submission.equal_masses)

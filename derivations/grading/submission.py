@@ -29,11 +29,11 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Submission:
-    """What somebody derived.
+    """A derivation that was read.
 
     ``rows``: each equation as (its label, left side minus right side, cleared of denominators); ``lagrangian``: in
     place of them, over its denominator; ``relative``: its angles are measured from the link above;
-    ``equal_lengths``, ``equal_masses``: a bare l, m stands for all of them.
+    ``equal_lengths``, ``equal_masses``: l, m without an index is used for all of them.
     """
 
     symbols: Symbols
@@ -152,7 +152,7 @@ def _lagrangian(evaluation: Evaluation, line: object) -> Formula:
 
     value = _located("lagrangian", read)
     if value.denominator:
-        raise InvalidInput("lagrangian: column 1: a sum stands below a fraction bar; a Lagrangian has none")
+        raise InvalidInput("lagrangian: column 1: a sum in a denominator; a Lagrangian has none")
     return value.numerator
 
 
@@ -163,7 +163,7 @@ def _line(line: object) -> str:
 
 
 def _located(where: str, read: Callable[..., T], *arguments: Any) -> T:
-    """What ``read`` gives; its refusal is told with the field it is about."""
+    """The result of ``read``; where it raises InvalidInput, the field is put before the message."""
     try:
         return read(*arguments)
     except InvalidInput as error:

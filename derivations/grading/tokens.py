@@ -1,7 +1,7 @@
 """Cuts a line of a derivation into tokens: plain ASCII, Unicode as it is typed, or LaTeX as a paper prints it.
 
 Only the names of a pendulum's symbols, a few functions, numbers, brackets and signs are known; anything else ends in
-an :class:`InvalidInput` that says where it stands.
+an :class:`InvalidInput` with its column.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class Token:
 
 
 def fail(at: int, message: str) -> NoReturn:
-    """Refuse a line; columns are told counting from 1."""
+    """Raise InvalidInput with the column, counted from 1."""
     raise InvalidInput(f"column {at + 1}: {message}")
 
 

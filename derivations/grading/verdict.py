@@ -69,13 +69,13 @@ def is_correct_together(given: Prepared) -> bool:
 
 
 def _is_linear(given: Prepared) -> bool:
-    """Whether no product with an acceleration stands in the rows but the acceleration alone."""
+    """Whether accelerations occur in the rows only to the first power, and not times a rate."""
     n, accelerations = given.known.symbols.n, set(given.known.accelerations)
     return all(q in accelerations or not any(digits(q, 2 * n)[:n]) for row in given.rows for q in row.row)
 
 
 def empty_and_repeated(given: Prepared) -> tuple[WrongTerm, ...]:
-    """Rows that say nothing, or nothing new."""
+    """Rows whose sides are equal, and rows that repeat another."""
     number = equation_number(given.known.symbols)
     first: dict[int, str] = {}
     findings = []
@@ -83,15 +83,15 @@ def empty_and_repeated(given: Prepared) -> tuple[WrongTerm, ...]:
         if not row.row:
             findings.append(WrongTerm(
                 number, "the whole row", "0 = 0", "an equation of motion", "row-empty",
-                f"Row {row.label}: both sides are the same, so that it says nothing.",
-                f"第{row.label}行：両辺が同じで、何も言っていません。", row.label,
+                f"Row {row.label}: both sides are the same; it is no equation of motion.",
+                f"第{row.label}行：両辺が同じで、運動方程式になっていません。", row.label,
             ))  # fmt: skip
             continue
         earlier = first.setdefault(given.known.point.projective(row.vector), row.label)
         if earlier != row.label:
             findings.append(WrongTerm(
                 number, "the whole row", f"row {earlier} again", "another equation of motion", "row-repeated",
-                f"Row {row.label} is row {earlier} again, scaled.",
+                f"Row {row.label} repeats row {earlier}, scaled.",
                 f"第{row.label}行は第{earlier}行と同じ式です。", row.label,
             ))  # fmt: skip
     return tuple(findings)

@@ -1,4 +1,4 @@
-"""Tells the wrong terms: where each stands in the documents, what was written, and what belongs there."""
+"""Lists the wrong terms: each with its place in the documents, what was found and what is expected."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ from ..steps.views import columns_to_relative, for_view, merged
 from .explain import Alignment, factors, partial
 from .grade_record import WrongTerm
 from .prepared import Prepared, PreparedRow
-from .term_difference import told
+from .term_difference import describe
 
 ONE = fmpq(1)
 
 
 @dataclass(frozen=True)
 class WrongTermFinder:
-    """Tells findings for one view of one mechanism."""
+    """Finds the wrong terms of derivations of one mechanism, in one view."""
 
     known: KnownMistakes
 
@@ -44,7 +44,7 @@ class WrongTermFinder:
     # Where mistakes of the catalogue explain everything ---------------------------------------------------------------
 
     def explained(self, mistakes: Sequence[Mistake], rows: Sequence[PreparedRow]) -> tuple[WrongTerm, ...]:
-        """The terms that these mistakes make wrong, each in the scaling of the row that was handed in."""
+        """The terms that these mistakes make wrong, each scaled like its row in the derivation."""
         wrong_rows = self._wrong_rows(mistakes, rows)
         point = self.known.point
         places = {point.projective(point.vector(row)): i for i, row in enumerate(wrong_rows)}
@@ -81,7 +81,7 @@ class WrongTermFinder:
         ]
 
     def _responsible(self, i: int, q: int, mistakes: Sequence[Mistake]) -> Sequence[Mistake]:
-        """Which of the mistakes change a term; all of them where that cannot be told."""
+        """Which of the mistakes change a term; all of them where that cannot be decided."""
         if len(mistakes) == 1 or self.known.view.relative:
             return mistakes
         names = {mistake.name for mistake in mistakes}
@@ -104,7 +104,7 @@ class WrongTermFinder:
             if i is None:
                 findings.append(WrongTerm(
                     equation_number(self.m), "the whole row", "", "", "row-unknown",
-                    f"Row {row.label} is no equation of motion of this system.",
+                    f"Row {row.label} is not an equation of motion of this system.",
                     f"第{row.label}行はこの系の運動方程式ではありません。", row.label,
                 ))  # fmt: skip
             elif not is_multiple(row.row, self.right_rows[i]):
@@ -142,7 +142,7 @@ class WrongTermFinder:
             said = (
                 (mistake.code, mistake.english, mistake.japanese)
                 if mistake
-                else told(self.m, i, q, one, other, name(self.m, i, q))
+                else describe(self.m, i, q, one, other, name(self.m, i, q))
             )
             finding = self._finding(i, q, (one, other), said, given.label)
             findings.append(replace(finding, term=name(self.m, i, q)))
@@ -173,7 +173,7 @@ class WrongTermFinder:
     # Writing ----------------------------------------------------------------------------------------------------------
 
     def _pairs(self, found: Row, expected: Row) -> Iterable[tuple[int, Formula, Formula]]:
-        """The coefficients that differ, in the angles that were handed in; gravity last."""
+        """The coefficients that differ, in the angles of the derivation; gravity last."""
         found, expected = self._shown(found), self._shown(expected)
         for q in sorted(found.keys() | expected.keys(), key=lambda q: (q == 0, q)):
             one, other = found.get(q, NOTHING), expected.get(q, NOTHING)
@@ -189,7 +189,7 @@ class WrongTermFinder:
     def _finding(
         self, i: int, q: int, pair: tuple[Formula, Formula], said: tuple[str, str, str], label: str
     ) -> WrongTerm:
-        """A matrix entry is told without what it multiplies, as the documents write it; other terms whole."""
+        """A matrix entry is written without the motion that it multiplies, as in the documents; other terms whole."""
         name = term_name(self.m, i, q)
         entry = name.startswith("A[") or (self.m.kind == "rod-chain" and name.startswith("B["))
         motion = CONSTANT_ONE if entry else Formula({(q, 0, COS): ONE})
@@ -206,4 +206,4 @@ def _said(mistakes: Sequence[Mistake]) -> list[tuple[str, str, str]]:
 
 
 def _plain(term: str) -> tuple[str, str, str]:
-    return "term-wrong", f"The term {term} of the Lagrangian is not right.", f"ラグランジアンの項 {term} が違います。"
+    return "term-wrong", f"The term {term} of the Lagrangian is wrong.", f"ラグランジアンの項 {term} が違います。"

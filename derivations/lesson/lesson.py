@@ -1,4 +1,4 @@
-"""A page for a class: thirty mistakes, a question before each, the wrong and the right line, where it bites, a film."""
+"""Writes the page for a class: thirty mistakes, each with a question, the wrong and right lines, a map and a motion."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ RATES = (1.5, -1.0, 0.5)  # rad/s, of the map
 
 @dataclass(frozen=True)
 class PageLine:
-    """What is told of one step: its name, and its formula."""
+    """One line of a derivation: the name of a quantity, and its formula."""
 
     name: str
     formula: str
@@ -109,19 +109,19 @@ def _entry(number: int, choice: Choice) -> dict[str, Any]:
 
 def changed_lines(m: Symbols, mistake: Mistake, wrong: Derivation) -> Iterator[tuple[PageLine, PageLine]]:
     """The lines of the stage at which a mistake is made that it changes, wrong and right; at most four."""
-    told = 0
+    shown = 0
     for (name, formula), (_, other) in zip(
         _lines(m, wrong, mistake.stage), _lines(m, correct_derivation(m), mistake.stage), strict=True
     ):
-        if formula != other and told < 4:
-            told += 1
+        if formula != other and shown < 4:
+            shown += 1
             yield PageLine(name, _shown(m, formula)), PageLine(name, _shown(m, other))
 
 
 def _lines(  # noqa: PLR0911 -- one for each stage
     m: Symbols, d: Derivation, stage: Stage
 ) -> list[tuple[str, Formula]]:
-    """What stands on the page at a stage, line by line."""
+    """The quantities of a stage, one a line."""
     every = range(m.n)
     match stage:
         case "position":
@@ -160,7 +160,7 @@ def _shown(m: Symbols, f: Formula) -> str:
     return pretty(text(m.space, f))
 
 
-# Where it bites -------------------------------------------------------------------------------------------------------
+# Map of the error -----------------------------------------------------------------------------------------------------
 
 
 def _map(true: RowMotion, false: RowMotion) -> str:
@@ -193,7 +193,7 @@ def _chunk(kind: bytes, data: bytes) -> bytes:
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
 
-# How it moves ---------------------------------------------------------------------------------------------------------
+# The motion -----------------------------------------------------------------------------------------------------------
 
 
 def _parameters(m: Symbols) -> ParameterValues:
@@ -211,7 +211,7 @@ def _true_frames(m: Symbols) -> list[list[float]]:
 
 
 def _frames(motion: RowMotion) -> list[list[float]]:
-    """Angles at each frame; where the wrong equations break down, the film ends."""
+    """Angles at each frame; they end where the wrong equations diverge or determine no accelerations."""
     n = motion.n
     angles = motion.trajectory(np.array(START[:n]), np.zeros(n), DURATION, FRAMES * STEPS_A_FRAME)[::STEPS_A_FRAME]
     sound = np.isfinite(angles).all(axis=1) & (np.abs(angles) < 1e4).all(axis=1)

@@ -38,19 +38,19 @@ def rod_mistakes(m: Symbols) -> Iterator[Mistake]:
 
     kinds: list[tuple[str, Stage, Callable[[Derivation, int], None], str, str]] = [
         ("inertia-missing", "energy", scaled(fmpq(0)),
-         "the rotation is left out: a rod has ½ I θ̇² besides ½ m v², with I = m l²/12",
+         "the rotational energy is left out: a rod has ½ I θ̇² besides ½ m v², with I = m l²/12",
          "回転のエネルギー ½ I θ̇²（I = m l²/12）が抜けています"),
         ("inertia-about-end", "energy", scaled(fmpq(4)),
-         "the inertia is m l²/3, about the end; with the speed of the centre belongs I = m l²/12",
+         "the inertia is m l²/3, about the end; with the speed of the centre of mass it is m l²/12",
          "慣性モーメントが端のまわりの m l²/3 です。重心の速度と組むのは m l²/12 です"),
         ("inertia-half-missing", "energy", scaled(fmpq(2)),
-         "the rotation energy has lost its ½", "回転のエネルギー ½ I θ̇² の ½ が抜けています"),
+         "the rotational energy is missing its factor ½", "回転のエネルギー ½ I θ̇² の ½ が抜けています"),
         ("inertia-half-length", "energy", scaled(fmpq(1, 4)),
          "the inertia is taken with l/2 in place of l", "慣性モーメントで l の代わりに l/2 を使っています"),
         ("inertia-length-not-squared", "energy", not_squared,
-         "the inertia has l where l² belongs", "慣性モーメントの l² が l になっています"),
+         "the inertia has l, expected l²", "慣性モーメントの l² が l になっています"),
         ("inertia-relative-rate", "energy", turning_relative,
-         "the rotation energy has the rate relative to the rod above; the absolute rate belongs there",
+         "the rotational energy has the rate relative to the rod above, expected the absolute rate",
          "回転のエネルギーに上の棒に対する角速度が使われています。絶対角速度です"),
         ("centre-at-end", "position", at_end,
          "the centre of mass is put at the rod's end, l; it is at l/2",
@@ -59,18 +59,18 @@ def rod_mistakes(m: Symbols) -> Iterator[Mistake]:
          "the rods above are counted with half their length; only the rod's own is halved",
          "上の棒まで半分の長さにしています。半分にするのはその棒だけです"),
         ("height-of-end", "energy", height_of_end,
-         "the potential energy has the height of the rod's end; its centre belongs there",
+         "the potential energy has the height of the rod's end, expected that of its centre of mass",
          "位置エネルギーに棒の端の高さが使われています。重心の高さです"),
     ]  # fmt: skip
     for code, stage, change, english, japanese in kinds:
         for b in range(m.n):
             en, ja = body(m, b)
             yield Mistake(
-                code, stage, (b,), f"Of {en}, {english}.", f"{ja}：{japanese}。",
+                code, stage, (b,), f"{en.capitalize()}: {english}.", f"{ja}：{japanese}。",
                 at(change, b),
             )  # fmt: skip
         if m.n > 1:
-            yield everywhere(code, stage, f"Of every rod, {english}.", f"すべての棒：{japanese}。", change)
+            yield everywhere(code, stage, f"Every rod: {english}.", f"すべての棒：{japanese}。", change)
 
 
 def point_mass_mistakes(m: Symbols) -> Iterator[Mistake]:
@@ -86,7 +86,7 @@ def point_mass_mistakes(m: Symbols) -> Iterator[Mistake]:
 
     kinds = [
         ("rod-inertia-for-point-mass", fmpq(1, 12),
-         "a rod's m l²/12 is added; the rods weigh nothing and the mass is a point",
+         "a rod's m l²/12 is added; the rods are massless and the mass is a point",
          "棒の慣性モーメント m l²/12 が加えられています。棒の質量は 0 で、おもりは質点です"),
         ("inertia-counted-twice", fmpq(1),
          "½ m l² θ̇² is added as rotation; the speed of the point has it already",
@@ -97,10 +97,10 @@ def point_mass_mistakes(m: Symbols) -> Iterator[Mistake]:
         for b in range(m.n):
             en, ja = body(m, b)
             yield Mistake(
-                code, "energy", (b,), f"Of {en}, {english}.", f"{ja}：{japanese}。",
+                code, "energy", (b,), f"{en.capitalize()}: {english}.", f"{ja}：{japanese}。",
                 at(change, b),
             )  # fmt: skip
-        yield everywhere(code, "energy", f"Of every mass, {english}.", f"すべての質点：{japanese}。", change)
+        yield everywhere(code, "energy", f"Every mass: {english}.", f"すべての質点：{japanese}。", change)
     for b in range(2, m.n):
         yield Mistake(
             "hung-from-a-leg", "position", (b,),

@@ -34,12 +34,12 @@ def times(factor: Formula) -> Callable[[Formula], Formula]:
 
 
 def instead(value: Formula) -> Callable[[Formula], Formula]:
-    """Something else, whatever stood there."""
+    """Replacement by a value."""
     return lambda f: value
 
 
 def body(m: Symbols, b: int) -> tuple[str, str]:
-    """What mass b is called, in English and Japanese."""
+    """The name of mass b in English and Japanese."""
     return (f"rod {b + 1}", f"棒{b + 1}") if m.kind == "rod-chain" else (f"mass {b + 1}", f"質点{b + 1}")
 
 

@@ -32,7 +32,7 @@ def energy_mistakes(m: Symbols, b: int) -> Iterator[Mistake]:
 
     two = Formula({(0, 0, 0): fmpq(2)})
     yield kinetic(
-        "half-missing", f"The kinetic energy of {en} has lost its ½: it is ½ m v².",
+        "half-missing", f"The kinetic energy of {en} is missing its factor ½: it is ½ m v².",
         f"{ja}の運動エネルギーの ½ が抜けています。½ m v² です。", two,
     )  # fmt: skip
     yield kinetic(
@@ -40,7 +40,7 @@ def energy_mistakes(m: Symbols, b: int) -> Iterator[Mistake]:
         f"{ja}の並進の運動エネルギーが抜けています。", NOTHING,
     )  # fmt: skip
     yield potential(
-        "potential-energy-missing", f"The potential energy of {en} is left out: gravity pulls on it too.",
+        "potential-energy-missing", f"The potential energy of {en} is left out: gravity acts on it too.",
         f"{ja}の位置エネルギーが抜けています。重力は{ja}にも働きます。", instead(NOTHING),
     )  # fmt: skip
     yield potential(
@@ -48,7 +48,7 @@ def energy_mistakes(m: Symbols, b: int) -> Iterator[Mistake]:
         f"{ja}の位置エネルギーの符号が逆です。高いほど大きくなります。", lambda f: -f,
     )  # fmt: skip
     yield potential(
-        "gravity-factor-missing", f"The potential energy of {en} has lost its g.",
+        "gravity-factor-missing", f"The potential energy of {en} is missing its factor g.",
         f"{ja}の位置エネルギーに g が掛かっていません。", lambda f: f * s.g.inverse_monomial(),
     )  # fmt: skip
     for j in range(m.n):
@@ -90,7 +90,7 @@ def _height(m: Symbols, b: int, k: int, fraction: fmpq) -> Iterator[Mistake]:
             f"{ja}の位置エネルギーにリンク{k + 1}の高さ -l{sub(k)} cos {th} が抜けています。", instead(NOTHING),
         )  # fmt: skip
     yield height(
-        "height-sine", f"The potential energy of {en} has sin {th} where cos {th} belongs.",
+        "height-sine", f"In the potential energy of {en}: found sin {th}, expected cos {th}.",
         f"{ja}の位置エネルギーで cos {th} とすべき所が sin {th} です。", lambda f: -(weight * x),
     )  # fmt: skip
     for j in range(m.n):
@@ -98,12 +98,12 @@ def _height(m: Symbols, b: int, k: int, fraction: fmpq) -> Iterator[Mistake]:
             continue
         ratio = s.l(j) * s.l(k).inverse_monomial()
         yield height(
-            "wrong-length-in-height", f"The potential energy of {en} has l{sub(j)} where l{sub(k)} belongs.",
+            "wrong-length-in-height", f"In the potential energy of {en}: found l{sub(j)}, expected l{sub(k)}.",
             f"{ja}の位置エネルギーで l{sub(k)} とすべき所が l{sub(j)} です。", times(ratio), j,
         )  # fmt: skip
         turned = weight * s.l(k) * s.cos({j: 1}).times(-fraction)
         yield height(
-            "wrong-angle-in-height", f"The potential energy of {en} has θ{sub(j)} where {th} belongs.",
+            "wrong-angle-in-height", f"In the potential energy of {en}: found θ{sub(j)}, expected {th}.",
             f"{ja}の位置エネルギーで {th} とすべき所が θ{sub(j)} です。", instead(turned), j,
         )  # fmt: skip
 

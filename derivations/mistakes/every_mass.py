@@ -56,22 +56,22 @@ def every_mass_mistakes(m: Symbols) -> Iterator[Mistake]:
     )  # fmt: skip
     yield everywhere(
         "cross-terms-halved", "speed",
-        "Every cross term of the squared speeds has lost its 2: (A + B)² is A² + 2AB + B².",
+        "Every cross term of the squared speeds is missing its factor 2: (A + B)² is A² + 2AB + B².",
         "すべての交差項の 2 が抜けています。(A + B)² = A² + 2AB + B² です。", halved,
     )  # fmt: skip
     yield everywhere(
-        "half-missing-everywhere", "energy", "Every kinetic energy has lost its ½.",
+        "half-missing-everywhere", "energy", "Every kinetic energy is missing its factor ½.",
         "すべての運動エネルギーの ½ が抜けています。", no_half,
     )  # fmt: skip
     yield everywhere(
-        "gravity-missing", "energy", "Gravity is left out altogether.", "重力がまったく入っていません。", no_weight,
+        "gravity-missing", "energy", "Gravity is left out everywhere.", "重力がまったく入っていません。", no_weight,
     )  # fmt: skip
     yield everywhere(
         "sum-for-difference", "lagrangian", "The Lagrangian is T + U; it must be T - U.",
         "ラグランジアンが T + U になっています。T - U です。", added,
     )  # fmt: skip
     yield everywhere(
-        "zero-of-height-moved", "energy", "The zero of height is put elsewhere, which changes nothing.",
+        "zero-of-height-moved", "energy", "The zero of height is elsewhere, which changes nothing.",
         "高さの基準が別の所にあります（運動方程式は変わりません）。", moved_zero,
     )  # fmt: skip
     for j in range(m.n):
@@ -81,6 +81,6 @@ def every_mass_mistakes(m: Symbols) -> Iterator[Mistake]:
             d.potential = [f if b == j else {} for b, f in enumerate(d.potential)]
 
         yield Mistake(
-            "gravity-on-one-mass-only", "energy", (j,), f"Gravity is taken to pull on {en} alone; it pulls on all.",
+            "gravity-on-one-mass-only", "energy", (j,), f"Gravity is applied to {en} only; it acts on every mass.",
             f"重力が{ja}だけに働くことになっています。すべてに働きます。", only,
         )  # fmt: skip

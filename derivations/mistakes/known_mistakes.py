@@ -11,7 +11,7 @@ from ..steps.derivation import Derivation, Mistake, correct_derivation, derive
 from ..steps.views import View
 from .catalogue import catalogue
 
-# The catalogue grows with the cube of the links: beyond these, wrong terms are told one by one and no mistake is named.
+# The catalogue grows with the cube of the links: beyond these, wrong terms are listed and no mistake is named.
 MOST_LINKS = {"n-leg": 8, "rod-chain": 6}
 
 
@@ -48,7 +48,7 @@ class KnownMistakes:
         return self._to_relative(vectors) if self.view.relative else vectors
 
     def _to_relative(self, rows: list[Vector]) -> list[Vector]:
-        """Lagrange's rows of the relative angles: row i sums, undivided, those of link i and of all that it carries."""
+        """Lagrange's rows of the relative angles: row i sums, undivided, those of link i and its subtree."""
         m = self.symbols
         sums: list[Vector] = [{} for _ in rows]
         for j in range(m.n):
@@ -81,7 +81,7 @@ class KnownMistakes:
         return self.evaluated(mistake, self.rows(derive(self.symbols, [mistake])))
 
     def evaluated(self, mistake: Mistake, rows: list[Vector]) -> KnownMistake:
-        """What a derivation's rows differ by from the right ones; a row that is only scaled does not count."""
+        """The differences of a derivation's rows from the right ones; a row that is only scaled does not count."""
         changed, projective, change, terms = {}, {}, {}, set()
         for i, (row, base) in enumerate(zip(rows, self.right, strict=True)):
             if row is base or row == base:

@@ -23,7 +23,7 @@ def lagrange_mistakes(m: Symbols) -> Iterator[Mistake]:
 
 
 def _coupled(m: Symbols, i: int) -> list[int]:
-    """The angles whose difference from θ_i stands in the Lagrangian."""
+    """The angles whose difference from θ_i occurs in the Lagrangian."""
     if m.kind == "rod-chain":
         return [j for j in range(m.n) if j != i]
     return list(range(1, m.n)) if i == 0 else [0]
@@ -38,7 +38,7 @@ def _swap_waves(f: Formula) -> Formula:
     return Formula({(e, h, 1 - phase): c for (e, h, phase), c in f.terms.items() if h})
 
 
-# What a mistake changes ----------------------------------------------------------------------------------------------
+# Changes that mistakes make -------------------------------------------------------------------------------------------
 
 
 def _no_convection(d: Derivation, i: int) -> None:

@@ -145,10 +145,10 @@ def _chain_matrix(m: Symbols) -> Iterator[Mistake]:
     sixth = fmpq(1, 6)
     kinds: list[tuple[str, Callable[[Derivation], None], str, str]] = [
         ("smaller-for-larger-index", rebuilt(below, min, sixth),
-         "L with the smaller of the two indices stands everywhere; what hangs below both is L with the larger",
+         "L has the smaller of the two indices, expected the larger, for the rods below both",
          "L の添字が小さい方になっています。両方より下にあるのは大きい方の添字です"),
         ("own-length-whole", rebuilt(lambda j: below(j, fmpq(1)), max, sixth),
-         "L_j counts the rod's own length whole; it counts half, to the centre of mass",
+         "L_j has the rod's own length in full, expected half of it, to the centre of mass",
          "L_j で自分の長さを全部数えています。重心までの半分です"),
         ("own-length-missing", rebuilt(lambda j: below(j, fmpq(0)), max, sixth),
          "L_j leaves out l_j/2", "L_j に l_j/2 が抜けています"),
@@ -156,13 +156,13 @@ def _chain_matrix(m: Symbols) -> Iterator[Mistake]:
          "δ_jk l_j/6 is added; it is subtracted", "δ_jk l_j/6 を足しています。引きます"),
         ("delta-missing", rebuilt(below, max, fmpq(0)), "δ_jk l_j/6 is left out", "δ_jk l_j/6 が抜けています"),
         ("sum-index-own", rebuilt(lambda j: s.l(j).times(HALF) + s.l(j).times(n - 1 - j), max, sixth),
-         "the sum in L_j adds l_j again and again; its index must run over the rods below (Takeno's (12) prints l_m)",
+         "the sum in L_j adds l_j repeatedly; its index must run over the rods below (Takeno's (12) prints l_m)",
          "L_j の和で l_j ばかり足しています。添字は下の棒を動きます（(12) の印刷では l_m）"),
         ("sum-index-last", rebuilt(lambda j: s.l(j).times(HALF) + s.l(n - 1).times(n - 1 - j), max, sixth),
-         "the sum in L_j adds l_n again and again; its index must run over the rods below (Takeno's (12) prints l_m)",
+         "the sum in L_j adds l_n repeatedly; its index must run over the rods below (Takeno's (12) prints l_m)",
          "L_j の和で l_n ばかり足しています。添字は下の棒を動きます（(12) の印刷では l_m）"),
         ("delta-third", rebuilt(below, max, fmpq(1, 3)),
-         "δ_jk l_j/3 stands where δ_jk l_j/6 belongs", "δ_jk l_j/6 とすべき所が l_j/3 です"),
+         "found δ_jk l_j/3, expected δ_jk l_j/6", "δ_jk l_j/6 とすべき所が l_j/3 です"),
     ]  # fmt: skip
     for code, apply, english, japanese in kinds:
         yield Mistake(code, "matrix", (), f"In the matrices, {english}.", f"行列で、{japanese}。", apply)

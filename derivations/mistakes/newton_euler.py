@@ -29,35 +29,35 @@ def _forces(m: Symbols) -> Iterator[Mistake]:
     def centripetal(factor: int) -> Change:
         def change(d: Derivation, b: int) -> None:
             x, y = d.force[b]
-            d.force[b] = (_turned(m, x, factor), _turned(m, y, factor))
+            d.force[b] = (_centripetal_scaled(m, x, factor), _centripetal_scaled(m, y, factor))
 
         return change
 
     kinds: list[tuple[str, Change, str, str]] = [
         ("weight-missing", weightless,
-         "its weight is left out of Newton's equation", "ニュートンの運動方程式に重力が入っていません"),
+         "the weight is left out of Newton's equation", "ニュートンの運動方程式に重力が入っていません"),
         ("centripetal-missing", centripetal(0),
-         "its acceleration leaves out the part towards the joints, -θ̇² p(θ)",
+         "the acceleration leaves out its centripetal part, -θ̇² p(θ)",
          "加速度に向心成分 -θ̇² p(θ) が抜けています"),
         ("centripetal-sign", centripetal(-1),
-         "its acceleration has the part -θ̇² p(θ) with the wrong sign", "加速度の -θ̇² p(θ) の符号が逆です"),
+         "the centripetal part -θ̇² p(θ) of the acceleration has the wrong sign", "加速度の -θ̇² p(θ) の符号が逆です"),
     ]  # fmt: skip
     for code, change, english, japanese in kinds:
         for b in range(m.n):
             en, ja = body(m, b)
             yield Mistake(
-                code, "force", (b,), f"Of {en}, {english}.", f"{ja}：{japanese}。",
+                code, "force", (b,), f"{en.capitalize()}: {english}.", f"{ja}：{japanese}。",
                 at(change, b),
             )  # fmt: skip
         if m.n > 1:
             every = "rod" if m.kind == "rod-chain" else "mass"
             yield everywhere(
-                code, "force", f"Of every {every}, {english}.",
+                code, "force", f"Every {every}: {english}.",
                 f"すべての{'棒' if m.kind == 'rod-chain' else '質点'}：{japanese}。", change,
             )  # fmt: skip
 
 
-def _turned(m: Symbols, f: Formula, factor: int) -> Formula:
+def _centripetal_scaled(m: Symbols, f: Formula, factor: int) -> Formula:
     """The terms with ω² times a factor."""
     n = m.n
     kept = {}
@@ -96,8 +96,8 @@ def _moments(m: Symbols) -> Iterator[Mistake]:
          "the moment leaves out the force at the upper joint: it turns the rod about its centre too",
          "モーメントに上の継ぎ目の力が抜けています。これも重心のまわりに棒を回します", False),
         ("joint-forces-subtracted", lower(-1),
-         "the moments of the two joint forces are subtracted: both arms and both reactions turn over, so that T_j + "
-         "T_{j-1} stands there",
+         "the moments of the two joint forces are subtracted; arms and reactions both change sign, so that they add: "
+         "T_j + T_{j-1}",
          "上下の継ぎ目の力のモーメントを引いています。腕も反作用も逆なので T_j + T_{j-1} です", True),
         ("arm-whole-length", whole_arm,
          "the arm of the joint forces is l; from the centre it is l/2",
@@ -110,11 +110,11 @@ def _moments(m: Symbols) -> Iterator[Mistake]:
     for code, change, english, japanese, needs_lower in kinds:
         for j in range(m.n):
             if needs_lower and j == m.n - 1 and code != "moment-about-joint-with-central-inertia":
-                continue  # nothing pulls at the lower end of the last rod
+                continue  # no force acts on the lower end of the last rod
             en, ja = body(m, j)
             yield Mistake(
-                code, "moment", (j,), f"Of {en}, {english}.", f"{ja}：{japanese}。",
+                code, "moment", (j,), f"{en.capitalize()}: {english}.", f"{ja}：{japanese}。",
                 at(change, j),
             )  # fmt: skip
         if m.n > 1:
-            yield everywhere(code, "moment", f"Of every rod, {english}.", f"すべての棒：{japanese}。", change)
+            yield everywhere(code, "moment", f"Every rod: {english}.", f"すべての棒：{japanese}。", change)

@@ -28,7 +28,7 @@ def position_mistakes(m: Symbols, b: int) -> Iterator[Mistake]:
             yield Mistake(
                 "segment-missing", "position", (b, k),
                 f"The position of {en} leaves out link {k + 1}: "
-                f"l{sub(k)} sin θ{sub(k)}, -l{sub(k)} cos θ{sub(k)} belong to it.",
+                f"l{sub(k)} sin θ{sub(k)}, -l{sub(k)} cos θ{sub(k)} are missing.",
                 f"{ja}の位置にリンク{k + 1}の分 l{sub(k)} sin θ{sub(k)}, -l{sub(k)} cos θ{sub(k)} が抜けています。",
                 at(lambda d, link: drop(d.position, b, link), k),
             )  # fmt: skip
@@ -57,7 +57,7 @@ def position_mistakes(m: Symbols, b: int) -> Iterator[Mistake]:
             ratio = s.l(j) * s.l(k).inverse_monomial()
             yield moved(
                 "wrong-length-in-position",
-                f"In the position of {en} stands l{sub(j)} where l{sub(k)} belongs.",
+                f"In the position of {en}: found l{sub(j)}, expected l{sub(k)}.",
                 f"{ja}の位置で l{sub(k)} とすべき所が l{sub(j)} になっています。",
                 x * ratio, y * ratio, more=(j,),
             )  # fmt: skip
@@ -65,7 +65,7 @@ def position_mistakes(m: Symbols, b: int) -> Iterator[Mistake]:
             turned = [part * back for part in segment_position(m, j, fraction)]
             yield moved(
                 "wrong-angle-in-position",
-                f"In the position of {en} stands θ{sub(j)} where θ{sub(k)} belongs.",
+                f"In the position of {en}: found θ{sub(j)}, expected θ{sub(k)}.",
                 f"{ja}の位置で θ{sub(k)} とすべき所が θ{sub(j)} になっています。",
                 *turned, more=(j,),
             )  # fmt: skip

@@ -25,7 +25,7 @@ def term_mistakes(m: Symbols, i: int, row: Row) -> Iterator[Mistake]:
 
 
 def replace(d: Derivation, i: int, q: int, f: Formula, at: int | None = None) -> None:
-    """Replace one coefficient of row i; ``at``: it now stands with another product of rates and accelerations."""
+    """Replace one coefficient of row i; ``at``: it now multiplies another product of rates and accelerations."""
     row: Row = {k: v for k, v in d.rows[i].items() if k != q}
     place = q if at is None else at
     sum_ = row.get(place, NOTHING) + f
@@ -36,15 +36,15 @@ def replace(d: Derivation, i: int, q: int, f: Formula, at: int | None = None) ->
     d.rows[i] = row
 
 
-def _told(m: Symbols, i: int, q: int) -> tuple[str, str]:
-    """What a term is called: its place in the matrix form, and what it multiplies."""
+def _term_title(m: Symbols, i: int, q: int) -> tuple[str, str]:
+    """The title of a term in English and Japanese: its row, what it multiplies, its place in the matrix form."""
     what = "g" if not q else pretty(motion_text(m.space, q))
     kind = ("the gravity term", "重力の項") if not q else (f"the {what} term", f"{what} の項")
     return f"Row {i + 1}, {kind[0]} ({term_name(m, i, q)})", f"第{i + 1}式の{kind[1]} ({term_name(m, i, q)})"
 
 
 def _term(m: Symbols, i: int, q: int, code: str, english: str, japanese: str, change: Change, *more: int) -> Mistake:
-    en, ja = _told(m, i, q)
+    en, ja = _term_title(m, i, q)
     return Mistake(
         code, "equation", (i, *_places(m.space, q), *more), f"{en}: {english}.", f"{ja}：{japanese}。",
         lambda d: replace(d, i, q, change(d.rows[i].get(q, NOTHING))),
@@ -60,24 +60,22 @@ def _whole_term(m: Symbols, i: int, q: int, f: Formula) -> Iterator[Mistake]:
     s = m.space
     yield _term(m, i, q, "sign", "the sign is wrong", "符号が逆です", lambda f: -f)
     yield _term(m, i, q, "term-missing", "it is missing", "抜けています", lambda f: NOTHING)
+    yield _term(m, i, q, "factor-two", "it has an extra factor 2", "余分な 2 が掛かっています", lambda f: f.times(2))
     yield _term(
-        m, i, q, "factor-two", "there is a factor 2 too many", "余分な 2 が掛かっています", lambda f: f.times(2)
-    )
-    yield _term(
-        m, i, q, "factor-half", "there is a factor ½ too many", "余分な ½ が掛かっています", lambda f: f.times(HALF)
+        m, i, q, "factor-half", "it has an extra factor ½", "余分な ½ が掛かっています", lambda f: f.times(HALF)
     )
     waves = {(h, phase) for _, h, phase in f.terms}
     if waves != {(0, COS)}:
         ((_, phase),) = {(0, p) for _, p in waves}
         old, new = ("cos", "sin") if phase == COS else ("sin", "cos")
         yield _term(
-            m, i, q, f"{new}-for-{old}", f"{new} stands where {old} belongs", f"{old} とすべき所が {new} です",
+            m, i, q, f"{new}-for-{old}", f"found {new}, expected {old}", f"{old} とすべき所が {new} です",
             lambda f: _waves(s, f, lambda angle, phase: s.wave(angle, 1 - phase)),
         )  # fmt: skip
     angles = digits(next(iter(waves))[0], s.n)
     if sum(1 for a in angles if a) == 2:
         yield _term(
-            m, i, q, "angle-sum", "the angles are added; their difference belongs there",
+            m, i, q, "angle-sum", "found the sum of the angles, expected their difference",
             "角の和になっています。差です",
             lambda f: _waves(s, f, lambda angle, phase: s.wave({k: abs(a) for k, a in angle.items()}, phase)),
         )  # fmt: skip
@@ -85,7 +83,7 @@ def _whole_term(m: Symbols, i: int, q: int, f: Formula) -> Iterator[Mistake]:
         for k in range(m.n):
             if not angles[k]:
                 yield _term(
-                    m, i, q, "wrong-angle", f"θ{sub(k)} stands where θ{sub(old_angle)} belongs",
+                    m, i, q, "wrong-angle", f"found θ{sub(k)}, expected θ{sub(old_angle)}",
                     f"θ{sub(old_angle)} とすべき所が θ{sub(k)} です",
 _other_angle(s, old_angle, k),
                     old_angle, k,
@@ -128,7 +126,7 @@ def _symbols(m: Symbols, i: int, q: int, f: Formula) -> Iterator[Mistake]:
                 times(s.symbol(place).inverse_monomial()), k,
             )  # fmt: skip
             yield _term(
-                m, i, q, f"{_WORDS[letter]}-too-many", f"there is one {name} too many",
+                m, i, q, f"{_WORDS[letter]}-too-many", f"it has an extra factor {name}",
                 f"{name} が一つ多く掛かっています", times(s.symbol(place)), k,
             )  # fmt: skip
             for j in range(n):
@@ -136,14 +134,14 @@ def _symbols(m: Symbols, i: int, q: int, f: Formula) -> Iterator[Mistake]:
                     ratio = s.symbol(offset + j) * s.symbol(place).inverse_monomial()
                     yield _term(
                         m, i, q, f"wrong-{_WORDS[letter]}",
-                        f"{letter}{sub(j)} stands where {name} belongs",
+                        f"found {letter}{sub(j)}, expected {name}",
                         f"{name} とすべき所が {letter}{sub(j)} です", times(ratio), k, j,
                     )  # fmt: skip
         if letter == "l" and m.kind == "n-leg":
             for k in range(n):
                 if k not in common:
                     yield _term(
-                        m, i, q, "length-too-many", f"there is one l{sub(k)} too many",
+                        m, i, q, "length-too-many", f"it has an extra factor l{sub(k)}",
                         f"l{sub(k)} が一つ多く掛かっています",
                         times(s.symbol(offset + k)), k,
                     )  # fmt: skip
@@ -165,7 +163,7 @@ def _parts(m: Symbols, i: int, q: int, f: Formula) -> Iterator[Mistake]:
         )  # fmt: skip
         if abs(c) != 1:
             yield _term(
-                m, i, q, "fraction-missing", f"{summand} stands in the sum without its {abs(c)}",
+                m, i, q, "fraction-missing", f"{summand} in the sum is missing its factor {abs(c)}",
                 f"和の {summand} に {abs(c)} が掛かっていません",
                 _summand_sized(key, 1), *_own(m, key),
             )  # fmt: skip
@@ -207,7 +205,7 @@ def _motion(m: Symbols, i: int, q: int) -> Iterator[Mistake]:
     if not powers:
         return
     ((place, power),) = powers.items()
-    en, ja = _told(m, i, q)
+    en, ja = _term_title(m, i, q)
 
     def moved(code: str, target: int, english: str, japanese: str) -> Mistake:
         return Mistake(
@@ -218,21 +216,21 @@ def _motion(m: Symbols, i: int, q: int) -> Iterator[Mistake]:
     for k in range(n):
         if place < n and k != place:
             yield moved(
-                "wrong-acceleration", unit(k), f"θ̈{sub(k)} stands where θ̈{sub(place)} belongs",
+                "wrong-acceleration", unit(k), f"found θ̈{sub(k)}, expected θ̈{sub(place)}",
                 f"θ̈{sub(place)} とすべき所が θ̈{sub(k)} です",
             )  # fmt: skip
         if place >= n and k != place - n:
             yield moved(
-                "wrong-rate", 2 * unit(n + k), f"θ̇{sub(k)}² stands where θ̇{sub(place - n)}² belongs",
+                "wrong-rate", 2 * unit(n + k), f"found θ̇{sub(k)}², expected θ̇{sub(place - n)}²",
                 f"θ̇{sub(place - n)}² とすべき所が θ̇{sub(k)}² です",
             )  # fmt: skip
             yield moved(
                 "rate-product", unit(n + k) + unit(place),
-                f"θ̇{sub(min(k, place - n))} θ̇{sub(max(k, place - n))} stands where θ̇{sub(place - n)}² belongs",
+                f"found θ̇{sub(min(k, place - n))} θ̇{sub(max(k, place - n))}, expected θ̇{sub(place - n)}²",
                 f"θ̇{sub(place - n)}² とすべき所が θ̇{sub(min(k, place - n))} θ̇{sub(max(k, place - n))} です",
             )  # fmt: skip
     if place >= n and power == 2:
         name = f"θ̇{sub(place - n)}"
         yield moved(
-            "square-missing", unit(place), f"{name} stands where {name}² belongs", f"{name}² とすべき所が {name} です"
+            "square-missing", unit(place), f"found {name}, expected {name}²", f"{name}² とすべき所が {name} です"
         )

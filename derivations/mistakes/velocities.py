@@ -17,12 +17,12 @@ def _scaled(factor: Formula) -> Callable[[Pair], Pair]:
 
 
 def _x_instead(x: Formula) -> Callable[[Pair], Pair]:
-    """Something else for x."""
+    """Replacement of x."""
     return lambda v: (x, v[1])
 
 
 def _y_instead(y: Formula) -> Callable[[Pair], Pair]:
-    """Something else for y."""
+    """Replacement of y."""
     return lambda v: (v[0], y)
 
 
@@ -74,7 +74,7 @@ def velocity_mistakes(m: Symbols, b: int) -> Iterator[Mistake]:
                 ratio = s.w(j) * inverse
                 yield changed(
                     "wrong-rate-in-velocity",
-                    f"In the velocity of {en} stands θ̇{sub(j)} where θ̇{sub(k)} belongs.",
+                    f"In the velocity of {en}: found θ̇{sub(j)}, expected θ̇{sub(k)}.",
                     f"{ja}の速度で θ̇{sub(k)} とすべき所が θ̇{sub(j)} になっています。",
                     _scaled(ratio),
                     more=(j,),
@@ -110,7 +110,7 @@ def speed_mistakes(m: Symbols, b: int) -> Iterator[Mistake]:
         )  # fmt: skip
         yield _part(
             b, (k, k), "length-not-squared",
-            f"In the squared speed of {en}, l{sub(k)} stands where l{sub(k)}² belongs.",
+            f"In the squared speed of {en}: found l{sub(k)}, expected l{sub(k)}².",
             f"{ja}の速度の2乗で l{sub(k)}² とすべき所が l{sub(k)} です。", times(l),
         )  # fmt: skip
         yield _part(
@@ -120,7 +120,7 @@ def speed_mistakes(m: Symbols, b: int) -> Iterator[Mistake]:
         )  # fmt: skip
         yield _part(
             b, (k, k), "rate-not-squared",
-            f"In the squared speed of {en}, θ̇{sub(k)} stands where θ̇{sub(k)}² belongs.",
+            f"In the squared speed of {en}: found θ̇{sub(k)}, expected θ̇{sub(k)}².",
             f"{ja}の速度の2乗で θ̇{sub(k)}² とすべき所が θ̇{sub(k)} です。", times(w),
         )  # fmt: skip
     for place, j in enumerate(path):
@@ -144,7 +144,7 @@ def _cross(m: Symbols, b: int, pair: tuple[int, int]) -> Iterator[Mistake]:
     cosine, sine, plus = s.cos({j: 1, k: -1}), s.sin({j: 1, k: -1}), s.cos({j: 1, k: 1})
 
     def replaced(wave: Formula) -> Callable[[Formula], Formula]:
-        """cos(θ_j - θ_k) replaced by something else, whatever stands before it."""
+        """cos(θ_j - θ_k) replaced by another function; its coefficient stays."""
         return lambda f: _coefficient_of(f, cosine) * wave
 
     yield _part(
@@ -154,7 +154,7 @@ def _cross(m: Symbols, b: int, pair: tuple[int, int]) -> Iterator[Mistake]:
     )  # fmt: skip
     yield _part(
         b, pair, "cross-term-halved",
-        f"In the squared speed of {en}, the cross term has lost its 2: (A + B)² has 2AB, here {cross}.",
+        f"In the squared speed of {en}, the cross term is missing its factor 2: (A + B)² has 2AB, here {cross}.",
         f"{ja}の速度の2乗で交差項の 2 が抜けています。正しくは {cross} です。", lambda f: f.times(HALF),
     )  # fmt: skip
     yield _part(
@@ -164,7 +164,7 @@ def _cross(m: Symbols, b: int, pair: tuple[int, int]) -> Iterator[Mistake]:
     )  # fmt: skip
     yield _part(
         b, pair, "cross-term-sine",
-        f"In the squared speed of {en}, the cross term has sin where cos(θ{sub(j)} - θ{sub(k)}) belongs.",
+        f"In the squared speed of {en}, the cross term has sin, expected cos(θ{sub(j)} - θ{sub(k)}).",
         f"{ja}の速度の2乗の交差項で cos(θ{sub(j)} - θ{sub(k)}) とすべき所が sin です。", replaced(sine),
     )  # fmt: skip
     yield _part(

@@ -2,9 +2,12 @@
 
     positions → velocities → squared speeds → energies → Lagrangian → momenta → derivatives → rows → matrix
 
-and, as a second road, Newton's: positions → forces → joint forces → moments → rows. Every step is an attribute that a
-mistake may replace; only what comes after a replaced part is worked out again, which is what lets a catalogue of
-thousands be derived within a second.
+and, the second way, by forces (Newton–Euler):
+
+    positions → forces → joint forces → moments → rows
+
+Every step is an attribute that a mistake may replace. Only what depends on a replaced part is worked out again, so that
+a catalogue of thousands of mistakes is derived within a second.
 """
 
 from __future__ import annotations
@@ -26,7 +29,7 @@ Stage = Literal[
     "equation", "matrix",
 ]
 # fmt: on
-NEWTON_STAGES: tuple[Stage, ...] = ("force", "moment")  # the second road
+NEWTON_STAGES: tuple[Stage, ...] = ("force", "moment")  # the way by forces
 Pair = tuple[Formula, Formula]  # x and y
 Row = dict[int, Formula]  # coefficient of each product of accelerations and rates: row = Σ coefficient · product = 0
 ROTATION = (-1, -1)  # the part of a kinetic energy that is the rod's own turning
@@ -36,7 +39,7 @@ ROTATION = (-1, -1)  # the part of a kinetic energy that is the rod's own turnin
 class Mistake:
     """A mistake, made at one stage, at given places (links, counted from 0).
 
-    ``code`` is stable and names the kind of mistake; ``english`` and ``japanese`` tell it to who made it.
+    ``code`` is stable and names the kind of mistake; ``english`` and ``japanese`` explain it to whoever made it.
     """
 
     code: str
@@ -171,7 +174,7 @@ def lagrange_rows(s: Space, lagrangian: Formula) -> list[Formula]:
 
 
 def forces(m: Symbols, position: dict[int, Pair], b: int) -> Pair:
-    """m (r̈ + g e_y) of mass b: what the joints must supply."""
+    """m (r̈ + g e_y) of mass b: the force that its joints must supply."""
     s = m.space
     ax, ay = (add(s.by_time(s.by_time(segment[axis])) for segment in position.values()) for axis in (0, 1))
     return m.mass(b) * ax, m.mass(b) * (ay + s.g)

@@ -1,4 +1,4 @@
-"""Moves a mechanism by any rows, right or wrong: to show what a mistake does, not to simulate precisely."""
+"""The motion that any rows give, right or wrong: to show the effect of a mistake, not for precise simulation."""
 
 from __future__ import annotations
 
