@@ -1,7 +1,7 @@
-"""The audit of the documents, the catalogue of mistakes, and the grader.
+"""Derivations of equations of motion: exact algebra, the catalogue of mistakes, the grader, the audit and the lesson.
 
-From a derivation to a diagnosis: :mod:`.submission` reads it (:mod:`.tokens`, :mod:`.parser`, :mod:`.evaluation`) into
-the exact algebra of :mod:`.trig`; :mod:`.verdict` decides whether it is right; :mod:`.explain` looks for mistakes of
-the catalogue (:mod:`.mistakes`) that lead to it; :mod:`.findings` tells the terms; :mod:`.grade` puts it together.
-Nothing is imported here, so that each part costs only what it needs.
+May import models and reference; inside, imports run one way: algebra ← steps ← mistakes ← grading ← audit and lesson.
+A derivation is read by :mod:`.grading.submission`, judged by :mod:`.grading.verdict` and, where it is wrong, explained
+by mistakes of :mod:`.mistakes.catalogue` in :mod:`.grading.explain`; :mod:`.grading.grade` does it all. Nothing is
+imported here, so that each part costs only what it needs.
 """

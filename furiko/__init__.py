@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .derivations.audit.audit import audit
-    from .derivations.grading.grade import grade
+    from .derivations.grading.grade import grade, grade_text
+    from .derivations.grading.grade_record import Grade
     from .diagnosis.model_files.diagnose import diagnose
     from .diagnosis.model_files.result import Diagnosis
     from .engines import engine_names, load_engine
@@ -26,6 +27,7 @@ __version__ = "0.1.0"
 _HOMES = {
     "Diagnosis": "diagnosis.model_files.result",
     "EngineMissing": "models",
+    "Grade": "derivations.grading.grade_record",
     "InvalidInput": "models",
     "NLegPendulum": "models",
     "Report": "reports",
@@ -37,6 +39,7 @@ _HOMES = {
     "energy": "reference.energies",
     "engine_names": "engines",
     "grade": "derivations.grading.grade",
+    "grade_text": "derivations.grading.grade",
     "load_engine": "engines",
     "read_stream": "reports",
     "simulate": "reference.integration.taylor",
@@ -47,6 +50,7 @@ _HOMES = {
 __all__ = [
     "Diagnosis",
     "EngineMissing",
+    "Grade",
     "InvalidInput",
     "NLegPendulum",
     "Report",
@@ -58,6 +62,7 @@ __all__ = [
     "energy",
     "engine_names",
     "grade",
+    "grade_text",
     "load_engine",
     "read_stream",
     "simulate",

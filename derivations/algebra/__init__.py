@@ -1,1 +1,4 @@
-"""Exact formulas: trigonometric polynomials, fractions of them, and how they are written."""
+"""Exact formulas: trigonometric polynomials, quotients of them, and their notation as text.
+
+May import models (for its errors) and nothing else of derivations.
+"""

@@ -1,8 +1,8 @@
-"""Formulas seen at one random point of a finite field: what makes comparing thousands of wrong derivations fast.
+"""Formulas evaluated at one random point of a finite field, so that thousands of wrong derivations are compared fast.
 
 At a point, a formula is a number modulo a prime of 61 bits, cos x and sin x being (z + 1/z)/2 and (z - 1/z)/2i with a
 square root i of -1. Two different formulas of degree d agree there with probability at most d/2⁶¹, below 10⁻¹⁵ for
-anything that the reader lets in; what is then told to a student is worked out exactly.
+any derivation that is accepted; the wrong terms that are reported are computed exactly.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ MOST_KEPT = 100_000  # products and waves whose values are kept: a point serves 
 Vector = dict[int, int]  # a row at the point: value of the coefficient of each product of motion
 
 
-class Point:
+class RandomPoint:
     """Random values for all symbols of a space. ``equal_lengths``, ``equal_masses``: one value for all l, all m."""
 
     def __init__(self, space: Space, equal_lengths: bool = False, equal_masses: bool = False, seed: int = 0) -> None:
         draw = random.Random(f"furiko {space.n} {seed}")  # fixed: a verdict is the same every time
         n = space.n
         self.space = space
-        self.values = [draw.randrange(2, PRIME) for _ in range(space.symbols)]
+        self.values = [draw.randrange(2, PRIME) for _ in range(space.symbol_count)]
         if equal_lengths:
             self.values[2 * n : 3 * n] = [self.values[2 * n]] * n
         if equal_masses:
@@ -78,7 +78,7 @@ class Point:
         found = self._products.get(e)
         if found is None:
             found = 1
-            for value, power in zip(self.values, digits(e, self.space.symbols), strict=True):
+            for value, power in zip(self.values, digits(e, self.space.symbol_count), strict=True):
                 if power:
                     found = found * pow(value, power, PRIME) % PRIME
             self._products[e] = found

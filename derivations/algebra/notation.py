@@ -1,4 +1,4 @@
-"""Writes formulas and the names of their terms: in ASCII that the reader of derivations reads back, and for people."""
+"""Writes formulas and the names of their terms: in ASCII, which a derivation may contain, and with Greek letters."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import re
 
 from flint import fmpq
 
-from .symbols import Mechanism
+from .symbols import Symbols
 from .trig import COS, Formula, Space, digits, unit
 
 SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
@@ -86,7 +86,7 @@ def _product(space: Space, c: fmpq, powers: tuple[int, ...], inner: str, wave: s
         above.insert(0, str(int(c.p)))
     if c.q != 1:
         below.insert(0, str(int(c.q)))
-    if below and above[0].isdigit() and c.q != 1:  # 1/2*m1 reads better than m1/2
+    if below and above[0].isdigit() and c.q != 1:  # 1/2*m1 rather than m1/2
         above[0] = f"{above[0]}/{below.pop(0)}"
     elif below and c.q != 1:
         above.insert(0, f"1/{below.pop(0)}")
@@ -128,11 +128,11 @@ def pretty(ascii_text: str) -> str:
     return out.replace("*", " ").replace("-", "−")
 
 
-def term_name(m: Mechanism, i: int, q: int) -> str:
-    """Where a term stands in the documents' matrix form.
+def term_name(m: Symbols, i: int, q: int) -> str:
+    """The place of a term in the documents' matrix form.
 
     ``A[i,j]`` multiplies θ̈_j and ``B[i,j]`` θ̇_j²; gravity is ``B[i,i]`` in Shiki's (3.12), and here ``G[i]`` for
-    Takeno's (22), which gives it no letter. What the right equations have no place for is told by its product.
+    Takeno's (22), which gives it no letter. A term that the right equations do not have is named by its product.
     """
     n = m.n
     place = {place: power for place, power in enumerate(digits(q, 2 * n)) if power}
@@ -146,14 +146,14 @@ def term_name(m: Mechanism, i: int, q: int) -> str:
     return f"{motion_text(m.space, q)} in row {i + 1}"
 
 
-def solved_term_name(m: Mechanism, i: int, q: int) -> str:
-    """Where a term stands in a row that is solved for α_i."""
+def solved_term_name(m: Symbols, i: int, q: int) -> str:
+    """The name of a term in a row that is solved for α_i."""
     if q == unit(i):
         return f"a{i + 1}: denominator"
     return f"a{i + 1}: {motion_text(m.space, q) if q else 'g'}"
 
 
-def equation_number(m: Mechanism) -> str:
+def equation_number(m: Symbols) -> str:
     """The documents' number of the matrix form that :func:`term_name` speaks of."""
     if m.kind == "rod-chain":
         return "18"

@@ -1,6 +1,6 @@
-"""Formulas over formulas: what the reader of a derivation computes with, kept exact and bounded in size.
+"""Quotients of formulas, exact and bounded in size: a derivation that is read is evaluated in them.
 
-The denominator is kept as a list of factors, so that m₁/(m₁+m₂) + m₂/(m₁+m₂) does not grow a square below.
+The denominator is kept as a list of factors, so that m₁/(m₁+m₂) + m₂/(m₁+m₂) gets no squared denominator.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ class TooLarge(InvalidInput):
 
 @dataclass
 class Budget:
-    """How much multiplying out is still allowed."""
+    """How many products of terms may still be multiplied out."""
 
     left: int = LARGEST_WORK
     at: int = 0  # the column of what is being evaluated, for the refusal
 
     def refuse(self, why: str) -> NoReturn:
-        """Say where it became too much."""
+        """Raise :class:`TooLarge` with the column."""
         raise TooLarge(f"column {self.at + 1}: {why}")
 
     def check_degree(self, degree: int) -> None:
@@ -41,7 +41,7 @@ class Budget:
             )
 
     def product(self, one: Formula, two: Formula) -> Formula:
-        """``one · two``, paid for before it is done."""
+        """``one · two``; counted, and refused, before it is multiplied out."""
         self.left -= len(one) * len(two) + 1
         if self.left < 0:
             self.refuse("multiplied out, this has too many terms for an equation of motion; write it more simply")
@@ -57,60 +57,65 @@ class Budget:
 
 @dataclass(frozen=True)
 class Quotient:
-    """``top`` over the product of the factors in ``below``, each to its power; ``degree`` bounds every exponent."""
+    """``numerator`` over the product of the factors in ``denominator``, each to its power.
 
-    top: Formula
-    below: Mapping[Formula, int] = field(default_factory=dict)
+    ``degree`` bounds every exponent.
+    """
+
+    numerator: Formula
+    denominator: Mapping[Formula, int] = field(default_factory=dict)
     degree: int = 0
 
     def plus(self, other: Quotient, sign: int, budget: Budget) -> Quotient:
         """The sum (``sign`` 1) or difference (-1), over the least common denominator."""
-        theirs = other.top if sign > 0 else -other.top
-        if self.below == other.below:
-            return Quotient(self.top + theirs, self.below, max(self.degree, other.degree))
-        common = {f: max(self.below.get(f, 0), other.below.get(f, 0)) for f in {**self.below, **other.below}}
-        top = self._raised(common, self.top, budget) + other._raised(common, theirs, budget)
-        return _checked(top, common, self.degree + other.degree, budget)
+        theirs = other.numerator if sign > 0 else -other.numerator
+        if self.denominator == other.denominator:
+            return Quotient(self.numerator + theirs, self.denominator, max(self.degree, other.degree))
+        ours, others = self.denominator, other.denominator
+        common = {f: max(ours.get(f, 0), others.get(f, 0)) for f in {**ours, **others}}
+        numerator = self._raised(common, self.numerator, budget) + other._raised(common, theirs, budget)
+        return _checked(numerator, common, self.degree + other.degree, budget)
 
-    def _raised(self, common: Mapping[Formula, int], top: Formula, budget: Budget) -> Formula:
+    def _raised(self, common: Mapping[Formula, int], numerator: Formula, budget: Budget) -> Formula:
         for factor, power in common.items():
-            missing = power - self.below.get(factor, 0)
+            missing = power - self.denominator.get(factor, 0)
             if missing:
-                top = budget.product(top, budget.power(factor, missing))
-        return top
+                numerator = budget.product(numerator, budget.power(factor, missing))
+        return numerator
 
     def times(self, other: Quotient, budget: Budget) -> Quotient:
         """The product."""
-        below = dict(self.below)
-        for factor, power in other.below.items():
-            below[factor] = below.get(factor, 0) + power
-        return _checked(budget.product(self.top, other.top), below, self.degree + other.degree, budget)
+        denominator = dict(self.denominator)
+        for factor, power in other.denominator.items():
+            denominator[factor] = denominator.get(factor, 0) + power
+        numerator = budget.product(self.numerator, other.numerator)
+        return _checked(numerator, denominator, self.degree + other.degree, budget)
 
     def inverse(self) -> Quotient:
-        """One over it; the caller has seen to it that it is not zero."""
-        top = CONSTANT_ONE
-        for factor, power in self.below.items():
-            top = top * factor.power(power)
-        if self.top.is_monomial():
-            return Quotient(top * self.top.inverse_monomial(), {}, self.degree)
-        _, lead = min(self.top.terms.items())
-        return Quotient(top.times(1 / lead), {self.top.times(1 / lead): 1}, self.degree)
+        """The reciprocal; the caller must exclude zero."""
+        numerator = CONSTANT_ONE
+        for factor, power in self.denominator.items():
+            numerator = numerator * factor.power(power)
+        if self.numerator.is_monomial():
+            return Quotient(numerator * self.numerator.inverse_monomial(), {}, self.degree)
+        _, lead = min(self.numerator.terms.items())
+        return Quotient(numerator.times(1 / lead), {self.numerator.times(1 / lead): 1}, self.degree)
 
     def power(self, exponent: int, budget: Budget) -> Quotient:
         """A whole power; a negative one of what is not zero."""
         base = self if exponent >= 0 else self.inverse()
         size = abs(exponent)
-        below = {factor: power * size for factor, power in base.below.items()} if size else {}
+        denominator = {factor: power * size for factor, power in base.denominator.items()} if size else {}
         budget.check_degree(base.degree * size)
-        return Quotient(budget.power(base.top, size), below, base.degree * size)
+        return Quotient(budget.power(base.numerator, size), denominator, base.degree * size)
 
 
-def _checked(top: Formula, below: Mapping[Formula, int], degree: int, budget: Budget) -> Quotient:
+def _checked(numerator: Formula, denominator: Mapping[Formula, int], degree: int, budget: Budget) -> Quotient:
     """``degree`` only bounds the powers from above; where it grows too large, they are looked at."""
     if degree > LARGEST_DEGREE:
-        degree = max((top.degree(), *(factor.degree() * power for factor, power in below.items())))
+        degree = max((numerator.degree(), *(factor.degree() * power for factor, power in denominator.items())))
     budget.check_degree(degree)
-    return Quotient(top, below if top else {}, degree)
+    return Quotient(numerator, denominator if numerator else {}, degree)
 
 
 def number(value: int | fmpq) -> Quotient:

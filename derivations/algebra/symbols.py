@@ -1,4 +1,4 @@
-"""What a mechanism is to algebra: its symbols, and of which segments the way to each of its masses is made."""
+"""The symbols of a mechanism, and the links on the path from the support to each of its masses."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ KINDS = ("n-leg", "rod-chain")
 
 
 @dataclass(frozen=True)
-class Mechanism:
+class Symbols:
     """An n-leg pendulum (Shiki) or a chain of uniform rods (Takeno) with symbols for numbers; ``n`` angles."""
 
     kind: str
@@ -21,7 +21,7 @@ class Mechanism:
 
     @cached_property
     def space(self) -> Space:
-        """Its symbols."""
+        """The places of the symbols in a formula."""
         return Space(self.n)
 
     def mass(self, b: int) -> Formula:
@@ -39,17 +39,17 @@ class Mechanism:
         return min(b - 1, 0) if self.kind == "n-leg" else b - 1
 
     def path(self, b: int) -> tuple[tuple[int, fmpq], ...]:
-        """Which links lie on the way to mass b, and what fraction of each."""
+        """The links on the path to mass b, each with the fraction of it that belongs to the path."""
         if self.kind == "n-leg":
             return ((0, fmpq(1)), (b, fmpq(1))) if b else ((0, fmpq(1)),)
         return (*((k, fmpq(1)) for k in range(b)), (b, fmpq(1, 2)))
 
     def divisor(self, i: int) -> Formula:
-        """What the documents divide Lagrange's row i by: l_i (Shiki (1.9)), ρ l_i (Takeno (17))."""
+        """The divisor of Lagrange's row i in the documents: l_i (Shiki (1.9)), ρ l_i (Takeno (17))."""
         return self.space.l(i) if self.kind == "n-leg" else self.space.rho * self.space.l(i)
 
 
 @lru_cache(maxsize=64)
-def mechanism(kind: str, n: int) -> Mechanism:
-    """The mechanism of a kind with n angles; the same object each time, so that what was derived for it is kept."""
-    return Mechanism(kind, n)
+def symbols_of(kind: str, n: int) -> Symbols:
+    """The symbols for n angles; ``kind`` is one of ``KINDS``. The same object each time, so that caches work."""
+    return Symbols(kind, n)

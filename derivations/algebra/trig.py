@@ -194,7 +194,7 @@ def unit(place: int) -> int:
 
 @dataclass(frozen=True)
 class Space:
-    """The symbols of a system of ``n`` angles and where each stands in a packed exponent.
+    """The symbols of a system of ``n`` angles and the place of each in a packed exponent.
 
     Order: α₁…αₙ, ω₁…ωₙ (together the *motion*), l₁…lₙ, m₁…mₙ, g, ρ. Indices count from 0 here.
     """
@@ -208,7 +208,7 @@ class Space:
         return (*indexed, "g", "rho")
 
     @property
-    def symbols(self) -> int:
+    def symbol_count(self) -> int:
         """How many symbols there are."""
         return 4 * self.n + 2
 
@@ -314,7 +314,7 @@ class Space:
     def monomials(self, f: Formula) -> Iterator[tuple[tuple[int, ...], tuple[int, ...], int, fmpq]]:
         """Each term as (exponents, harmonics in half angles, COS or SIN, coefficient)."""
         for (e, h, s), c in f.terms.items():
-            yield digits(e, self.symbols), digits(h, self.n), s, c
+            yield digits(e, self.symbol_count), digits(h, self.n), s, c
 
     def substitute_angles(self, f: Formula, columns: tuple[Mapping[int, int], ...]) -> Formula:
         """Put θ_k = Σ columns[k][j]·θ'_j, and the same for rates and accelerations."""

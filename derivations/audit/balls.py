@@ -20,7 +20,6 @@ from ...reference.arithmetic import balls
 
 Array = NDArray[Any]
 TIME, SHIFT, RATE = 1, 2, 4  # bits of the nilpotent units; a part is named by the units it has
-PARTS = 8
 
 
 class Nilpotent:
@@ -57,7 +56,7 @@ class Nilpotent:
         return self.parts.get(bits, arb(0))
 
     def without(self, unit: int) -> Nilpotent:
-        """What multiplies a unit, as a number in the others."""
+        """The coefficient of a unit, as a number in the other units."""
         return Nilpotent({bits & ~unit: x for bits, x in self.parts.items() if bits & unit})
 
     def cos_sin(self) -> tuple[Nilpotent, Nilpotent]:
@@ -163,7 +162,7 @@ class BallPoint:
         return values | self._forces(values, joints, acceleration) if self.kind == "rod-chain" else values
 
     def _matrices(self) -> tuple[Array, Array, Array]:
-        """What multiplies accelerations, what multiplies squared rates, and gravity, probed one by one."""
+        """Joint-space inertia matrix, matrix of the squared rates, and gravity, column by column."""
         n, omega, g = self.n, self.omega, self.g
         inertia, rates = _zeros((n, n)), _zeros((n, n))
         gravity = _zeros(n)
@@ -194,7 +193,7 @@ class BallPoint:
         return where, parts[0], parts[1], parts[2]
 
     def _forces(self, v: dict[str, Any], joints: Array, acceleration: Array) -> dict[str, Any]:
-        """Takeno's vectors and coefficients; joint forces from the balance of all that hangs below a joint."""
+        """Takeno's vectors and coefficients; joint reaction forces from the balance of the subtree below a joint."""
         n, l, m, rho, g = self.n, self.l, self.m, self.rho, self.g
         up = np.array([arb(0), arb(1)], dtype=object)
         force = _zeros((n + 1, 2))

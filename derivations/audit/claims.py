@@ -1,4 +1,4 @@
-"""What each of the 57 equations claims, as differences from first principles that must vanish.
+"""The claim of each of the 57 equations, as differences from first principles that must vanish.
 
 A claim is about any motion, not only a true one: an equation of motion must be, side minus side, Lagrange's row times
 the stated factor for every value of θ, θ̇ and θ̈ (and Takeno's, made from forces, must be the same rows).
@@ -46,7 +46,7 @@ def matrices(members: Members, v: Values) -> list[Any]:
 
 
 def solved(members: Members, v: Values) -> list[Any]:
-    """θ̈ on the left is what stands on the right."""
+    """θ̈ on the left equals the right side."""
     return [members[0] - members[1]]
 
 

@@ -1,13 +1,13 @@
-"""First principles in the exact algebra: every symbol of the documents as a formula, to hold their equations against.
+"""First principles in the exact algebra: every symbol of the documents as a formula, to compare their equations with.
 
 Positions are differentiated into velocities; a rod's kinetic energy is the integral over its mass (Simpson's rule is
 exact for it, the speed squared being quadratic along a rod), so that no moment of inertia is put in; Lagrange's
-equations are those of the energies that come out. Of the documents nothing is used but what their letters mean.
+equations are those of the energies that come out. Only the meaning of the letters is taken from the documents.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -15,9 +15,9 @@ from flint import fmpq
 from numpy.typing import NDArray
 
 from ...reference.arithmetic import Objects
-from ..algebra.symbols import Mechanism
+from ..algebra.multiples import divided
+from ..algebra.symbols import Symbols
 from ..algebra.trig import HALF, NOTHING, Formula, Space, constant, unit
-from ..mistakes.views import divided
 
 Array = NDArray[Any]
 
@@ -66,7 +66,7 @@ class Exact:
 
 
 class Angle:
-    """A sum of angles, as stands inside cos and sin."""
+    """A sum of angles, the argument of cos or sin."""
 
     __slots__ = ("parts", "space")
 
@@ -103,11 +103,11 @@ def _number(x: Any) -> Any:
 
 
 def exact_arithmetic() -> Objects:
-    """The documents' equations run in it like in any other arithmetic; it cannot solve."""
+    """An arithmetic in which the documents' equations can be evaluated; it cannot solve linear systems."""
     return Objects("exact", _number, Angle.cos, Angle.sin)
 
 
-def exact_values(m: Mechanism, equal_lengths: bool = False) -> dict[str, Any]:
+def exact_values(m: Symbols, equal_lengths: bool = False) -> dict[str, Any]:
     """Every symbol of the documents, and what first principles give, for one mechanism; all as formulas."""
     s, n = m.space, m.n
     place = 2 * n
@@ -150,14 +150,14 @@ def exact_values(m: Mechanism, equal_lengths: bool = False) -> dict[str, Any]:
         "lagrangian": Exact(lagrangian), "momentum": array(momentum), "momentum_rate": array(momentum_rate),
         "dL_dtheta": array(slope), "row": array(row),
     }  # fmt: skip
-    values |= _matrices(m, row, [s.by_angle(_sum(potential), i) for i in range(n)], values["l"])
+    values |= _matrices(m, row, [s.by_angle(_sum(potential), i) for i in range(n)])
     if m.kind == "rod-chain":
         values |= _forces(m, joints, centres, velocity, values)
     return values
 
 
-def _matrices(m: Mechanism, row: Sequence[Formula], gravity: Sequence[Formula], l: Array) -> dict[str, Any]:
-    """What multiplies each acceleration and each squared rate in Lagrange's rows, and gravity; [N m] per unit."""
+def _matrices(m: Symbols, row: Sequence[Formula], gravity: Sequence[Formula]) -> dict[str, Any]:
+    """Joint-space inertia matrix, matrix of the squared rates, and gravity, from Lagrange's rows."""
     s, n = m.space, m.n
     parts = [s.split(f) for f in row]
     inertia = array([[part.get(unit(k), NOTHING) for k in range(n)] for part in parts])
@@ -166,20 +166,20 @@ def _matrices(m: Mechanism, row: Sequence[Formula], gravity: Sequence[Formula], 
 
 
 def _forces(
-    m: Mechanism,
+    m: Symbols,
     joints: list[list[Formula]],
     centres: list[list[Formula]],
     velocity: list[list[Formula]],
     values: dict[str, Any],
 ) -> dict[str, Any]:
-    """Takeno's vectors and coefficients: joint forces from the balance of all that hangs below a joint."""
+    """Takeno's vectors and coefficients: joint reaction forces from the balance of the subtree below a joint."""
     s, n = m.space, m.n
     acceleration = array([[s.by_time(x) for x in v] for v in velocity])
     mass, l = values["m"], values["l"]
     weight = np.empty((n, 2), dtype=object)
     weight[:, 0], weight[:, 1] = acceleration[:, 0] * mass, (acceleration[:, 1] + values["g"]) * mass
     force = array([[NOTHING, NOTHING] for _ in range(n + 1)])
-    for k in reversed(range(n)):  # what hangs below joint k pulls at it with its weight and its inertia
+    for k in reversed(range(n)):  # the links below joint k load it with their weight and inertia
         force[k] = force[k + 1] - weight[k]
     position = array(centres)
     cosines = np.array([Exact(s.cos({k: 1})) for k in range(n)], dtype=object)
@@ -240,6 +240,3 @@ def array(formulas: Any) -> Array:
     out = np.empty(len(nested), dtype=object)
     out[:] = [Exact(f) for f in nested]  # type: ignore[arg-type]
     return out
-
-
-Vanishes = Callable[[Any], bool]

@@ -1,16 +1,16 @@
-"""What the documents leave open, settled: short arguments, and numbers over many random states beside them."""
+"""Answers to the questions that the documents leave open: an argument for each, and numbers over random states."""
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
 from ...models import NLegPendulum, RodChain
 from ...reference import mass_matrix
-from ..algebra.symbols import mechanism
+from ..algebra.symbols import symbols_of
 from ..grading.grade import grade_text
 from ..mistakes.catalogue import catalogue
 from ..steps.derivation import derive
@@ -19,22 +19,17 @@ from .cost import cost
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class Question:
-    """What is open, the answer, the argument for it, and measured numbers."""
+class Question(msgspec.Struct, frozen=True):
+    """An open question, the answer, the argument for it, and measured numbers by name."""
 
     question: str
     answer: str
     argument: str
-    numbers: dict[str, Any] = field(default_factory=dict)
-
-    def to_dict(self) -> dict[str, Any]:
-        """For JSON."""
-        return asdict(self)
+    numbers: dict[str, Any]
 
 
 def open_questions(states: int = 200) -> list[Question]:
-    """All of them."""
+    """All three questions, answered; ``states``: random states for each system."""
     return [determinant(states), existence(states), wikipedia()]
 
 
@@ -44,7 +39,7 @@ def _chain(n: int) -> RodChain:
 
 
 def determinant(states: int = 200) -> Question:
-    """|A(θ)| ≠ 0: Takeno's section 6 suspects it from n = 2, 3."""
+    """Whether |A(θ)| ≠ 0 for every n, as Takeno's section 6 conjectures from n = 2, 3."""
     table = []
     for n in (1, 2, 3, 10, 80, 200):
         system = _chain(n)
@@ -71,7 +66,7 @@ def determinant(states: int = 200) -> Question:
 
 
 def existence(states: int = 200) -> Question:
-    """Global existence: Takeno's section 6 holds it for not easy to prove."""
+    """Whether solutions exist for all times (Takeno, section 6)."""
     table = []
     systems: list[RodChain | NLegPendulum] = [_chain(2), _chain(5), _chain(20)]
     systems.append(NLegPendulum((1.0, 0.5, 0.8, 1.2), (1.0, 0.3, 2.0, 0.7)))
@@ -114,23 +109,23 @@ links = 2
 
 
 def wikipedia() -> Question:
-    """The remark on the coefficients of 2018: a double rod pendulum without the rods' own inertia."""
-    m = mechanism("rod-chain", 2)
+    """Which coefficients Takeno's section 6 reports from Wikipedia in 2018: those without the rods' own inertia."""
+    m = symbols_of("rod-chain", 2)
     mistake = next(x for x in catalogue(m) if x.name == "inertia-missing")
     answer = grade_text(WIKIPEDIA)
-    spoilt = cost("rods' own inertia forgotten", m, derive(m, [mistake]).rows)
+    forgotten = cost("rods' own inertia forgotten", m, derive(m, [mistake]).rows)
     return Question(
         "Takeno, section 6: which equations did Wikipedia give in November 2018?",
         "With the diagonal coefficients 5/4 and 1/4 in place of 4/3 and 1/3: each rod turned into a point mass at its "
-        "middle (reconstructed from the remark; the other difference, the factor of g, is told there as a slip of "
+        "middle (reconstructed from the remark; the other difference, the factor of g, is described there as a slip of "
         "writing and not what it was).",
         "Without ½ I θ̇², I = m l²/12, Lagrange's equations of two equal rods are (19) with 4/3 - 1/12 = 5/4 and "
-        "1/3 - 1/12 = 1/4. Graded as somebody's derivation, they are found wrong, with just that mistake named.",
+        "1/3 - 1/12 = 1/4. Graded as a derivation, they are wrong, and only that mistake is named.",
         {
             "verdict": answer.verdict,
             "named": [named.cause for named in answer.mistakes],
             "terms": [[f.term, f.found, f.expected] for f in answer.findings],
-            "cost": spoilt.to_dict(),
+            "cost": msgspec.to_builtins(forgotten),
             "small oscillations [rad/s], l = 1 m": _frequencies(),
         },
     )

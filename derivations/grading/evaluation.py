@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from flint import fmpq
 
 from ..algebra.quotient import Budget, Quotient, number
-from ..algebra.symbols import Mechanism
+from ..algebra.symbols import Symbols
 from ..algebra.trig import COS, SIN, Formula
 from .parser import Call, Name, Node, Number, Power, Product, Sum, Symbol
 from .tokens import fail
@@ -21,9 +21,9 @@ WORDS = {"t": "angle", "w": "rate", "a": "acceleration", "l": "length", "m": "ma
 class Evaluation:
     """Evaluates the lines of one file, for one mechanism, within one budget."""
 
-    def __init__(self, mechanism: Mechanism) -> None:
-        self.mechanism = mechanism
-        self.space = mechanism.space
+    def __init__(self, symbols: Symbols) -> None:
+        self.symbols = symbols
+        self.space = symbols.space
         self.budget = Budget()
         self.definitions: dict[str, Node] = {}
         self._values: dict[str, Quotient] = {}
@@ -31,7 +31,7 @@ class Evaluation:
         self.equal_lengths = self.equal_masses = False
 
     def value(self, node: Node) -> Quotient:  # noqa: PLR0911 -- one for each kind of node
-        """The formula that a tree stands for. Raises InvalidInput with the column of what makes no sense."""
+        """The formula of a tree. Raises InvalidInput, with the column, where it has no meaning."""
         match node:
             case Number(value=value):
                 return number(value)
@@ -57,7 +57,7 @@ class Evaluation:
                 return product
             case Power(base=base, exponent=exponent, at=at):
                 value = self.value(base)
-                if exponent < 0 and not value.top:
+                if exponent < 0 and not value.numerator:
                     fail(at, "zero to a negative power")
                 self.budget.at = at
                 return value.power(exponent, self.budget)
@@ -68,20 +68,20 @@ class Evaluation:
         value = self.value(node)
         if above:
             return value
-        if not value.top:
+        if not value.numerator:
             fail(node.at, "a division by zero")
         return value.inverse()
 
     def _symbol(self, node: Symbol) -> Quotient:
         letter, index, space = node.letter, node.index, self.space
         if letter == "t":
-            fail(node.at, "an angle stands outside cos and sin; the exact equations have it only inside")
+            fail(node.at, "an angle outside cos and sin; the exact equations have angles only inside")
         if letter == "p":
-            fail(node.at, "π stands outside cos and sin; an equation of motion has none")
+            fail(node.at, "π outside cos and sin; an equation of motion has none")
         if letter == "g":
             return Quotient(space.g, {}, 1)
         if letter == "r":
-            if self.mechanism.kind != "rod-chain":
+            if self.symbols.kind != "rod-chain":
                 fail(node.at, "rho is the line density of a rod chain; an n-leg pendulum has masses m1, m2, …")
             return Quotient(space.rho, {}, 1)
         if index > space.n:
@@ -90,10 +90,10 @@ class Evaluation:
             return self._without_index(node)
         place = index - 1
         if letter == "I":
-            if self.mechanism.kind != "rod-chain":
+            if self.symbols.kind != "rod-chain":
                 fail(node.at, "I is the inertia of a rod; the point masses of an n-leg pendulum have none")
-            return Quotient(self.mechanism.inertia(place), {}, 4)
-        symbol = {"w": space.w, "a": space.a, "l": space.l, "m": self.mechanism.mass}[letter]
+            return Quotient(self.symbols.inertia(place), {}, 4)
+        symbol = {"w": space.w, "a": space.a, "l": space.l, "m": self.symbols.mass}[letter]
         return Quotient(symbol(place), {}, 2)
 
     def _without_index(self, node: Symbol) -> Quotient:
@@ -102,8 +102,8 @@ class Evaluation:
             return Quotient(self.space.l(0), {}, 1)
         if node.letter == "m":
             self.equal_masses = True
-            self.equal_lengths = self.equal_lengths or self.mechanism.kind == "rod-chain"
-            return Quotient(self.mechanism.mass(0), {}, 2)
+            self.equal_lengths = self.equal_lengths or self.symbols.kind == "rod-chain"
+            return Quotient(self.symbols.mass(0), {}, 2)
         if self.space.n == 1:
             return self._symbol(Symbol(node.letter, 1, node.at))
         return fail(node.at, f"this {WORDS[node.letter]} has no index; which of the {self.space.n} links is it?")
@@ -174,7 +174,7 @@ class Evaluation:
                 return {PI: named.quarters * QUARTER} | {k: fmpq(h, 2) for k, h in named.halves.items()}
             case Number(value=value) if not value:
                 return {}
-        return fail(node.at, "inside cos and sin stand sums and differences of angles, as in cos(t1 - t2)")
+        return fail(node.at, "inside cos and sin, a sum or difference of angles is expected, as in cos(t1 - t2)")
 
     def _scaled(self, node: Product, parts: tuple[tuple[bool, Node], ...]) -> dict[int, fmpq]:
         factor, form = fmpq(1), None

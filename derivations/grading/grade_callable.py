@@ -1,4 +1,4 @@
-"""Grades a function θ̈ = f(θ, ω, parameters) from its accelerations alone, by holding them against the catalogue.
+"""Grades a function θ̈ = f(θ, ω, parameters) from its accelerations alone, by comparing them with the catalogue.
 
 In random states of random mechanisms, the accelerations are put into the right equations; a row that they do not
 satisfy is wrong by a residual, and a mistake explains it if its own equations are satisfied instead. Two mistakes are
@@ -19,15 +19,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...models.errors import InvalidInput, nearest
-from ..algebra.symbols import KINDS, Mechanism, mechanism
+from ..algebra.symbols import KINDS, Symbols, symbols_of
 from ..algebra.trig import COS, NOTHING, digits, unit
 from ..mistakes.catalogue import catalogue
-from ..mistakes.images import MOST_LINKS, Images, View, images
-from ..steps.derivation import Mistake, Row, derive, right
+from ..mistakes.known_mistakes import MOST_LINKS, KnownMistakes, known_mistakes
+from ..steps.derivation import Mistake, Row, correct_derivation, derive
+from ..steps.views import View
 from .explain import ranked
-from .findings import Teller
 from .grade import answer, named, same_equations
-from .result import Diagnosis
+from .grade_record import Grade
+from .wrong_terms import WrongTermFinder
 
 Array = NDArray[np.float64]
 STATES = 12
@@ -48,7 +49,7 @@ NO_SANDBOX_JA = (
 class Samples:
     """Random mechanisms and states: ``values`` of all symbols but the accelerations, shape (symbols, STATES)."""
 
-    m: Mechanism
+    m: Symbols
     values: Array
     theta: Array
 
@@ -72,12 +73,12 @@ class Samples:
         return out
 
 
-def samples(m: Mechanism, seed: int = 0) -> Samples:
+def samples(m: Symbols, seed: int = 0) -> Samples:
     """Lengths and masses from 0.5 to 1.5, angles all round, rates up to 3 rad/s; the same every time."""
     draw = random.Random(f"furiko callable {m.kind} {m.n} {seed}")
     n = m.n
-    values = np.ones((m.space.symbols, STATES))
-    for place in range(n, m.space.symbols):
+    values = np.ones((m.space.symbol_count, STATES))
+    for place in range(n, m.space.symbol_count):
         low, high = (-3.0, 3.0) if place < 2 * n else (0.5, 1.5)
         values[place] = [draw.uniform(low, high) for _ in range(STATES)]
     values[4 * n] *= 9.0
@@ -85,19 +86,17 @@ def samples(m: Mechanism, seed: int = 0) -> Samples:
     return Samples(m, values, theta)
 
 
-def grade_callable(
-    function: str, system: str, links: int, *, seconds: float = 10.0, megabytes: int = 2048
-) -> Diagnosis:
+def grade_callable(function: str, system: str, links: int, *, seconds: float = 10.0, megabytes: int = 2048) -> Grade:
     """Grade ``module:function``. Raises InvalidInput where it cannot be called, or exceeds its limits."""
     if system not in KINDS:
         raise InvalidInput(f"system: {system!r:.40} is not known{nearest(system, KINDS)}; give 'n-leg' or 'rod-chain'")
     least = 2 if system == "n-leg" else 1
     if not least <= links <= MOST_LINKS[system]:
         raise InvalidInput(f"links: from {least} to {MOST_LINKS[system]} for a function of this system, got {links}")
-    m = mechanism(system, links)
+    m = symbols_of(system, links)
     drawn = samples(m)
     accelerations = _call(function, drawn, seconds, megabytes)
-    return diagnose(drawn, accelerations)
+    return grade_accelerations(drawn, accelerations)
 
 
 def _call(function: str, drawn: Samples, seconds: float, megabytes: int) -> Array:
@@ -106,7 +105,7 @@ def _call(function: str, drawn: Samples, seconds: float, megabytes: int) -> Arra
     task = {"function": function, "states": drawn.states(), "seconds": seconds, "megabytes": megabytes}
     try:
         done = subprocess.run(
-            [sys.executable, "-m", "furiko.derivations.grading.called"],
+            [sys.executable, "-m", "furiko.derivations.grading.callable_process"],
             input=json.dumps(task), capture_output=True, text=True, timeout=seconds + 5, check=False,
         )  # fmt: skip
     except subprocess.TimeoutExpired:
@@ -124,34 +123,34 @@ def _call(function: str, drawn: Samples, seconds: float, megabytes: int) -> Arra
     return values
 
 
-def diagnose(drawn: Samples, accelerations: Array) -> Diagnosis:
+def grade_accelerations(drawn: Samples, accelerations: Array) -> Grade:
     """The verdict on accelerations, shape (n, STATES), in the drawn states."""
     m = drawn.m
-    seen = images(View(m))
+    known = known_mistakes(View(m))
     values = _Values(drawn, accelerations)
-    base = [values.row(row) for row in right(m).rows]
+    base = [values.row(row) for row in correct_derivation(m).rows]
     residual = np.array([value for value, _ in base])
     scale = np.array([size for _, size in base])
     notes = {"notes": (NO_SANDBOX,), "notes_ja": (NO_SANDBOX_JA,)}
     if np.all(np.abs(residual) <= ALLOWED * scale):
-        return answer(seen, "correct", **notes)
-    found = _explanations(m, seen, values, residual, scale)
+        return answer(known, "correct", **notes)
+    found = _explanations(m, known, values, residual, scale)
     if not found:
         wrong = [i + 1 for i in range(m.n) if np.any(np.abs(residual[i]) > ALLOWED * scale[i])]
         rows = ", ".join(map(str, wrong))
-        note = f"The accelerations do not satisfy row {rows}; no mistake of the catalogue explains it."
-        return answer(seen, "wrong", notes=(note, NO_SANDBOX), notes_ja=(NO_SANDBOX_JA,))
-    told = same_equations(seen, found)
-    mistakes = told[0][0]
-    alternatives = tuple(tuple(x.name for x in others) for others, _ in told[1:])
-    findings = Teller(seen).explained(mistakes, ())
-    return answer(seen, "wrong", findings=findings, mistakes=named(*told[0]), alternatives=alternatives, **notes)
+        note = f"The accelerations do not satisfy row {rows}; no mistake in the catalogue explains it."
+        return answer(known, "wrong", notes=(note, NO_SANDBOX), notes_ja=(NO_SANDBOX_JA,))
+    groups = same_equations(known, found)
+    mistakes = groups[0][0]
+    alternatives = tuple(tuple(x.name for x in others) for others, _ in groups[1:])
+    findings = WrongTermFinder(known).explained(mistakes, ())
+    return answer(known, "wrong", findings=findings, mistakes=named(*groups[0]), alternatives=alternatives, **notes)
 
 
 def _explanations(
-    m: Mechanism, seen: Images, values: _Values, residual: Array, scale: Array
+    m: Symbols, known: KnownMistakes, values: _Values, residual: Array, scale: Array
 ) -> list[tuple[Mistake, ...]]:
-    wrong = {image.mistake.name for image in seen.wrong}
+    wrong = {entry.mistake.name for entry in known.wrong}
     mistakes = [mistake for mistake in catalogue(m) if mistake.name in wrong]
     changes = np.array([values.changes(mistake) for mistake in mistakes])  # (mistakes, n, STATES)
     left = (residual + changes) / scale
@@ -172,17 +171,17 @@ class _Values:
 
     def __init__(self, drawn: Samples, accelerations: Array) -> None:
         self.m = drawn.m
-        self.symbols = drawn.values.copy()
-        self.symbols[: self.m.n] = accelerations
+        self.numbers = drawn.values.copy()
+        self.numbers[: self.m.n] = accelerations
         self.theta = drawn.theta
         self._products: dict[int, Array] = {}
         self._waves: dict[tuple[int, int], Array] = {}
-        self._right = [self.row(row)[0] for row in right(self.m).rows]
+        self._right = [self.row(row)[0] for row in correct_derivation(self.m).rows]
 
     def changes(self, mistake: Mistake) -> Array:
         """By how much a mistake changes each row's value, shape (n, STATES)."""
         rows = derive(self.m, [mistake]).rows
-        known = right(self.m).rows
+        known = correct_derivation(self.m).rows
         changes = np.zeros((self.m.n, STATES))
         for i, row in enumerate(rows):
             if row is not known[i]:
@@ -199,7 +198,7 @@ class _Values:
             solved = np.linalg.solve(matrix.transpose(2, 0, 1), right_side.T[..., None])[..., 0].T
         except np.linalg.LinAlgError:
             return False
-        return bool(np.allclose(solved, self.symbols[:n], rtol=1e-6, atol=1e-6))
+        return bool(np.allclose(solved, self.numbers[:n], rtol=1e-6, atol=1e-6))
 
     def row(self, row: Row) -> tuple[Array, Array]:
         """Value of a row, and the sum of its terms' magnitudes."""
@@ -215,9 +214,9 @@ class _Values:
         found = self._products.get(e)
         if found is None:
             found = np.ones(STATES)
-            for place, power in enumerate(digits(e, self.m.space.symbols)):
+            for place, power in enumerate(digits(e, self.m.space.symbol_count)):
                 if power:
-                    found = found * self.symbols[place] ** power
+                    found = found * self.numbers[place] ** power
             self._products[e] = found
         return found
 

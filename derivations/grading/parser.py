@@ -86,7 +86,7 @@ def parse_expression(line: str, names: frozenset[str] = frozenset()) -> Node:
     """The tree of an expression without an equals sign. ``names`` are the file's own definitions."""
     parser = _Parser(line, names)
     node = parser.sum(0)
-    parser.expect_end("an equals sign has no place here" if parser.next.text == "=" else "")
+    parser.expect_end("an equals sign is not expected here" if parser.next.text == "=" else "")
     return node
 
 
@@ -166,10 +166,10 @@ class _Parser:
         at, sign = self.next.at, 1
         while self.next.kind == "operator" and self.next.text in ("+", "-"):
             sign = sign if self.advance().text == "+" else -sign
-        node = self.powered(self.primary(depth), depth)
+        node = self.powered(self.primary(depth))
         return node if sign > 0 else Sum(((-1, node),), at)
 
-    def powered(self, base: Node, depth: int) -> Node:
+    def powered(self, base: Node) -> Node:
         token = self.next
         if token.kind != "operator" or not token.text.startswith("^"):
             return base
@@ -200,7 +200,7 @@ class _Parser:
     def close(self, opened: Token) -> None:
         token = self.next
         if token.kind != "close" or token.text != OPENING[opened.text]:
-            found = "the line ends" if token.kind == "end" else f"{token.text!r} stands here"
+            found = "the line ends" if token.kind == "end" else f"found {token.text!r}"
             fail(
                 token.at,
                 f"{OPENING[opened.text]!r} is missing for the {opened.text!r} of column {opened.at + 1}; {found}",
@@ -210,7 +210,7 @@ class _Parser:
     def group(self, depth: int) -> Node:
         opened = self.advance()
         if self.next.kind == "close" and self.next.text in CLOSING:
-            fail(self.next.at, "nothing stands between the brackets")
+            fail(self.next.at, "nothing between the brackets")
         node = self.sum(depth + 1)
         self.close(opened)
         return node

@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 
 from ...models.errors import InvalidInput, nearest
 from ..algebra.quotient import Quotient
-from ..algebra.symbols import KINDS, Mechanism, mechanism
+from ..algebra.symbols import KINDS, Symbols, symbols_of
 from ..algebra.trig import Formula
 from .evaluation import Evaluation
 from .parser import parse_equation, parse_expression
@@ -29,14 +29,14 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Submission:
-    """What somebody derived.
+    """A derivation that was read.
 
     ``rows``: each equation as (its label, left side minus right side, cleared of denominators); ``lagrangian``: in
     place of them, over its denominator; ``relative``: its angles are measured from the link above;
-    ``equal_lengths``, ``equal_masses``: a bare l, m stands for all of them.
+    ``equal_lengths``, ``equal_masses``: l, m without an index is used for all of them.
     """
 
-    mechanism: Mechanism
+    symbols: Symbols
     rows: tuple[tuple[str, Formula], ...]
     lagrangian: Formula | None
     relative: bool
@@ -73,18 +73,20 @@ def parse_submission(text: str) -> Submission:
     for name in data:
         if name not in FIELDS:
             raise InvalidInput(f"{name!r:.40}: no such field{nearest(name, FIELDS)}; known are {', '.join(FIELDS)}")
-    which = _mechanism(data)
+    symbols = _symbols(data)
     angles = data.get("angles", "absolute")
     if angles not in ANGLES:
         raise InvalidInput(f"angles: {angles!r:.40} is not known; give 'absolute' (from the vertical) or 'relative'")
-    evaluation = Evaluation(which)
+    evaluation = Evaluation(symbols)
     _define(evaluation, data.get("define", {}))
     has_equations, has_lagrangian = "equations" in data, "lagrangian" in data
     if has_equations == has_lagrangian:
         raise InvalidInput('give either [equations], one row each, or lagrangian = "…"')
     rows = _rows(evaluation, data["equations"]) if has_equations else ()
     lagrangian = _lagrangian(evaluation, data["lagrangian"]) if has_lagrangian else None
-    return Submission(which, rows, lagrangian, angles == "relative", evaluation.equal_lengths, evaluation.equal_masses)
+    return Submission(
+        symbols, rows, lagrangian, angles == "relative", evaluation.equal_lengths, evaluation.equal_masses
+    )
 
 
 def _toml(text: str) -> dict[str, Any]:
@@ -98,7 +100,7 @@ def _toml(text: str) -> dict[str, Any]:
         raise InvalidInput(f"not TOML: {error!s:.100}") from None
 
 
-def _mechanism(data: dict[str, Any]) -> Mechanism:
+def _symbols(data: dict[str, Any]) -> Symbols:
     kind, links = data.get("system"), data.get("links")
     if kind not in KINDS:
         hint = nearest(kind, KINDS) if isinstance(kind, str) and len(kind) < 100 else ""
@@ -106,7 +108,7 @@ def _mechanism(data: dict[str, Any]) -> Mechanism:
     least = 2 if kind == "n-leg" else 1
     if type(links) is not int or not least <= links <= MOST_LINKS:
         raise InvalidInput(f"links: the number of angles is needed, from {least} to {MOST_LINKS}, got {links!r:.40}")
-    return mechanism(kind, links)
+    return symbols_of(kind, links)
 
 
 def _define(evaluation: Evaluation, table: object) -> None:
@@ -140,7 +142,7 @@ def _rows(evaluation: Evaluation, table: object) -> tuple[tuple[str, Formula], .
 
 def _row(evaluation: Evaluation, line: object) -> Formula:
     left, right = parse_equation(_line(line), frozenset(evaluation.definitions))
-    return evaluation.value(left).plus(evaluation.value(right), -1, evaluation.budget).top
+    return evaluation.value(left).plus(evaluation.value(right), -1, evaluation.budget).numerator
 
 
 def _lagrangian(evaluation: Evaluation, line: object) -> Formula:
@@ -149,9 +151,9 @@ def _lagrangian(evaluation: Evaluation, line: object) -> Formula:
         return evaluation.value(parse_expression(written, frozenset(evaluation.definitions)))
 
     value = _located("lagrangian", read)
-    if value.below:
-        raise InvalidInput("lagrangian: column 1: a sum stands below a fraction bar; a Lagrangian has none")
-    return value.top
+    if value.denominator:
+        raise InvalidInput("lagrangian: column 1: a sum in a denominator; a Lagrangian has none")
+    return value.numerator
 
 
 def _line(line: object) -> str:
@@ -161,7 +163,7 @@ def _line(line: object) -> str:
 
 
 def _located(where: str, read: Callable[..., T], *arguments: Any) -> T:
-    """What ``read`` gives; its refusal is told with the field it is about."""
+    """The result of ``read``; where it raises InvalidInput, the field is put before the message."""
     try:
         return read(*arguments)
     except InvalidInput as error:

@@ -1,7 +1,7 @@
 """Cuts a line of a derivation into tokens: plain ASCII, Unicode as it is typed, or LaTeX as a paper prints it.
 
 Only the names of a pendulum's symbols, a few functions, numbers, brackets and signs are known; anything else ends in
-an :class:`InvalidInput` that says where it stands.
+an :class:`InvalidInput` with its column.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class Token:
 
 
 def fail(at: int, message: str) -> NoReturn:
-    """Refuse a line; columns are told counting from 1."""
+    """Raise InvalidInput with the column, counted from 1."""
     raise InvalidInput(f"column {at + 1}: {message}")
 
 
@@ -143,7 +143,7 @@ def _number(line: str, at: int) -> tuple[Token, int]:
 def _command(line: str, at: int) -> tuple[Token, int]:  # noqa: PLR0911 -- one for each kind
     dotted = DOTTED.match(line, at)
     if dotted:
-        return _dotted(line, at, dotted)
+        return _dotted(at, dotted)
     if line[at + 1 : at + 2] in ("{", "}"):
         bracket = line[at + 1]
         return Token("open" if bracket == "{" else "close", bracket, at), at + 2
@@ -163,7 +163,7 @@ def _command(line: str, at: int) -> tuple[Token, int]:  # noqa: PLR0911 -- one f
     return fail(at, f"the LaTeX command {command[:30]} is not known here{nearest(command, known)}")
 
 
-def _dotted(line: str, at: int, match: re.Match[str]) -> tuple[Token, int]:
+def _dotted(at: int, match: re.Match[str]) -> tuple[Token, int]:
     letter = LETTERS[match["braced"] or match["bare"]]
     for _ in range(len(match["dots"]) - len("dot") + 1):
         if letter not in FASTER:

@@ -1,1 +1,4 @@
-"""A page for a class: thirty mistakes, a question before each."""
+"""Writes a page for a class: thirty mistakes, with a question before each.
+
+May import models (for its errors), algebra, steps, mistakes and grading; not audit.
+"""

@@ -1,4 +1,4 @@
-"""The thirty mistakes of the lesson, each with the question that a class answers before it opens the answer."""
+"""The thirty mistakes of the lesson, each with the question that a class discusses before it reads the answer."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A page for a class: thirty mistakes, a question before each, the wrong and the right line, where it bites, a film."""
+"""Writes the page for a class: thirty mistakes, each with a question, the wrong and right lines, a map and a motion."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...models.writers.whole_file import write_whole
+from ..algebra.multiples import is_multiple
 from ..algebra.notation import pretty, sub, text
-from ..algebra.symbols import Mechanism, mechanism
+from ..algebra.symbols import Symbols, symbols_of
 from ..algebra.trig import NOTHING, Formula
-from ..grading.result import STAGES_EN, STAGES_JA
+from ..grading.grade_record import STAGES_EN, STAGES_JA
 from ..mistakes.catalogue import catalogue
-from ..mistakes.views import is_multiple
-from ..steps.derivation import Derivation, Mistake, Stage, add, derive, right
-from ..steps.motion import Parameters, RowMotion
+from ..steps.derivation import Derivation, Mistake, Stage, add, correct_derivation, derive
+from ..steps.motion import ParameterValues, RowMotion
 from .choices import CHOICES, Choice
 
 Array = NDArray[np.float64]
@@ -36,8 +36,8 @@ RATES = (1.5, -1.0, 0.5)  # rad/s, of the map
 
 
 @dataclass(frozen=True)
-class Line:
-    """What is told of one step: its name, and its formula."""
+class PageLine:
+    """One line of a derivation: the name of a quantity, and its formula."""
 
     name: str
     formula: str
@@ -61,14 +61,14 @@ def write_lesson(path: Path) -> Path:
 
 
 def _entry(number: int, choice: Choice) -> dict[str, Any]:
-    m = mechanism(choice.kind, choice.n)
+    m = symbols_of(choice.kind, choice.n)
     mistake = next(x for x in catalogue(m) if x.name == choice.name)
     wrong = derive(m, [mistake])
     pairs = list(changed_lines(m, mistake, wrong))
     rows = [
-        tuple(Line(f"row {i + 1}", _shown(m, _sum_of_row(m, d, i))) for d in (wrong, right(m)))
+        tuple(PageLine(f"row {i + 1}", _shown(m, _sum_of_row(m, d, i))) for d in (wrong, correct_derivation(m)))
         for i in range(m.n)
-        if not is_multiple(wrong.rows[i], right(m).rows[i])
+        if not is_multiple(wrong.rows[i], correct_derivation(m).rows[i])
     ]  # fmt: skip
     true, false = _true_motion(m), RowMotion(m, wrong.rows, _parameters(m))
     right_frames, wrong_frames = _true_frames(m), _frames(false)
@@ -87,21 +87,21 @@ def _entry(number: int, choice: Choice) -> dict[str, Any]:
 # The wrong line and the right one -------------------------------------------------------------------------------------
 
 
-def changed_lines(m: Mechanism, mistake: Mistake, wrong: Derivation) -> Iterator[tuple[Line, Line]]:
+def changed_lines(m: Symbols, mistake: Mistake, wrong: Derivation) -> Iterator[tuple[PageLine, PageLine]]:
     """The lines of the stage at which a mistake is made that it changes, wrong and right; at most four."""
-    told = 0
+    shown = 0
     for (name, formula), (_, other) in zip(
-        _lines(m, wrong, mistake.stage), _lines(m, right(m), mistake.stage), strict=True
+        _lines(m, wrong, mistake.stage), _lines(m, correct_derivation(m), mistake.stage), strict=True
     ):
-        if formula != other and told < 4:
-            told += 1
-            yield Line(name, _shown(m, formula)), Line(name, _shown(m, other))
+        if formula != other and shown < 4:
+            shown += 1
+            yield PageLine(name, _shown(m, formula)), PageLine(name, _shown(m, other))
 
 
 def _lines(  # noqa: PLR0911 -- one for each stage
-    m: Mechanism, d: Derivation, stage: Stage
+    m: Symbols, d: Derivation, stage: Stage
 ) -> list[tuple[str, Formula]]:
-    """What stands on the page at a stage, line by line."""
+    """The quantities of a stage, one a line."""
     every = range(m.n)
     match stage:
         case "position":
@@ -132,15 +132,15 @@ def _lines(  # noqa: PLR0911 -- one for each stage
     return [(f"0 = (row {i + 1})", _sum_of_row(m, d, i)) for i in every]
 
 
-def _sum_of_row(m: Mechanism, d: Derivation, i: int) -> Formula:
+def _sum_of_row(m: Symbols, d: Derivation, i: int) -> Formula:
     return m.space.join(d.rows[i]) if d.rows[i] else NOTHING
 
 
-def _shown(m: Mechanism, f: Formula) -> str:
+def _shown(m: Symbols, f: Formula) -> str:
     return pretty(text(m.space, f))
 
 
-# Where it bites -------------------------------------------------------------------------------------------------------
+# Map of the error -----------------------------------------------------------------------------------------------------
 
 
 def _map(true: RowMotion, false: RowMotion) -> str:
@@ -173,25 +173,25 @@ def _chunk(kind: bytes, data: bytes) -> bytes:
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
 
-# How it moves ---------------------------------------------------------------------------------------------------------
+# The motion -----------------------------------------------------------------------------------------------------------
 
 
-def _parameters(m: Mechanism) -> Parameters:
-    return Parameters(LENGTHS[: m.n], MASSES[: m.n] if m.kind == "n-leg" else ())
-
-
-@cache
-def _true_motion(m: Mechanism) -> RowMotion:
-    return RowMotion(m, right(m).rows, _parameters(m))
+def _parameters(m: Symbols) -> ParameterValues:
+    return ParameterValues(LENGTHS[: m.n], MASSES[: m.n] if m.kind == "n-leg" else ())
 
 
 @cache
-def _true_frames(m: Mechanism) -> list[list[float]]:
+def _true_motion(m: Symbols) -> RowMotion:
+    return RowMotion(m, correct_derivation(m).rows, _parameters(m))
+
+
+@cache
+def _true_frames(m: Symbols) -> list[list[float]]:
     return _frames(_true_motion(m))
 
 
 def _frames(motion: RowMotion) -> list[list[float]]:
-    """Angles at each frame; where the wrong equations break down, the film ends."""
+    """Angles at each frame; they end where the wrong equations diverge or determine no accelerations."""
     n = motion.n
     angles = motion.trajectory(np.array(START[:n]), np.zeros(n), DURATION, FRAMES * STEPS_A_FRAME)[::STEPS_A_FRAME]
     sound = np.isfinite(angles).all(axis=1) & (np.abs(angles) < 1e4).all(axis=1)

@@ -1,1 +1,4 @@
-"""The equations of motion from first principles, step by step, and a motion by any rows."""
+"""The equations of motion derived step by step from first principles, and the motion that any rows give.
+
+May import algebra.
+"""

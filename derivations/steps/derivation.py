@@ -2,9 +2,12 @@
 
     positions → velocities → squared speeds → energies → Lagrangian → momenta → derivatives → rows → matrix
 
-and, as a second road, Newton's: positions → forces → joint forces → moments → rows. Every step is an attribute that a
-mistake may replace; only what comes after a replaced part is worked out again, which is what lets a catalogue of
-thousands be derived within a second.
+and, the second way, by forces (Newton–Euler):
+
+    positions → forces → joint forces → moments → rows
+
+Every step is an attribute that a mistake may replace. Only what depends on a replaced part is worked out again, so that
+a catalogue of thousands of mistakes is derived within a second.
 """
 
 from __future__ import annotations
@@ -16,7 +19,7 @@ from typing import Literal
 
 from flint import fmpq
 
-from ..algebra.symbols import Mechanism
+from ..algebra.symbols import Symbols
 from ..algebra.trig import HALF, NOTHING, Formula, Space
 
 # fmt: off
@@ -26,7 +29,7 @@ Stage = Literal[
     "equation", "matrix",
 ]
 # fmt: on
-NEWTON: tuple[Stage, ...] = ("force", "moment")  # the second road
+NEWTON_STAGES: tuple[Stage, ...] = ("force", "moment")  # the way by forces
 Pair = tuple[Formula, Formula]  # x and y
 Row = dict[int, Formula]  # coefficient of each product of accelerations and rates: row = Σ coefficient · product = 0
 ROTATION = (-1, -1)  # the part of a kinetic energy that is the rod's own turning
@@ -36,7 +39,7 @@ ROTATION = (-1, -1)  # the part of a kinetic energy that is the rod's own turnin
 class Mistake:
     """A mistake, made at one stage, at given places (links, counted from 0).
 
-    ``code`` is stable and names the kind of mistake; ``english`` and ``japanese`` tell it to who made it.
+    ``code`` is stable and names the kind of mistake; ``english`` and ``japanese`` explain it to whoever made it.
     """
 
     code: str
@@ -65,7 +68,7 @@ class Derivation:
     ``rows``: the equations of motion, each divided by what the documents divide by.
     """
 
-    mechanism: Mechanism
+    symbols: Symbols
     position: list[dict[int, Pair]]
     velocity: list[dict[int, Pair]]
     square: list[dict[tuple[int, int], Formula]]
@@ -86,17 +89,17 @@ class Derivation:
     @property
     def space(self) -> Space:
         """The symbols."""
-        return self.mechanism.space
+        return self.symbols.space
 
     @property
     def n(self) -> int:
         """Number of angles."""
-        return self.mechanism.n
+        return self.symbols.n
 
     def copy(self) -> Derivation:
         """A copy whose lists can be changed; the parts in them are shared and must be replaced, not changed."""
-        lists = {name: list(value) for name, value in vars(self).items() if name != "mechanism"}
-        return Derivation(self.mechanism, **lists)
+        lists = {name: list(value) for name, value in vars(self).items() if name != "symbols"}
+        return Derivation(self.symbols, **lists)
 
     def lagrangian(self) -> Formula:
         """Σ share · (T, -U)."""
@@ -117,7 +120,7 @@ def add(parts: Iterable[Formula]) -> Formula:
 # First principles, one step a function -------------------------------------------------------------------------------
 
 
-def segment_position(m: Mechanism, k: int, fraction: fmpq) -> Pair:
+def segment_position(m: Symbols, k: int, fraction: fmpq) -> Pair:
     """(l_k sin θ_k, -l_k cos θ_k), times the fraction of the link: angles from the downward vertical."""
     s = m.space
     return (s.l(k) * s.sin({k: 1})).times(fraction), (s.l(k) * s.cos({k: 1})).times(-fraction)
@@ -139,7 +142,7 @@ def squares(velocity: dict[int, Pair]) -> dict[tuple[int, int], Formula]:
     return parts
 
 
-def kinetic_parts(m: Mechanism, b: int, square: dict[tuple[int, int], Formula]) -> dict[tuple[int, int], Formula]:
+def kinetic_parts(m: Symbols, b: int, square: dict[tuple[int, int], Formula]) -> dict[tuple[int, int], Formula]:
     """½ m |v|² by parts, and ½ I ω²."""
     half_mass = m.mass(b).times(HALF)
     parts = {pair: half_mass * part for pair, part in square.items()}
@@ -148,7 +151,7 @@ def kinetic_parts(m: Mechanism, b: int, square: dict[tuple[int, int], Formula]) 
     return parts
 
 
-def potential_parts(m: Mechanism, b: int, position: dict[int, Pair]) -> dict[int, Formula]:
+def potential_parts(m: Symbols, b: int, position: dict[int, Pair]) -> dict[int, Formula]:
     """m g y by segments."""
     weight = m.mass(b) * m.space.g
     return {k: weight * y for k, (_, y) in position.items()}
@@ -170,8 +173,8 @@ def lagrange_rows(s: Space, lagrangian: Formula) -> list[Formula]:
     return [s.by_time(s.by_rate(lagrangian, i)) - s.by_angle(lagrangian, i) for i in range(s.n)]
 
 
-def forces(m: Mechanism, position: dict[int, Pair], b: int) -> Pair:
-    """m (r̈ + g e_y) of mass b: what the joints must supply."""
+def forces(m: Symbols, position: dict[int, Pair], b: int) -> Pair:
+    """m (r̈ + g e_y) of mass b: the force that its joints must supply."""
     s = m.space
     ax, ay = (add(s.by_time(s.by_time(segment[axis])) for segment in position.values()) for axis in (0, 1))
     return m.mass(b) * ax, m.mass(b) * (ay + s.g)
@@ -190,7 +193,7 @@ def total(pairs: Iterable[Pair]) -> Pair:
     return x, y
 
 
-def newton_sides(m: Mechanism, force: Sequence[Pair], j: int) -> Pair:
+def newton_sides(m: Symbols, force: Sequence[Pair], j: int) -> Pair:
     """Moments on link j of the forces at its lower and its upper end.
 
     Rods (Takeno (4), (8)): T_k = -Σ_{i>k} m_i(r̈_i + g e_y) acts at the lower end of rod k, and the moment about its
@@ -206,7 +209,7 @@ def newton_sides(m: Mechanism, force: Sequence[Pair], j: int) -> Pair:
 
 
 @lru_cache(maxsize=64)
-def right(m: Mechanism) -> Derivation:
+def correct_derivation(m: Symbols) -> Derivation:
     """The derivation without a mistake."""
     s, n = m.space, m.n
     position = [{k: segment_position(m, k, fraction) for k, fraction in m.path(b)} for b in range(n)]
@@ -220,7 +223,7 @@ def right(m: Mechanism) -> Derivation:
     force = [forces(m, position[b], b) for b in range(n)]
     sides = [newton_sides(m, force, j) for j in range(n)]
     derivation = Derivation(
-        mechanism=m,
+        symbols=m,
         position=position,
         velocity=velocity,
         square=square,
@@ -251,20 +254,20 @@ def _newton_side(d: Derivation, i: int) -> Formula:
 
 
 def _row(d: Derivation, i: int, side: Formula) -> Row:
-    return d.space.split(side * d.mechanism.divisor(i).inverse_monomial())
+    return d.space.split(side * d.symbols.divisor(i).inverse_monomial())
 
 
 # With mistakes -------------------------------------------------------------------------------------------------------
 
 
-def derive(m: Mechanism, mistakes: Sequence[Mistake] = ()) -> Derivation:
+def derive(m: Symbols, mistakes: Sequence[Mistake] = ()) -> Derivation:
     """The derivation in which these mistakes are made, each at its stage; only what they touch is worked out anew."""
-    base = right(m)
+    base = correct_derivation(m)
     if not mistakes:
         return base
     d = base.copy()
     _to_lagrangian(base, d, mistakes)
-    if any(mistake.stage in NEWTON for mistake in mistakes):
+    if any(mistake.stage in NEWTON_STAGES for mistake in mistakes):
         _by_newton(base, d, mistakes)
     else:
         _by_lagrange(base, d, mistakes)
@@ -280,7 +283,7 @@ def _make(d: Derivation, mistakes: Sequence[Mistake], stage: Stage) -> None:
 
 
 def _to_lagrangian(base: Derivation, d: Derivation, mistakes: Sequence[Mistake]) -> None:
-    m, s = d.mechanism, d.space
+    m, s = d.symbols, d.space
     _make(d, mistakes, "position")
     for b in range(d.n):
         if d.position[b] is not base.position[b]:
@@ -342,7 +345,7 @@ def _change(
 
 
 def _by_newton(base: Derivation, d: Derivation, mistakes: Sequence[Mistake]) -> None:
-    m = d.mechanism
+    m = d.symbols
     for b in range(d.n):
         if d.position[b] is not base.position[b]:
             d.force[b] = forces(m, d.position[b], b)

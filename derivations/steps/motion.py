@@ -1,4 +1,4 @@
-"""Moves a mechanism by any rows, right or wrong: to show what a mistake does, not to simulate precisely."""
+"""The motion that any rows give, right or wrong: to show the effect of a mistake, not for precise simulation."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..algebra.symbols import Mechanism
+from ..algebra.symbols import Symbols
 from ..algebra.trig import COS, digits
 from .derivation import Row
 
@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Parameters:
+class ParameterValues:
     """Numbers for the symbols: lengths [m], masses [kg] or, of rods, the line density [kg/m], gravity [m/s²]."""
 
     lengths: tuple[float, ...]
@@ -24,7 +24,7 @@ class Parameters:
     density: float = 1.0
     gravity: float = 9.81
 
-    def values(self, m: Mechanism) -> dict[int, float]:
+    def values(self, m: Symbols) -> dict[int, float]:
         """By place of the symbol."""
         n = m.n
         values = {2 * n + k: l for k, l in enumerate(self.lengths)} | {4 * n: self.gravity, 4 * n + 1: self.density}
@@ -34,7 +34,7 @@ class Parameters:
 class RowMotion:
     """Accelerations that rows give, for numbers in place of l, m, g, ρ; batched over states."""
 
-    def __init__(self, m: Mechanism, rows: Sequence[Row], parameters: Parameters) -> None:
+    def __init__(self, m: Symbols, rows: Sequence[Row], parameters: ParameterValues) -> None:
         self.n = n = m.n
         values = parameters.values(m)
         coefficients, waves, phases, places, powers = [], [], [], [], []
@@ -42,7 +42,7 @@ class RowMotion:
             for q, f in row.items():
                 motion = digits(q, 2 * n)
                 for (e, h, phase), c in f.terms.items():
-                    coefficients.append(float(c.p) / float(c.q) * _product(values, digits(e, m.space.symbols)))
+                    coefficients.append(float(c.p) / float(c.q) * _product(values, digits(e, m.space.symbol_count)))
                     waves.append([half / 2 for half in digits(h, n)])
                     phases.append(0.0 if phase == COS else -np.pi / 2)
                     places.append((i, next((k for k in range(n) if motion[k]), n)))

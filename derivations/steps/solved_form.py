@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..algebra.symbols import Mechanism
+from ..algebra.symbols import Symbols
 from ..algebra.trig import CONSTANT_ONE, NOTHING, Formula, unit
 from .derivation import Row
 
 MOST_SOLVED = 3  # angles; beyond them nobody writes the solution down
 
 
-def is_solved(m: Mechanism, rows: Sequence[Row]) -> bool:
+def is_solved(m: Symbols, rows: Sequence[Row]) -> bool:
     """Whether each row has just one acceleration, and no two the same."""
     accelerations = [[k for k in range(m.n) if unit(k) in row] for row in rows]
     return (
@@ -22,7 +22,7 @@ def is_solved(m: Mechanism, rows: Sequence[Row]) -> bool:
     )
 
 
-def solved_rows(m: Mechanism, rows: Sequence[Row]) -> list[Row]:
+def solved_rows(m: Symbols, rows: Sequence[Row]) -> list[Row]:
     """det A · α_i + Σ_j adj A_ij b_j = 0, from the rows A α + b = 0."""
     n = m.n
     a = [[row.get(unit(k), NOTHING) for k in range(n)] for row in rows]

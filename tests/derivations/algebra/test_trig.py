@@ -8,13 +8,13 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from furiko.derivations.algebra.fingerprint import PRIME, ROOT, Point
+from furiko.derivations.algebra.fingerprint import PRIME, ROOT, RandomPoint
 from furiko.derivations.algebra.trig import Formula, Space, constant, digit, digits, unit
 
 SPACE = Space(3)
 THETA = sympy.symbols("t1:4", real=True)
 SYMBOLS = sympy.symbols(list(SPACE.names), positive=True)
-ALL = st.integers(0, SPACE.symbols - 1)
+ALL = st.integers(0, SPACE.symbol_count - 1)
 
 
 def in_sympy(f):
@@ -102,7 +102,7 @@ def test_the_prime_is_one_and_has_the_root():
 @settings(deadline=None, max_examples=40)
 @given(formulas(), formulas())
 def test_values_at_a_point_respect_sums_and_products(f, g):
-    point = Point(SPACE)
+    point = RandomPoint(SPACE)
     assert point.value(f * g) == point.value(f) * point.value(g) % PRIME
     assert point.value(f + g) == (point.value(f) + point.value(g)) % PRIME
 

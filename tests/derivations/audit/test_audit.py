@@ -48,13 +48,13 @@ def test_no_final_result_is_accused_and_the_misprints_are_found(result):
 def test_misprints_come_with_proof_correction_and_cost(result):
     for judged in result.equations:
         if judged.judgement == "misprint":
-            assert "a difference that must vanish lies in" in judged.evidence["proof that it fails"]
-            assert judged.evidence["corrected"]["holds"]
+            assert "a difference that must vanish lies in" in judged.evidence.proof
+            assert judged.evidence.corrected.holds
             assert judged.correction
             assert judged.printed
             for cost in judged.costs:
-                assert cost["median_error"] > 0.01
-                assert 0 < cost["divergence_large"] < 5
+                assert cost.median_error > 0.01
+                assert 0 < cost.divergence_large < 5
             assert judged.costs
 
 
@@ -62,8 +62,8 @@ def test_enclosures_of_what_holds_are_narrow(result):
     """At 256 bits, sums of some thousand terms of size 1000 enclose zero to far better than 1e-60."""
     for judged in result.equations:
         if judged.judgement != "misprint":
-            assert judged.evidence["in balls"]["largest enclosure of a difference"] < 1e-60
-            assert all(judged.evidence["in symbols"].values())
+            assert judged.evidence.in_balls.largest < 1e-60
+            assert all(judged.evidence.in_symbols.values())
 
 
 def test_it_is_plain_data(result):

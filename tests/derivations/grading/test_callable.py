@@ -5,11 +5,11 @@ import sys
 import numpy as np
 import pytest
 
-from furiko.derivations.algebra.symbols import mechanism
-from furiko.derivations.grading.grade_callable import diagnose, grade_callable, samples
+from furiko.derivations.algebra.symbols import symbols_of
+from furiko.derivations.grading.grade_callable import grade_accelerations, grade_callable, samples
 from furiko.derivations.mistakes.catalogue import catalogue
 from furiko.derivations.steps.derivation import derive
-from furiko.derivations.steps.motion import Parameters, RowMotion
+from furiko.derivations.steps.motion import ParameterValues, RowMotion
 from furiko.models.errors import InvalidInput
 
 MODULE = """
@@ -64,27 +64,27 @@ def module(tmp_path, monkeypatch):
 
 @pytest.mark.usefixtures("module")
 def test_a_right_function_is_correct_and_no_sandbox_is_claimed():
-    diagnosis = grade_callable("mine:double", "n-leg", 2)
-    assert diagnosis.verdict == "correct"
-    assert "no sandbox" in diagnosis.notes[0]
+    graded = grade_callable("mine:double", "n-leg", 2)
+    assert graded.verdict == "correct"
+    assert "no sandbox" in graded.notes[0]
     assert "mine" not in sys.modules
     assert grade_callable("mine:Rods.f", "rod-chain", 4).verdict == "correct"
 
 
 @pytest.mark.usefixtures("module")
 def test_mistakes_are_named_from_accelerations():
-    diagnosis = grade_callable("mine:sign", "n-leg", 2)
-    assert [named.name for named in diagnosis.mistakes] == ["sign:2:3:3"]
-    assert diagnosis.findings[0].term == "B[2,1]"
+    graded = grade_callable("mine:sign", "n-leg", 2)
+    assert [named.name for named in graded.mistakes] == ["sign:2:3:3"]
+    assert graded.findings[0].term == "B[2,1]"
     both = grade_callable("mine:two", "n-leg", 2)
     assert {named.cause for named in both.mistakes} == {"sign", "sin-for-cos"}
 
 
 @pytest.mark.usefixtures("module")
 def test_what_the_catalogue_does_not_have_is_still_wrong():
-    diagnosis = grade_callable("mine:odd", "n-leg", 2)
-    assert diagnosis.verdict == "wrong"
-    assert not diagnosis.mistakes
+    graded = grade_callable("mine:odd", "n-leg", 2)
+    assert graded.verdict == "wrong"
+    assert not graded.mistakes
 
 
 @pytest.mark.usefixtures("module")
@@ -121,7 +121,7 @@ def test_specifications_are_checked(spec):
 @pytest.mark.parametrize("kind", ["n-leg", "rod-chain"])
 def test_every_mistake_that_determines_the_motion_is_recognised(kind):
     """Accelerations of each wrong derivation of two links, solved in floats, given back as somebody's function."""
-    m = mechanism(kind, 2)
+    m = symbols_of(kind, 2)
     drawn = samples(m)
     missed = []
     for mistake in catalogue(m):
@@ -133,9 +133,9 @@ def test_every_mistake_that_determines_the_motion_is_recognised(kind):
         values = np.array(columns).T
         if not np.isfinite(values).all():
             continue  # a row has vanished
-        diagnosis = diagnose(drawn, values)
-        names = {named.name for named in diagnosis.mistakes} | {x for named in diagnosis.mistakes for x in named.also}
-        if diagnosis.verdict == "wrong" and mistake.name not in names:
+        graded = grade_accelerations(drawn, values)
+        names = {named.name for named in graded.mistakes} | {x for named in graded.mistakes for x in named.also}
+        if graded.verdict == "wrong" and mistake.name not in names:
             missed.append(mistake.name)
     assert missed == []
 
@@ -143,4 +143,4 @@ def test_every_mistake_that_determines_the_motion_is_recognised(kind):
 def _parameters(m, state):
     given = state["parameters"]
     masses = tuple(given["masses"]) if m.kind == "n-leg" else ()
-    return Parameters(tuple(given["lengths"]), masses, given.get("density", 1.0), given["gravity"])
+    return ParameterValues(tuple(given["lengths"]), masses, given.get("density", 1.0), given["gravity"])

@@ -21,12 +21,13 @@ from handwritten import (
     lagrangian,
     toml,
 )
+from rewritten_derivations import plain
 
-from furiko.derivations.algebra.symbols import mechanism
+from furiko.derivations.algebra.symbols import symbols_of
 from furiko.derivations.grading.grade import grade, grade_text
-from furiko.derivations.grading.rewriting import plain
-from furiko.derivations.mistakes.images import View, images
-from furiko.derivations.steps.derivation import derive, right
+from furiko.derivations.mistakes.known_mistakes import known_mistakes
+from furiko.derivations.steps.derivation import correct_derivation, derive
+from furiko.derivations.steps.views import View
 from furiko.models.errors import InvalidInput
 
 RIGHT = {
@@ -54,23 +55,23 @@ RIGHT = {
 
 @pytest.mark.parametrize("text", RIGHT.values(), ids=RIGHT.keys())
 def test_right_derivations_are_correct(text):
-    diagnosis = grade_text(text)
-    assert diagnosis.verdict == "correct", diagnosis.text()
-    assert diagnosis.findings == ()
-    assert diagnosis.exit_status == 0
+    graded = grade_text(text)
+    assert graded.verdict == "correct", graded.text()
+    assert graded.findings == ()
+    assert graded.exit_status == 0
 
 
 @pytest.mark.parametrize(("what", "system", "rows", "names", "terms"), WRONG, ids=[case[0] for case in WRONG])
 def test_wrong_derivations_are_named(what, system, rows, names, terms):
-    diagnosis = grade_text(toml(system, rows))
-    assert diagnosis.verdict == "wrong"
-    assert diagnosis.mistakes, f"{what}: nothing named\n{diagnosis.text()}"
-    first = diagnosis.mistakes[0]
-    assert len(diagnosis.mistakes) == 1
-    assert {first.cause, *(name.split(":")[0] for name in first.also)} & names, diagnosis.text()
-    assert terms <= {finding.term for finding in diagnosis.findings}
-    assert all(finding.says and finding.says_ja for finding in diagnosis.findings)
-    assert diagnosis.exit_status == 1
+    graded = grade_text(toml(system, rows))
+    assert graded.verdict == "wrong"
+    assert graded.mistakes, f"{what}: nothing named\n{graded.text()}"
+    first = graded.mistakes[0]
+    assert len(graded.mistakes) == 1
+    assert {first.cause, *(name.split(":")[0] for name in first.also)} & names, graded.text()
+    assert terms <= {finding.term for finding in graded.findings}
+    assert all(finding.says and finding.says_ja for finding in graded.findings)
+    assert graded.exit_status == 1
 
 
 def test_found_and_expected_are_in_the_rows_own_scaling():
@@ -82,8 +83,8 @@ def test_found_and_expected_are_in_the_rows_own_scaling():
 
 @pytest.mark.parametrize(("links", "rows", "number"), [(2, SHIKI_1_9, "1.10"), (3, SHIKI_2_10, "2.11")])
 def test_findings_carry_the_documents_number(links, rows, number):
-    diagnosis = grade_text(toml("n-leg", [rows[0].replace("g", "*2*g"), *rows[1:]]))
-    assert {finding.equation for finding in diagnosis.findings} == {number}
+    graded = grade_text(toml("n-leg", [rows[0].replace("g", "*2*g"), *rows[1:]]))
+    assert {finding.equation for finding in graded.findings} == {number}
 
 
 SINGLE = [case for case in WRONG if case[1] == "n-leg" and len(case[2]) == 2 and case[2][0] == ROW_1]
@@ -95,13 +96,13 @@ PAIRS = list(itertools.product(OTHER, SINGLE))
 
 @pytest.mark.parametrize(("one", "two"), PAIRS, ids=[f"{one[0]} & {two[0]}" for one, two in PAIRS])
 def test_two_mistakes_at_once_are_both_found(one, two):
-    diagnosis = grade_text(toml("n-leg", [one[2][0], two[2][1]]))
-    assert diagnosis.verdict == "wrong"
-    told = {named.cause for named in diagnosis.mistakes}
-    told |= {name.split(":")[0] for named in diagnosis.mistakes for name in named.also}
-    assert told & one[3], diagnosis.text()
-    assert told & two[3], diagnosis.text()
-    assert one[4] | two[4] <= {finding.term for finding in diagnosis.findings}
+    graded = grade_text(toml("n-leg", [one[2][0], two[2][1]]))
+    assert graded.verdict == "wrong"
+    told = {named.cause for named in graded.mistakes}
+    told |= {name.split(":")[0] for named in graded.mistakes for name in named.also}
+    assert told & one[3], graded.text()
+    assert told & two[3], graded.text()
+    assert one[4] | two[4] <= {finding.term for finding in graded.findings}
 
 
 def test_three_slips_are_all_told():
@@ -110,30 +111,30 @@ def test_three_slips_are_all_told():
         SHIKI_2_10[1].replace("-m_2g", "+m_2g"),
         SHIKI_2_10[2].replace(r"\dot{\theta}_1^2", r"\cdot 2\dot{\theta}_1^2"),
     ]
-    diagnosis = grade_text(toml("n-leg", rows))
-    assert {finding.term for finding in diagnosis.findings} == {"A[1,2]", "B[2,2]", "B[3,1]"}
-    assert {named.cause for named in diagnosis.mistakes} >= {"sin-for-cos", "factor-two"}
+    graded = grade_text(toml("n-leg", rows))
+    assert {finding.term for finding in graded.findings} == {"A[1,2]", "B[2,2]", "B[3,1]"}
+    assert {named.cause for named in graded.mistakes} >= {"sin-for-cos", "factor-two"}
 
 
 def test_a_mistake_that_nobody_listed_is_told_by_its_term():
-    diagnosis = grade_text(toml("n-leg", [ROW_1, ROW_2.replace("m2*g*sin(t2)", "m2*g*sin(t2) + 5*m2*g*cos(3*t1)")]))
-    assert diagnosis.verdict == "wrong"
-    (finding,) = diagnosis.findings
+    graded = grade_text(toml("n-leg", [ROW_1, ROW_2.replace("m2*g*sin(t2)", "m2*g*sin(t2) + 5*m2*g*cos(3*t1)")]))
+    assert graded.verdict == "wrong"
+    (finding,) = graded.findings
     assert finding.term == "B[2,2]"
     assert "5" in finding.found
 
 
 def test_a_slip_in_the_solved_form_is_found_where_it_stands():
-    diagnosis = grade_text(toml("n-leg", [SOLVED[0].replace("- m2*g*sin(t1-2*t2)", "+ m2*g*sin(t1-2*t2)"), SOLVED[1]]))
-    (finding,) = diagnosis.findings
+    graded = grade_text(toml("n-leg", [SOLVED[0].replace("- m2*g*sin(t1-2*t2)", "+ m2*g*sin(t1-2*t2)"), SOLVED[1]]))
+    (finding,) = graded.findings
     assert finding.equation == "1.11"
     assert finding.term == "a1: g"
     assert finding.cause == "part-sign"
 
 
 def test_a_slip_in_relative_angles_is_told_in_them():
-    diagnosis = grade_text(toml("n-leg", [RELATIVE[0].replace("2*w1*w2", "w1*w2"), RELATIVE[1]], angles="relative"))
-    (finding,) = diagnosis.findings
+    graded = grade_text(toml("n-leg", [RELATIVE[0].replace("2*w1*w2", "w1*w2"), RELATIVE[1]], angles="relative"))
+    (finding,) = graded.findings
     assert finding.found == "-m2*l1*l2*w1*w2*sin(t2)"
     assert finding.expected == "-2*m2*l1*l2*w1*w2*sin(t2)"
 
@@ -143,20 +144,20 @@ def test_relative_angles_that_are_not_declared_are_wrong():
 
 
 def test_what_is_missing_is_said_and_not_judged():
-    diagnosis = grade_text(toml("n-leg", [ROW_1], links=2))
-    assert diagnosis.verdict == "undecided"
-    assert "θ2" in diagnosis.notes[0]
+    graded = grade_text(toml("n-leg", [ROW_1], links=2))
+    assert graded.verdict == "undecided"
+    assert "θ2" in graded.notes[0]
 
 
 def test_the_same_row_twice_is_no_system():
-    diagnosis = grade_text(toml("n-leg", [ROW_1, "2*(" + ROW_1.replace("= 0", ") = 0")]))
-    assert diagnosis.verdict == "wrong"
-    assert diagnosis.findings[0].cause == "row-repeated"
+    graded = grade_text(toml("n-leg", [ROW_1, "2*(" + ROW_1.replace("= 0", ") = 0")]))
+    assert graded.verdict == "wrong"
+    assert graded.findings[0].cause == "row-repeated"
 
 
 def test_an_empty_row_is_told():
-    diagnosis = grade_text(toml("n-leg", [ROW_1.replace("l2", "l1"), "a1 = a1"]))
-    assert diagnosis.verdict == "wrong"
+    graded = grade_text(toml("n-leg", [ROW_1.replace("l2", "l1"), "a1 = a1"]))
+    assert graded.verdict == "wrong"
 
 
 WRONG_LAGRANGIANS = [
@@ -172,35 +173,35 @@ WRONG_LAGRANGIANS = [
 
 @pytest.mark.parametrize(("what", "formula", "cause"), WRONG_LAGRANGIANS, ids=[case[0] for case in WRONG_LAGRANGIANS])
 def test_wrong_lagrangians_are_named(what, formula, cause):
-    diagnosis = grade_text(lagrangian("n-leg", 2, formula))
-    assert diagnosis.verdict == "wrong"
-    named = diagnosis.mistakes[0]
-    assert cause in {named.cause, *(name.split(":")[0] for name in named.also)}, diagnosis.text()
-    assert all(finding.term.startswith("L: ") and finding.equation == "1.4" for finding in diagnosis.findings)
+    graded = grade_text(lagrangian("n-leg", 2, formula))
+    assert graded.verdict == "wrong"
+    named = graded.mistakes[0]
+    assert cause in {named.cause, *(name.split(":")[0] for name in named.also)}, graded.text()
+    assert all(finding.term.startswith("L: ") and finding.equation == "1.4" for finding in graded.findings)
 
 
 @pytest.mark.parametrize("kind", ["n-leg", "rod-chain"])
 def test_a_wrong_derivation_of_four_links_is_graded_within_two_seconds(kind):
     """From nothing, with the catalogue derived; processor time, so that a busy machine does not decide."""
-    images.cache_clear()
-    m = mechanism(kind, 4)
-    seen = images(View(m))
-    text = plain(m, derive(m, [seen.wrong[5].mistake, seen.wrong[-7].mistake]).rows, random.Random(1))
-    images.cache_clear()
+    known_mistakes.cache_clear()
+    m = symbols_of(kind, 4)
+    known = known_mistakes(View(m))
+    text = plain(m, derive(m, [known.wrong[5].mistake, known.wrong[-7].mistake]).rows, random.Random(1))
+    known_mistakes.cache_clear()
     start = time.process_time()
     assert grade_text(text).verdict == "wrong"
     assert time.process_time() - start < 2.0
 
 
 def test_many_links_are_graded_term_by_term_and_at_once():
-    m = mechanism("rod-chain", 12)
-    text = plain(m, right(m).rows, random.Random(5))
+    m = symbols_of("rod-chain", 12)
+    text = plain(m, correct_derivation(m).rows, random.Random(5))
     assert grade_text(text).verdict == "correct"
     start = time.process_time()
-    diagnosis = grade_text(text.replace("g*sin(t7)", "g*sin(t8)"))
-    assert diagnosis.verdict == "wrong"
-    assert {finding.term for finding in diagnosis.findings} == {"G[7]"}
-    assert "one by one" in diagnosis.notes[0]
+    graded = grade_text(text.replace("g*sin(t7)", "g*sin(t8)"))
+    assert graded.verdict == "wrong"
+    assert {finding.term for finding in graded.findings} == {"G[7]"}
+    assert "one by one" in graded.notes[0]
     assert time.process_time() - start < 2
 
 
@@ -220,9 +221,9 @@ def test_a_file_is_read_and_its_name_told(tmp_path):
 
 
 def test_the_answer_is_plain_data_and_two_languages():
-    diagnosis = grade_text(toml("n-leg", WRONG[0][2]))
-    answer = diagnosis.to_dict()
+    graded = grade_text(toml("n-leg", WRONG[0][2]))
+    answer = graded.to_dict()
     assert answer["verdict"] == "wrong"
     assert set(answer["findings"][0]) >= {"equation", "term", "found", "expected", "cause", "says"}
-    assert "A[2,1]" in diagnosis.text("en")
-    assert "誤り" in diagnosis.text("ja")
+    assert "A[2,1]" in graded.text("en")
+    assert "誤り" in graded.text("ja")

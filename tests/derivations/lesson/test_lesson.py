@@ -4,15 +4,17 @@ import base64
 import json
 import struct
 from html.parser import HTMLParser
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from furiko.derivations.algebra.symbols import mechanism
+from furiko.derivations.algebra.symbols import symbols_of
 from furiko.derivations.lesson.choices import CHOICES
-from furiko.derivations.lesson.lesson import GRID, changed_lines, lesson
+from furiko.derivations.lesson.lesson import GRID, changed_lines, lesson, write_lesson
 from furiko.derivations.mistakes.catalogue import catalogue
-from furiko.derivations.steps.derivation import derive, right
+from furiko.derivations.steps.derivation import correct_derivation, derive
+from furiko.models.errors import InvalidInput
 
 
 class Page(HTMLParser):
@@ -69,13 +71,54 @@ def test_motions_start_alike_and_part(page):
 
 @pytest.mark.parametrize("choice", CHOICES, ids=[choice.name for choice in CHOICES])
 def test_each_has_a_wrong_and_a_right_line(choice):
-    m = mechanism(choice.kind, choice.n)
+    m = symbols_of(choice.kind, choice.n)
     mistake = next(mistake for mistake in catalogue(m) if mistake.name == choice.name)
     lines = list(changed_lines(m, mistake, derive(m, [mistake])))
     assert lines
     assert all(wrong.name == good.name and wrong.formula != good.formula for wrong, good in lines)
-    assert right(m).rows != derive(m, [mistake]).rows
+    assert correct_derivation(m).rows != derive(m, [mistake]).rows
 
 
 def test_no_mistake_stands_there_twice():
     assert len({(choice.kind, choice.n, choice.name) for choice in CHOICES}) == len(CHOICES) == 30
+
+
+LESSON = "furiko.derivations.lesson.lesson.lesson"
+
+
+def test_the_page_is_written_over_an_older_one(tmp_path, monkeypatch):
+    monkeypatch.setattr(LESSON, lambda: "the page")
+    path = tmp_path / "lesson.html"
+    path.write_text("older")
+    assert write_lesson(path) == path
+    assert path.read_text() == "the page"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_page_that_is_not_finished_leaves_the_older_one(tmp_path, monkeypatch):
+    def interrupted():
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(LESSON, interrupted)
+    path = tmp_path / "lesson.html"
+    path.write_text("older")
+    with pytest.raises(KeyboardInterrupt):
+        write_lesson(path)
+    assert path.read_text() == "older"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("place", ["missing/lesson.html", "file/lesson.html", "folder", "x" * 300])
+def test_a_place_that_cannot_be_written_is_refused_in_one_line(tmp_path, monkeypatch, place):
+    monkeypatch.setattr(LESSON, lambda: "the page")
+    (tmp_path / "file").write_text("")
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(InvalidInput) as refused:
+        write_lesson(tmp_path / place)
+    assert str(refused.value).startswith(str(tmp_path / place))
+    assert "\n" not in str(refused.value)
+
+
+def test_a_device_is_written_and_stays_a_device(monkeypatch):
+    monkeypatch.setattr(LESSON, lambda: "the page")
+    assert write_lesson(Path("/dev/null")).is_char_device()

@@ -3,18 +3,19 @@
 import pytest
 from handwritten import ROW_1, ROW_2, SHIKI_2_10, TAKENO_18, TAKENO_19, toml
 
-from furiko.derivations.algebra.symbols import KINDS, mechanism
+from furiko.derivations.algebra.multiples import is_multiple
+from furiko.derivations.algebra.symbols import KINDS, symbols_of
 from furiko.derivations.grading.submission import parse_submission
-from furiko.derivations.mistakes.catalogue import catalogue, codes
-from furiko.derivations.mistakes.images import View, images
-from furiko.derivations.mistakes.views import is_multiple
-from furiko.derivations.steps.derivation import derive, right
+from furiko.derivations.mistakes.catalogue import catalogue
+from furiko.derivations.mistakes.known_mistakes import known_mistakes
+from furiko.derivations.steps.derivation import correct_derivation, derive
+from furiko.derivations.steps.views import View
 
 
 @pytest.mark.parametrize("n", [2, 3, 4])
 @pytest.mark.parametrize("kind", KINDS)
 def test_names_are_unique_and_sentences_are_there(kind, n):
-    mistakes = catalogue(mechanism(kind, n))
+    mistakes = catalogue(symbols_of(kind, n))
     assert len({mistake.name for mistake in mistakes}) == len(mistakes)
     for mistake in mistakes:
         assert mistake.english.endswith((".", "nothing."))
@@ -23,8 +24,8 @@ def test_names_are_unique_and_sentences_are_there(kind, n):
 
 
 def test_the_catalogue_generates_thousands():
-    assert sum(len(catalogue(mechanism(kind, n))) for kind in KINDS for n in (2, 3, 4)) > 3000
-    assert len(set(codes(mechanism("n-leg", 4))) | set(codes(mechanism("rod-chain", 4)))) > 100
+    assert sum(len(catalogue(symbols_of(kind, n))) for kind in KINDS for n in (2, 3, 4)) > 3000
+    assert len({mistake.code for kind in KINDS for mistake in catalogue(symbols_of(kind, 4))}) > 100
 
 
 # By hand: the sign of x squared away (link 1 alone; its y in the speed), the zero of height, terms that are zero anyway
@@ -43,18 +44,18 @@ EQUIVALENT = {
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_what_is_right_after_all_is_just_what_must_be(kind):
-    seen = images(View(mechanism(kind, 3)))
-    assert {mistake.name for mistake in seen.equivalent} == EQUIVALENT[kind]
+    known = known_mistakes(View(symbols_of(kind, 3)))
+    assert {mistake.name for mistake in known.equivalent} == EQUIVALENT[kind]
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_wrong_means_wrong_exactly(kind):
-    """The images are taken at one random point; exactly, each wrong one has rows that are no multiples."""
-    m = mechanism(kind, 3)
-    for image in images(View(m)).wrong:
-        rows = derive(m, [image.mistake]).rows
-        wrong = [i for i in range(3) if not is_multiple(rows[i], right(m).rows[i])]
-        assert wrong == sorted(image.rows)
+    """The known are taken at one random point; exactly, each wrong one has rows that are no multiples."""
+    m = symbols_of(kind, 3)
+    for entry in known_mistakes(View(m)).wrong:
+        rows = derive(m, [entry.mistake]).rows
+        wrong = [i for i in range(3) if not is_multiple(rows[i], correct_derivation(m).rows[i])]
+        assert wrong == sorted(entry.rows)
 
 
 # (name, n, what it must lead to, by hand)
@@ -117,7 +118,7 @@ BY_HAND = [
 
 @pytest.mark.parametrize(("kind", "name", "rows"), BY_HAND, ids=[case[1] for case in BY_HAND])
 def test_mistakes_lead_to_what_is_worked_out_by_hand(kind, name, rows):
-    m = mechanism(kind, len(rows))
+    m = symbols_of(kind, len(rows))
     mistake = next(mistake for mistake in catalogue(m) if mistake.name == name)
     made = derive(m, [mistake]).rows
     for (_, written), row in zip(parse_submission(toml(kind, rows)).rows, made, strict=True):
@@ -126,7 +127,7 @@ def test_mistakes_lead_to_what_is_worked_out_by_hand(kind, name, rows):
 
 def test_the_old_encyclopedia_rods_are_those_without_inertia():
     """Takeno's (19) with 5/4 and 1/4 on the diagonal."""
-    m = mechanism("rod-chain", 2)
+    m = symbols_of("rod-chain", 2)
     mistake = next(mistake for mistake in catalogue(m) if mistake.name == "inertia-missing")
     rows = [
         TAKENO_19[0].replace(r"\frac{4\ddot{\theta}_1}{3}", r"\frac{5}{4}\ddot{\theta}_1"),

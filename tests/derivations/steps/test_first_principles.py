@@ -14,11 +14,11 @@ from handwritten import (
     toml,
 )
 
-from furiko.derivations.algebra.symbols import KINDS, mechanism
+from furiko.derivations.algebra.multiples import is_multiple
+from furiko.derivations.algebra.symbols import KINDS, symbols_of
 from furiko.derivations.grading.submission import parse_submission
-from furiko.derivations.mistakes.views import is_multiple
-from furiko.derivations.steps.derivation import _newton_side, _row, lagrange_rows, right
-from furiko.derivations.steps.motion import Parameters, RowMotion
+from furiko.derivations.steps.derivation import _newton_side, _row, correct_derivation, lagrange_rows
+from furiko.derivations.steps.motion import ParameterValues, RowMotion
 from furiko.models import NLegPendulum, RodChain
 from furiko.reference import literal_accelerations
 
@@ -28,7 +28,7 @@ from furiko.reference import literal_accelerations
     [("n-leg", SHIKI_1_9), ("n-leg", SHIKI_1_8), ("n-leg", SHIKI_2_10), ("rod-chain", TAKENO_18)],
 )
 def test_rows_are_the_documents_rows(system, rows):
-    derived = right(mechanism(system, len(rows)))
+    derived = correct_derivation(symbols_of(system, len(rows)))
     for (_, written), row in zip(parse_submission(toml(system, rows)).rows, derived.rows, strict=True):
         assert is_multiple(derived.space.split(written), row)
 
@@ -36,13 +36,13 @@ def test_rows_are_the_documents_rows(system, rows):
 @pytest.mark.parametrize(("links", "formula"), [(2, SHIKI_1_4), (3, SHIKI_2_5)])
 def test_the_lagrangian_is_the_documents(links, formula):
     written = parse_submission(lagrangian("n-leg", links, formula)).lagrangian
-    assert written == right(mechanism("n-leg", links)).lagrangian()
+    assert written == correct_derivation(symbols_of("n-leg", links)).lagrangian()
 
 
 @pytest.mark.parametrize("n", [2, 3, 5])
 @pytest.mark.parametrize("kind", KINDS)
 def test_newtons_road_leads_to_lagranges_rows(kind, n):
-    d = right(mechanism(kind, n))
+    d = correct_derivation(symbols_of(kind, n))
     for i in range(n):
         assert _row(d, i, _newton_side(d, i)) == d.rows[i]
     for i, row in enumerate(lagrange_rows(d.space, d.lagrangian())):
@@ -67,9 +67,9 @@ def test_rows_are_sympys_lagrange_rows(kind):
         if kind == "rod-chain":
             energy += masses[k] * l[k] ** 2 / 12 * w[k] ** 2 / 2
     numbers = {s: sympy.Rational(k + 2, 5) for k, s in enumerate([*t, *w, *a, *l, *m, g, rho])}
-    mech = mechanism(kind, n)
+    mech = symbols_of(kind, n)
     names = [*a, *w, *l, *m, g, rho]
-    for i, row in enumerate(right(mech).rows):
+    for i, row in enumerate(correct_derivation(mech).rows):
         p = energy.diff(w[i])
         expected = sum(p.diff(q) * r + p.diff(r) * s for q, r, s in zip(t, w, a, strict=True)) - energy.diff(t[i])
         expected /= l[i] * rho if kind == "rod-chain" else l[i]
@@ -91,18 +91,20 @@ def test_numbers_are_the_theorys(system):
     """The exact rows with numbers put in, against the documents' final formulas in floats."""
     draw = np.random.default_rng(1)
     theta, omega = draw.uniform(-3, 3, (50, system.n)), draw.normal(0, 3, (50, system.n))
-    m = mechanism(system.kind, system.n)
+    m = symbols_of(system.kind, system.n)
     density = getattr(system, "density", 1.0)
-    parameters = Parameters(system.lengths, system.masses if system.kind == "n-leg" else (), density)
-    found = RowMotion(m, right(m).rows, parameters).accelerations(theta, omega)
+    parameters = ParameterValues(system.lengths, system.masses if system.kind == "n-leg" else (), density)
+    found = RowMotion(m, correct_derivation(m).rows, parameters).accelerations(theta, omega)
     # both solve a well-conditioned system of five unknowns in double precision
     np.testing.assert_allclose(found, literal_accelerations(system, theta, omega), rtol=1e-11, atol=1e-11)
 
 
 def test_a_motion_keeps_the_small_swings_period():
     """One rod: the trajectory against the harmonic motion that a swing of 1e-4 rad is, to its cubic correction."""
-    m = mechanism("rod-chain", 1)
+    m = symbols_of("rod-chain", 1)
     rate = np.sqrt(1.5 * 9.81 / 1.2)
     times = np.linspace(0, 2, 401)
-    angles = RowMotion(m, right(m).rows, Parameters((1.2,))).trajectory(np.array([1e-4]), np.zeros(1), 2.0, 400)
+    angles = RowMotion(m, correct_derivation(m).rows, ParameterValues((1.2,))).trajectory(
+        np.array([1e-4]), np.zeros(1), 2.0, 400
+    )
     np.testing.assert_allclose(angles[:, 0], 1e-4 * np.cos(rate * times), atol=1e-10)

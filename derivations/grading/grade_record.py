@@ -1,4 +1,4 @@
-"""What the grader says: a verdict, the mistakes that explain it, and each wrong term with what should stand there."""
+"""The result of grading: a verdict, the mistakes that explain it, and each wrong term, found and expected."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ EXIT_STATUS: dict[Verdict, int] = {"correct": 0, "wrong": 1, "undecided": 1}
 
 
 @dataclass(frozen=True)
-class Finding:
-    """One wrong term. ``equation``: the documents' number; ``row``: its label in what was handed in.
+class WrongTerm:
+    """One wrong term. ``equation``: the documents' number; ``row``: the label of the row in the derivation graded.
 
-    ``found`` and ``expected`` are in the scaling of the row as it was handed in, everything on its left side.
+    ``found`` and ``expected`` are scaled like the row in that derivation, with every term on the left side.
     """
 
     equation: str
@@ -27,8 +27,8 @@ class Finding:
 
 
 @dataclass(frozen=True)
-class Named:
-    """One mistake that explains what was found; ``also``: further mistakes that lead to the very same equations."""
+class NamedMistake:
+    """One mistake that explains wrong terms; ``also``: other mistakes that lead to the same equations."""
 
     cause: str
     name: str
@@ -39,12 +39,15 @@ class Named:
 
 
 @dataclass(frozen=True)
-class Diagnosis:
-    """The answer to one derivation. ``alternatives``: other sets of mistakes that explain it as well."""
+class Grade:
+    """The grade of one derivation. ``alternatives``: other sets of mistakes that explain the wrong terms as well.
+
+    ``notes``, ``notes_ja``: remarks in English and Japanese; ``system``, ``links``: the mechanism.
+    """
 
     verdict: Verdict
-    findings: tuple[Finding, ...] = ()
-    mistakes: tuple[Named, ...] = ()
+    findings: tuple[WrongTerm, ...] = ()
+    mistakes: tuple[NamedMistake, ...] = ()
     alternatives: tuple[tuple[str, ...], ...] = ()
     notes: tuple[str, ...] = ()
     notes_ja: tuple[str, ...] = ()
@@ -65,30 +68,30 @@ class Diagnosis:
         return _english(self) if language == "en" else _japanese(self)
 
 
-def _english(d: Diagnosis) -> str:
+def _english(d: Grade) -> str:
     head = {"correct": "Correct.", "wrong": "Wrong.", "undecided": "Undecided."}[d.verdict]
     lines = [head]
     for mistake in d.mistakes:
         also = f" (or, with the same equations: {', '.join(mistake.also)})" if mistake.also else ""
         lines.append(f"  {mistake.says}  [{mistake.cause}, made in the {STAGES_EN[mistake.stage]}]{also}")
     for f in d.findings:
-        told = "" if d.mistakes and any(f.says == m.says for m in d.mistakes) else f"  {f.says}"
+        said = "" if d.mistakes and any(f.says == m.says for m in d.mistakes) else f"  {f.says}"
         row = f" of row {f.row}" if f.row and " in row " not in f.term else ""
-        lines.append(f"  ({f.equation}) {f.term}{row}: {f.found} stands there, {f.expected} belongs there.{told}")
+        lines.append(f"  ({f.equation}) {f.term}{row}: found {f.found}, expected {f.expected}.{said}")
     lines += [f"  Or: {' and '.join(names)}" for names in d.alternatives]
     return "\n".join([*lines, *(f"  {note}" for note in d.notes)])
 
 
-def _japanese(d: Diagnosis) -> str:
+def _japanese(d: Grade) -> str:
     head = {"correct": "正しい導出です。", "wrong": "誤りがあります。", "undecided": "判定できません。"}[d.verdict]
     lines = [head]
     for mistake in d.mistakes:
         also = f"（同じ式になる別の誤り：{'、'.join(mistake.also)}）" if mistake.also else ""
         lines.append(f"  {mistake.says_ja}  [{mistake.cause}、{STAGES_JA[mistake.stage]}の段階]{also}")
     for f in d.findings:
-        told = "" if any(f.says_ja == m.says_ja for m in d.mistakes) else f"  {f.says_ja}"
+        said = "" if any(f.says_ja == m.says_ja for m in d.mistakes) else f"  {f.says_ja}"
         row = f"第{f.row}行 " if f.row else ""
-        lines.append(f"  ({f.equation}) {row}{f.term}：{f.found} → 正しくは {f.expected}{told}")
+        lines.append(f"  ({f.equation}) {row}{f.term}：{f.found} → 正しくは {f.expected}{said}")
     lines += [f"  または：{'、'.join(names)}" for names in d.alternatives]
     return "\n".join([*lines, *(f"  {note}" for note in d.notes_ja)])
 

@@ -1,8 +1,7 @@
 """What the grader must show, measured: a part in every run, all of it where slow tests run."""
 
 import pytest
-
-from furiko.derivations.grading.score import cold, hostile_inputs, pairs, rewritings, singles, table
+from grader_score import cold, hostile_inputs, pairs, rewritings, singles, table
 
 
 def share(tally, *beginnings):

@@ -1,38 +1,35 @@
-"""Mistakes on the way from the Lagrangian to the rows (d/dt ∂L/∂ω - ∂L/∂θ), and on Newton's road, by forces."""
+"""Mistakes on the way from the Lagrangian to the rows: d/dt ∂L/∂ω - ∂L/∂θ."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
 from ..algebra.notation import sub
-from ..algebra.symbols import Mechanism
-from ..algebra.trig import HALF, NOTHING, Formula, Space, digit
+from ..algebra.symbols import Symbols
+from ..algebra.trig import HALF, NOTHING, Formula, digit
 from ..steps.derivation import Derivation, Mistake, Stage, add
-from .energy import at, body, everywhere
+from .changes import at, everywhere
 
 Change = Callable[[Derivation, int], None]
 
 
-def motion_mistakes(m: Mechanism) -> Iterator[Mistake]:
+def lagrange_mistakes(m: Symbols) -> Iterator[Mistake]:
     """All of them, for one mechanism."""
     for i in range(m.n):
-        yield from _one_row(m, i)
+        yield from _one_row(i)
         for j in _coupled(m, i):
             yield from _one_pair(m, i, j)
     yield from _all_rows(m)
-    yield from _forces(m)
-    if m.kind == "rod-chain":
-        yield from _moments(m)
 
 
-def _coupled(m: Mechanism, i: int) -> list[int]:
-    """The angles whose difference from θ_i stands in the Lagrangian."""
+def _coupled(m: Symbols, i: int) -> list[int]:
+    """The angles whose difference from θ_i occurs in the Lagrangian."""
     if m.kind == "rod-chain":
         return [j for j in range(m.n) if j != i]
     return list(range(1, m.n)) if i == 0 else [0]
 
 
-def _with(s: Space, f: Formula, j: int) -> Formula:
+def _with(f: Formula, j: int) -> Formula:
     """The terms whose angle contains θ_j."""
     return Formula({key: c for key, c in f.terms.items() if digit(key[1], j)})
 
@@ -41,15 +38,11 @@ def _swap_waves(f: Formula) -> Formula:
     return Formula({(e, h, 1 - phase): c for (e, h, phase), c in f.terms.items() if h})
 
 
-# Lagrange's road ------------------------------------------------------------------------------------------------------
+# Changes that mistakes make -------------------------------------------------------------------------------------------
 
 
 def _no_convection(d: Derivation, i: int) -> None:
     d.convective[i] = {}
-
-
-def _no_acceleration_part(d: Derivation, i: int) -> None:
-    d.inertial[i] = NOTHING
 
 
 def _others_held(d: Derivation, i: int) -> None:
@@ -127,7 +120,7 @@ ROWS: list[tuple[str, Stage, Change, str, str]] = [
 ]  # fmt: skip
 
 
-def _one_row(m: Mechanism, i: int) -> Iterator[Mistake]:
+def _one_row(i: int) -> Iterator[Mistake]:
     for code, stage, change, english, japanese in ROWS:
         yield Mistake(
             code, stage, (i,), f"Row {i + 1}: {english}.", f"第{i + 1}式：{japanese}。",
@@ -135,15 +128,14 @@ def _one_row(m: Mechanism, i: int) -> Iterator[Mistake]:
         )  # fmt: skip
 
 
-def _all_rows(m: Mechanism) -> Iterator[Mistake]:
+def _all_rows(m: Symbols) -> Iterator[Mistake]:
     if m.n == 1:
         return
     for code, stage, change, english, japanese in ROWS:
         yield everywhere(code, stage, f"In every row, {english}.", f"すべての式：{japanese}。", change)
 
 
-def _one_pair(m: Mechanism, i: int, j: int) -> Iterator[Mistake]:
-    s = m.space
+def _one_pair(m: Symbols, i: int, j: int) -> Iterator[Mistake]:
     difference, en = f"cos(θ{sub(i)} - θ{sub(j)})", f"Row {i + 1}"
     derivative = f"-(θ̇{sub(i)} - θ̇{sub(j)}) sin(θ{sub(i)} - θ{sub(j)})"
 
@@ -151,7 +143,7 @@ def _one_pair(m: Mechanism, i: int, j: int) -> Iterator[Mistake]:
         def apply(d: Derivation) -> None:
             changed = {}
             for k, f in d.convective[i].items():
-                pair = _with(s, f, j)
+                pair = _with(f, j)
                 kept = pair.times(sign) if (keep_own if k == i else keep_other) else NOTHING
                 changed[k] = f - pair + kept
             d.convective[i] = changed
@@ -160,13 +152,13 @@ def _one_pair(m: Mechanism, i: int, j: int) -> Iterator[Mistake]:
 
     def slope(factor: int) -> Callable[[Derivation], None]:
         def apply(d: Derivation) -> None:
-            pair = _with(s, d.kinetic_slope[i], j)
+            pair = _with(d.kinetic_slope[i], j)
             d.kinetic_slope[i] = d.kinetic_slope[i] - pair + pair.times(factor)
 
         return apply
 
     def no_cross_momentum(d: Derivation) -> None:
-        d.momentum[i] = d.momentum[i] - _with(s, d.momentum[i], j)
+        d.momentum[i] = d.momentum[i] - _with(d.momentum[i], j)
 
     if len(_coupled(m, i)) > 1:  # with a single partner it is the mistake of the whole row
         yield Mistake(
@@ -209,107 +201,3 @@ def _one_pair(m: Mechanism, i: int, j: int) -> Iterator[Mistake]:
         f"第{i + 1}式：∂L/∂θ̇{sub(i)} で θ̇{sub(i)} θ̇{sub(j)} {difference} から出る項が抜けています。",
         no_cross_momentum,
     )  # fmt: skip
-
-
-# Newton's road --------------------------------------------------------------------------------------------------------
-
-
-def _forces(m: Mechanism) -> Iterator[Mistake]:
-    s = m.space
-
-    def weightless(d: Derivation, b: int) -> None:
-        x, y = d.force[b]
-        d.force[b] = (x, y - m.mass(b) * s.g)
-
-    def centripetal(factor: int) -> Change:
-        def change(d: Derivation, b: int) -> None:
-            x, y = d.force[b]
-            d.force[b] = (_turned(m, x, factor), _turned(m, y, factor))
-
-        return change
-
-    kinds: list[tuple[str, Change, str, str]] = [
-        ("weight-missing", weightless,
-         "its weight is left out of Newton's equation", "ニュートンの運動方程式に重力が入っていません"),
-        ("centripetal-missing", centripetal(0),
-         "its acceleration leaves out the part towards the joints, -θ̇² p(θ)",
-         "加速度に向心成分 -θ̇² p(θ) が抜けています"),
-        ("centripetal-sign", centripetal(-1),
-         "its acceleration has the part -θ̇² p(θ) with the wrong sign", "加速度の -θ̇² p(θ) の符号が逆です"),
-    ]  # fmt: skip
-    for code, change, english, japanese in kinds:
-        for b in range(m.n):
-            en, ja = body(m, b)
-            yield Mistake(
-                code, "force", (b,), f"Of {en}, {english}.", f"{ja}：{japanese}。",
-                at(change, b),
-            )  # fmt: skip
-        if m.n > 1:
-            every = "rod" if m.kind == "rod-chain" else "mass"
-            yield everywhere(
-                code, "force", f"Of every {every}, {english}.",
-                f"すべての{'棒' if m.kind == 'rod-chain' else '質点'}：{japanese}。", change,
-            )  # fmt: skip
-
-
-def _turned(m: Mechanism, f: Formula, factor: int) -> Formula:
-    """The terms with ω² times a factor."""
-    n = m.n
-    kept = {}
-    for key, c in f.terms.items():
-        centripetal = any(digit(key[0], n + k) for k in range(n))
-        if centripetal and not factor:
-            continue
-        kept[key] = c * factor if centripetal else c
-    return Formula(kept)
-
-
-def _moments(m: Mechanism) -> Iterator[Mistake]:
-    def lower(factor: int) -> Change:
-        def change(d: Derivation, j: int) -> None:
-            d.lower[j] = d.lower[j].times(factor)
-
-        return change
-
-    def upper(factor: int) -> Change:
-        def change(d: Derivation, j: int) -> None:
-            d.upper[j] = d.upper[j].times(factor)
-
-        return change
-
-    def whole_arm(d: Derivation, j: int) -> None:
-        d.lower[j], d.upper[j] = d.lower[j].times(2), d.upper[j].times(2)
-
-    def about_joint(d: Derivation, j: int) -> None:
-        d.upper[j] = NOTHING
-        d.lower[j] = d.lower[j].times(2)
-
-    kinds: list[tuple[str, Change, str, str, bool]] = [
-        ("lower-joint-force-missing", lower(0),
-         "the moment leaves out the force at the lower joint", "モーメントに下の継ぎ目の力が抜けています", True),
-        ("upper-joint-force-missing", upper(0),
-         "the moment leaves out the force at the upper joint: it turns the rod about its centre too",
-         "モーメントに上の継ぎ目の力が抜けています。これも重心のまわりに棒を回します", False),
-        ("joint-forces-subtracted", lower(-1),
-         "the moments of the two joint forces are subtracted: both arms and both reactions turn over, so that T_j + "
-         "T_{j-1} stands there",
-         "上下の継ぎ目の力のモーメントを引いています。腕も反作用も逆なので T_j + T_{j-1} です", True),
-        ("arm-whole-length", whole_arm,
-         "the arm of the joint forces is l; from the centre it is l/2",
-         "継ぎ目の力の腕の長さが l です。重心からは l/2 です", False),
-        ("moment-about-joint-with-central-inertia", about_joint,
-         "moments are taken about the joint, with the inertia about the centre and without the weight's and the "
-         "acceleration's moment",
-         "継ぎ目のまわりのモーメントに重心のまわりの慣性モーメントを組み合わせています", True),
-    ]  # fmt: skip
-    for code, change, english, japanese, needs_lower in kinds:
-        for j in range(m.n):
-            if needs_lower and j == m.n - 1 and code != "moment-about-joint-with-central-inertia":
-                continue  # nothing pulls at the lower end of the last rod
-            en, ja = body(m, j)
-            yield Mistake(
-                code, "moment", (j,), f"Of {en}, {english}.", f"{ja}：{japanese}。",
-                at(change, j),
-            )  # fmt: skip
-        if m.n > 1:
-            yield everywhere(code, "moment", f"Of every rod, {english}.", f"すべての棒：{japanese}。", change)

@@ -5,9 +5,10 @@ from __future__ import annotations
 import random
 import string
 
-from ..algebra.symbols import mechanism
-from ..steps.derivation import right
-from .rewriting import rewritten
+from rewritten_derivations import rewritten
+
+from furiko.derivations.algebra.symbols import symbols_of
+from furiko.derivations.steps.derivation import correct_derivation
 
 FRAGMENTS = [
     "(", ")", "{", "}", "[", "]", "^", "**", "=", "==", "+", "-", "/", "*", "\\frac", "\\frac{", "\\ddot", "\\dot{",
@@ -26,8 +27,8 @@ def hostile(draw: random.Random) -> str:
 
 
 def _valid(draw: random.Random) -> str:
-    m = mechanism(draw.choice(("n-leg", "rod-chain")), draw.choice((2, 3)))
-    return rewritten(m, right(m).rows, draw)
+    m = symbols_of(draw.choice(("n-leg", "rod-chain")), draw.choice((2, 3)))
+    return rewritten(m, correct_derivation(m).rows, draw)
 
 
 def _damaged(draw: random.Random) -> str:

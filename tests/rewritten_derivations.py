@@ -12,15 +12,15 @@ from collections.abc import Sequence
 
 from flint import fmpq
 
-from ..algebra.notation import angle_text, sub
-from ..algebra.symbols import Mechanism
-from ..algebra.trig import COS, Formula, digits
-from ..steps.derivation import Row
+from furiko.derivations.algebra.notation import angle_text, sub
+from furiko.derivations.algebra.symbols import Symbols
+from furiko.derivations.algebra.trig import COS, Formula, digits
+from furiko.derivations.steps.derivation import Row
 
 Term = tuple[bool, str]  # negative, and the text of its magnitude
 
 
-def rewritten(m: Mechanism, rows: Sequence[Row], draw: random.Random) -> str:
+def rewritten(m: Symbols, rows: Sequence[Row], draw: random.Random) -> str:
     """A TOML file with these rows, written down in a random way."""
     spelling = draw.choice(("ascii", "unicode", "latex"))
     order = list(range(m.n))
@@ -31,7 +31,7 @@ def rewritten(m: Mechanism, rows: Sequence[Row], draw: random.Random) -> str:
     return "\n".join(lines)
 
 
-def plain(m: Mechanism, rows: Sequence[Row], draw: random.Random) -> str:
+def plain(m: Symbols, rows: Sequence[Row], draw: random.Random) -> str:
     """The same with scaled and reordered rows, but every term as it is: how wrong derivations are handed in."""
     order = list(range(m.n))
     draw.shuffle(order)
@@ -43,16 +43,16 @@ def plain(m: Mechanism, rows: Sequence[Row], draw: random.Random) -> str:
     return "\n".join(lines)
 
 
-def _terms(m: Mechanism, q: int, f: Formula) -> list[Term]:
+def _terms(m: Symbols, q: int, f: Formula) -> list[Term]:
     out: list[Term] = []
     for (e, h, phase), c in f.terms.items():
         out.append(_term(m, e + q, h, phase, c))
     return out
 
 
-def _term(m: Mechanism, e: int, h: int, phase: int, c: fmpq) -> Term:
+def _term(m: Symbols, e: int, h: int, phase: int, c: fmpq) -> Term:
     s = m.space
-    parts = [f"{s.names[k]}^{p}" if p != 1 else s.names[k] for k, p in enumerate(digits(e, s.symbols)) if p]
+    parts = [f"{s.names[k]}^{p}" if p != 1 else s.names[k] for k, p in enumerate(digits(e, s.symbol_count)) if p]
     if h:
         parts.append(f"{'cos' if phase == COS else 'sin'}({angle_text(digits(h, s.n))})")
     if abs(c) != 1 or not parts:
@@ -60,7 +60,7 @@ def _term(m: Mechanism, e: int, h: int, phase: int, c: fmpq) -> Term:
     return c < 0, "*".join(parts)
 
 
-def _equation(m: Mechanism, row: Row, draw: random.Random) -> str:
+def _equation(m: Symbols, row: Row, draw: random.Random) -> str:
     terms: list[Term] = []
     for q, f in row.items():
         for (e, h, phase), c in f.terms.items():
@@ -93,7 +93,7 @@ def _sum(terms: Sequence[Term]) -> str:
     return text.removeprefix("+ ")
 
 
-def _factor(m: Mechanism, draw: random.Random) -> str:
+def _factor(m: Symbols, draw: random.Random) -> str:
     n = m.n
     i, j = draw.randrange(n) + 1, draw.randrange(n) + 1
     mass = "m" if m.kind == "n-leg" else draw.choice(("m", "rho*l"))
@@ -104,7 +104,7 @@ def _factor(m: Mechanism, draw: random.Random) -> str:
     return draw.choice(choices)
 
 
-def _waved(m: Mechanism, e: int, h: int, phase: int, c: fmpq, draw: random.Random) -> Term:
+def _waved(m: Symbols, e: int, h: int, phase: int, c: fmpq, draw: random.Random) -> Term:
     """One term; its cos or sin by an identity, its power of a rate in pieces, a rod's ρ l as m."""
     negative, body = _term(m, e, 0, COS, c)
     if h:
@@ -118,7 +118,7 @@ def _waved(m: Mechanism, e: int, h: int, phase: int, c: fmpq, draw: random.Rando
     return negative, body
 
 
-def _wave(m: Mechanism, halves: tuple[int, ...], phase: int, draw: random.Random) -> str:
+def _wave(m: Symbols, halves: tuple[int, ...], phase: int, draw: random.Random) -> str:
     name = "cos" if phase == COS else "sin"
     angle = angle_text(halves)
     back = angle_text(tuple(-h for h in halves))

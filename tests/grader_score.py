@@ -1,7 +1,9 @@
-"""Measures the grader: ``python -m furiko.derivations.grading.score [--quick] [--json]``.
+"""How well derivations are graded: mistakes named, right equations accepted, malformed inputs refused, and how fast.
+
+    python tests/grader_score.py [--quick] [--json]
 
 Every single mistake of the catalogue (2, 3 and 4 angles, both mechanisms), random pairs of mistakes, random rewritings
-of right equations, and hostile inputs, each handed in as text and graded as a stranger's file would be.
+of right equations, and malformed or hostile inputs. Each is written as text and graded like any user's file.
 """
 
 from __future__ import annotations
@@ -10,20 +12,26 @@ import argparse
 import json
 import random
 import resource
+import sys
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
+from pathlib import Path
 from typing import Any
 
-from ...models.errors import InvalidInput
-from ..algebra.symbols import KINDS, Mechanism, mechanism
-from ..mistakes.images import Images, View, images
-from ..steps.derivation import NEWTON, Mistake, derive, right
-from .explain import LAGRANGE_ONLY
-from .grade import grade_text
-from .hostile import hostile
-from .result import Diagnosis
-from .rewriting import plain, rewritten
+sys.path.insert(0, str(Path(__file__).parent))
+
+from hostile_derivations import hostile
+from rewritten_derivations import plain, rewritten
+
+from furiko.derivations.algebra.symbols import KINDS, Symbols, symbols_of
+from furiko.derivations.grading.explain import LAGRANGE_STAGES
+from furiko.derivations.grading.grade import grade_text
+from furiko.derivations.grading.grade_record import Grade
+from furiko.derivations.mistakes.known_mistakes import KnownMistakes, known_mistakes
+from furiko.derivations.steps.derivation import NEWTON_STAGES, Mistake, correct_derivation, derive
+from furiko.derivations.steps.views import View
+from furiko.models.errors import InvalidInput
 
 SIZES = (2, 3, 4)
 
@@ -43,7 +51,7 @@ class Tally:
         if detail and len(self.failures) < 20:
             self.failures.append(f"{what}: {detail}")
 
-    def timed(self, work: Callable[..., Diagnosis], *arguments: Any) -> Diagnosis:
+    def timed(self, work: Callable[..., Grade], *arguments: Any) -> Grade:
         """Run one grading and keep the slowest."""
         start = time.perf_counter()
         try:
@@ -52,11 +60,11 @@ class Tally:
             self.slowest = max(self.slowest, time.perf_counter() - start)
 
 
-def same_equations(seen: Images) -> dict[str, tuple[int, ...]]:
+def same_equations(known: KnownMistakes) -> dict[str, tuple[int, ...]]:
     """For each wrong mistake, its equations as numbers: mistakes with the same ones cannot be told apart by anyone."""
     return {
-        image.mistake.name: tuple(image.projective.get(i, number) for i, number in enumerate(seen.right_projective))
-        for image in seen.wrong
+        entry.mistake.name: tuple(entry.projective.get(i, number) for i, number in enumerate(known.right_projective))
+        for entry in known.wrong
     }
 
 
@@ -64,21 +72,21 @@ def singles(sizes: Sequence[int] = SIZES, seed: int = 1) -> Tally:
     """Every mistake of the catalogue, alone."""
     tally, draw = Tally("single mistakes"), random.Random(seed)
     for m in _mechanisms(sizes):
-        seen = images(View(m))
-        classes = same_equations(seen)
-        for mistake in seen.equivalent:
+        known = known_mistakes(View(m))
+        classes = same_equations(known)
+        for mistake in known.equivalent:
             verdict = tally.timed(_grade, m, [mistake], draw).verdict
             tally.add(
                 "equivalent to right, called correct" if verdict == "correct" else "FALSELY ACCUSED",
                 "" if verdict == "correct" else mistake.name,
             )
-        for image in seen.wrong:
-            answer = tally.timed(_grade, m, [image.mistake], draw)
-            tally.add(*_single(answer, image.mistake, classes, m))
+        for entry in known.wrong:
+            answer = tally.timed(_grade, m, [entry.mistake], draw)
+            tally.add(*_single(answer, entry.mistake, classes, m))
     return tally
 
 
-def _single(answer: Diagnosis, mistake: Mistake, classes: dict[str, tuple[int, ...]], m: Mechanism) -> tuple[str, str]:
+def _single(answer: Grade, mistake: Mistake, classes: dict[str, tuple[int, ...]], m: Symbols) -> tuple[str, str]:
     where = f"{m.kind} {m.n} {mistake.name}"
     if answer.verdict != "wrong":
         return "NOT DETECTED", where
@@ -99,14 +107,14 @@ def pairs(count: int = 1000, sizes: Sequence[int] = SIZES, seed: int = 2) -> Tal
     done = 0
     while done < count:
         m = draw.choice(mechanisms)
-        seen = images(View(m))
-        classes = same_equations(seen)
-        one, two = (image.mistake for image in draw.sample(seen.wrong, 2))
+        known = known_mistakes(View(m))
+        classes = same_equations(known)
+        one, two = (entry.mistake for entry in draw.sample(known.wrong, 2))
         if not _compatible(one, two):
             continue
-        rows = seen.rows(derive(m, [one, two]))
-        number = tuple(seen.point.projective(row) for row in rows)
-        if number in classes.values() or number == tuple(seen.right_projective) or not all(rows):
+        rows = known.rows(derive(m, [one, two]))
+        number = tuple(known.point.projective(row) for row in rows)
+        if number in classes.values() or number == tuple(known.right_projective) or not all(rows):
             tally.add("left out: together they make the equations of one mistake, or none")
             continue
         done += 1
@@ -117,11 +125,11 @@ def pairs(count: int = 1000, sizes: Sequence[int] = SIZES, seed: int = 2) -> Tal
 
 def _compatible(one: Mistake, two: Mistake) -> bool:
     stages = {one.stage, two.stage}
-    return stages.isdisjoint(NEWTON) or stages.isdisjoint(LAGRANGE_ONLY)
+    return stages.isdisjoint(NEWTON_STAGES) or stages.isdisjoint(LAGRANGE_STAGES)
 
 
 def _pair(
-    answer: Diagnosis, planted: tuple[Mistake, Mistake], classes: dict[str, tuple[int, ...]], m: Mechanism
+    answer: Grade, planted: tuple[Mistake, Mistake], classes: dict[str, tuple[int, ...]], m: Symbols
 ) -> tuple[str, str]:
     where = f"{m.kind} {m.n} {[p.name for p in planted]} -> {[n.name for n in answer.mistakes]}"
     if answer.verdict != "wrong":
@@ -148,7 +156,7 @@ def rewritings(count: int = 1000, sizes: Sequence[int] = SIZES, seed: int = 3) -
     mechanisms = _mechanisms(sizes)
     for _ in range(count):
         m = draw.choice(mechanisms)
-        text = rewritten(m, right(m).rows, draw)
+        text = rewritten(m, correct_derivation(m).rows, draw)
         answer = tally.timed(grade_text, text)
         tally.add("correct" if answer.verdict == "correct" else "REJECTED", "" if answer.verdict == "correct" else text)
     return tally
@@ -175,23 +183,23 @@ def cold(sizes: Sequence[int] = (4,)) -> Tally:
     """The first verdict on a wrong derivation, nothing kept from before: with the catalogue derived from the start."""
     tally = Tally("first verdict, from nothing")
     for m in _mechanisms(sizes):
-        images.cache_clear()
-        right.cache_clear()
+        known_mistakes.cache_clear()
+        correct_derivation.cache_clear()
         answer = tally.timed(_grade_last, m)
         tally.add(f"{m.kind}, {m.n} angles: {answer.verdict}")
     return tally
 
 
-def _grade_last(m: Mechanism) -> Diagnosis:
-    return _grade(m, [images(View(m)).wrong[-1].mistake], random.Random(0))
+def _grade_last(m: Symbols) -> Grade:
+    return _grade(m, [known_mistakes(View(m)).wrong[-1].mistake], random.Random(0))
 
 
-def _grade(m: Mechanism, mistakes: Sequence[Mistake], draw: random.Random) -> Diagnosis:
+def _grade(m: Symbols, mistakes: Sequence[Mistake], draw: random.Random) -> Grade:
     return grade_text(plain(m, derive(m, mistakes).rows, draw))
 
 
-def _mechanisms(sizes: Sequence[int]) -> list[Mechanism]:
-    return [mechanism(kind, n) for kind in KINDS for n in sizes]
+def _mechanisms(sizes: Sequence[int]) -> list[Symbols]:
+    return [symbols_of(kind, n) for kind in KINDS for n in sizes]
 
 
 def table(tallies: Sequence[Tally]) -> str:

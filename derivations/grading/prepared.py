@@ -1,4 +1,4 @@
-"""What was handed in, made ready for comparison: exact rows in absolute angles, and how they look at a point."""
+"""A derivation prepared for comparison: exact rows in absolute angles, and their values at a random point."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 from ..algebra.fingerprint import Vector
 from ..algebra.trig import Formula
-from ..mistakes.images import Images, View, images
-from ..mistakes.views import columns_to_absolute, merged
+from ..mistakes.known_mistakes import KnownMistakes, known_mistakes
 from ..steps.derivation import Row, lagrange_rows
+from ..steps.views import View, columns_to_absolute, merged
 from .submission import Submission
 
 
 @dataclass(frozen=True)
-class GivenRow:
+class PreparedRow:
     """One row: its label, its coefficients in absolute angles, and their values at the point."""
 
     label: str
@@ -22,11 +22,11 @@ class GivenRow:
 
 
 @dataclass(frozen=True)
-class Given:
-    """A whole derivation. ``lagrangian``: it was handed in, and ``rows`` are Lagrange's equations of it."""
+class Prepared:
+    """A whole derivation. ``lagrangian``: it was given, and ``rows`` are Lagrange's equations of it."""
 
-    seen: Images
-    rows: tuple[GivenRow, ...]
+    known: KnownMistakes
+    rows: tuple[PreparedRow, ...]
     lagrangian: Formula | None
 
     @property
@@ -35,12 +35,12 @@ class Given:
         return [row.vector for row in self.rows]
 
 
-def given_of(submission: Submission) -> Given:
-    """Make a submission ready."""
-    m = submission.mechanism
+def prepare(submission: Submission) -> Prepared:
+    """Prepare a derivation that was read."""
+    m = submission.symbols
     is_lagrangian = submission.lagrangian is not None
     view = View(m, submission.relative and not is_lagrangian, submission.equal_lengths, submission.equal_masses)
-    seen = images(view)
+    known = known_mistakes(view)
 
     def absolute(f: Formula) -> Formula:
         return m.space.substitute_angles(f, columns_to_absolute(m)) if submission.relative else f
@@ -54,5 +54,5 @@ def given_of(submission: Submission) -> Given:
     rows = []
     for label, f in written:
         row = m.space.split(merged(view, f if lagrangian is not None else absolute(f)))
-        rows.append(GivenRow(label, row, seen.point.vector(row)))
-    return Given(seen, tuple(rows), lagrangian)
+        rows.append(PreparedRow(label, row, known.point.vector(row)))
+    return Prepared(known, tuple(rows), lagrangian)

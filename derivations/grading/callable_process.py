@@ -1,4 +1,4 @@
-"""Calls somebody's function in a process of its own: ``python -m furiko.derivations.grading.called``.
+"""Calls a user's function in a process of its own: ``python -m furiko.derivations.grading.callable_process``.
 
 Reads one JSON document (the function, limits, states) from standard input and writes one, the accelerations or a line
 saying what went wrong, to standard output; what the function itself prints goes to standard error. The limits on time

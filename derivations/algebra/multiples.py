@@ -1,63 +1,14 @@
-"""Exact work on rows: seeing them in other angles, with all lengths equal, and up to a factor."""
+"""Whether formulas, or rows of them, are multiples of one another, and by which factor; all exact."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 
-from ..algebra.symbols import Mechanism
-from ..algebra.trig import CONSTANT_ONE, COS, NOTHING, Formula, Key, Space
-from ..steps.derivation import Row
-from .images import View
+from .trig import CONSTANT_ONE, COS, NOTHING, Formula, Key, Space
 
 
-def columns_to_absolute(m: Mechanism) -> tuple[dict[int, int], ...]:
-    """Relative angles by absolute ones: q_k = θ_k - θ_parent."""
-    return tuple({k: 1} | ({m.parent(k): -1} if m.parent(k) >= 0 else {}) for k in range(m.n))
-
-
-def columns_to_relative(m: Mechanism) -> tuple[dict[int, int], ...]:
-    """Absolute angles by relative ones: θ_k = Σ q over the links from the support to k."""
-    columns: list[dict[int, int]] = []
-    for k in range(m.n):
-        carried = columns[m.parent(k)] if m.parent(k) >= 0 else {}
-        columns.append({**carried, k: 1})
-    return tuple(columns)
-
-
-def merged(view: View, f: Formula) -> Formula:
-    """All lengths, all masses, written as the first, where the derivation has one symbol for them."""
-    n = view.mechanism.n
-    places: dict[int, int] = {}
-    if view.equal_lengths:
-        places |= {2 * n + k: 2 * n for k in range(1, n)}
-    if view.equal_masses:
-        places |= {3 * n + k: 3 * n for k in range(1, n)}
-    return view.mechanism.space.rename(f, places) if places else f
-
-
-def for_view(view: View, rows: Sequence[Row]) -> list[Row]:
-    """The rows of a derivation as a view has them: Lagrange's rows of the relative angles, symbols merged."""
-    m = view.mechanism
-    if view.relative:
-        rows = _relative_rows(m, rows)
-    if not (view.equal_lengths or view.equal_masses):
-        return list(rows)
-    return [{q: g for q, f in row.items() if (g := merged(view, f))} for row in rows]
-
-
-def _relative_rows(m: Mechanism, rows: Sequence[Row]) -> list[Row]:
-    sums: list[Row] = [{} for _ in rows]
-    for j, row in enumerate(rows):
-        i = j
-        while i >= 0:
-            for q, f in row.items():
-                sums[i][q] = sums[i].get(q, NOTHING) + f * m.divisor(j)
-            i = m.parent(i)
-    return [{q: f for q, f in row.items() if f} for row in sums]
-
-
-def is_multiple(row: Row, base: Row) -> bool:
+def is_multiple(row: Mapping[int, Formula], base: Mapping[int, Formula]) -> bool:
     """Whether row = factor · base for some factor, proved by multiplying crosswise with one coefficient of each."""
     if not row or row.keys() != base.keys():
         return False
@@ -66,7 +17,9 @@ def is_multiple(row: Row, base: Row) -> bool:
     return all(row[q] * theirs == base[q] * mine for q in base)
 
 
-def exact_factor(row: Row, base: Row, agreed: Iterable[int] | None = None) -> Formula | None:
+def exact_factor(
+    row: Mapping[int, Formula], base: Mapping[int, Formula], agreed: Iterable[int] | None = None
+) -> Formula | None:
     """The factor in row = factor · base, from coefficients that ``agreed``; None where none of them can be divided."""
     shared = [q for q in (agreed if agreed is not None else base) if q in row and q in base]
     for q in sorted(shared, key=lambda q: (len(base[q]), len(row[q]), q)):
@@ -77,7 +30,10 @@ def exact_factor(row: Row, base: Row, agreed: Iterable[int] | None = None) -> Fo
 
 
 def divided(f: Formula, by: Formula) -> Formula | None:
-    """f / by where it is easily told: by a single product, a single term with the same wave, or term against term."""
+    """f / by, where it is found without polynomial division: ``by`` is one product, one term, or matches term by term.
+
+    None elsewhere, also where the quotient exists.
+    """
     if by.is_monomial():
         return f * by.inverse_monomial()
     if len(by) == 1:

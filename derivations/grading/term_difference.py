@@ -1,17 +1,17 @@
-"""Says by what one coefficient differs from the right one, where no mistake of the catalogue explains it."""
+"""Describes the difference of one coefficient from the right one, where no mistake of the catalogue explains it."""
 
 from __future__ import annotations
 
+from ..algebra.multiples import divided
 from ..algebra.notation import motion_text, pretty, text
-from ..algebra.symbols import Mechanism
+from ..algebra.symbols import Symbols
 from ..algebra.trig import COS, Formula
-from ..mistakes.views import divided
 
-Told = tuple[str, str, str]  # code, English, Japanese
+Description = tuple[str, str, str]  # code, English, Japanese
 
 
-def told(m: Mechanism, i: int, q: int, found: Formula, expected: Formula, name: str) -> Told:
-    """The code and the sentence for the term with motion ``q`` of row i, which is called ``name``."""
+def describe(m: Symbols, i: int, q: int, found: Formula, expected: Formula, name: str) -> Description:
+    """Code and sentences for the term ``name``, which multiplies the motion ``q`` in row i."""
     what = "gravity" if not q else pretty(motion_text(m.space, q))
     code, english, japanese = _difference(m, found, expected)
     where = f"Row {i + 1}, the {what} term ({name})"
@@ -19,11 +19,11 @@ def told(m: Mechanism, i: int, q: int, found: Formula, expected: Formula, name: 
     return code, f"{where}: {english}.", f"{wo}：{japanese}。"
 
 
-def _difference(m: Mechanism, found: Formula, expected: Formula) -> Told:
+def _difference(m: Symbols, found: Formula, expected: Formula) -> Description:
     if not found:
         return "term-missing", "it is missing", "抜けています"
     if not expected:
-        return "term-extra", "there is no such term", "このような項はありません"
+        return "term-extra", "no such term is expected", "このような項はありません"
     factor = divided(found, expected)
     if factor is not None:
         return _factor(m, factor)
@@ -32,18 +32,18 @@ def _difference(m: Mechanism, found: Formula, expected: Formula) -> Told:
     return _part(m, found, expected)
 
 
-def _factor(m: Mechanism, factor: Formula) -> Told:
+def _factor(m: Symbols, factor: Formula) -> Description:
     if factor.is_number():
         size = factor.number()
         if size == -1:
             return "sign", "the sign is wrong", "符号が逆です"
         known = {"2": "factor-two", "1/2": "factor-half"}.get(str(size), "factor-wrong")
-        return known, f"there is a factor {size} too many", f"余分な {size} が掛かっています"
+        return known, f"it has an extra factor {size}", f"余分な {size} が掛かっています"
     shown = pretty(text(m.space, factor))
-    return "factor-wrong", f"there is a factor {shown} too many", f"余分な {shown} が掛かっています"
+    return "factor-wrong", f"it has an extra factor {shown}", f"余分な {shown} が掛かっています"
 
 
-def _part(m: Mechanism, found: Formula, expected: Formula) -> Told:
+def _part(m: Symbols, found: Formula, expected: Formula) -> Description:
     """One part of a sum: missing, with the wrong sign, or one too many."""
     difference = found - expected
     for key, c in difference.terms.items():
@@ -52,14 +52,14 @@ def _part(m: Mechanism, found: Formula, expected: Formula) -> Told:
         part = pretty(text(m.space, Formula({key: abs(c)})))
         right = expected.terms.get(key)
         if right is None:
-            return "part-extra", f"{part} does not belong there", f"{part} は不要です"
+            return "part-extra", f"{part} is not expected there", f"{part} は不要です"
         if c == -right:
             return "part-missing", f"the part {part} is missing", f"{part} が抜けています"
         shown = pretty(text(m.space, Formula({key: right})))
         if c == -2 * right:
             return "part-sign", f"the part {shown} has the wrong sign", f"{shown} の符号が逆です"
         return "part-factor", f"the part {shown} has the wrong factor", f"{shown} の係数が違います"
-    return "term-wrong", "it is not right", "正しくありません"
+    return "term-wrong", "it is wrong", "正しくありません"
 
 
 def _swapped(f: Formula) -> Formula:
