@@ -69,7 +69,7 @@ def _readings(engine: Any, m: Mechanism) -> Iterator[_Reading]:
     for i, parent in enumerate(m.parents):
         if parent != SUPPORT:
             to_absolute[i] += to_absolute[parent]
-    to_relative: Array = np.asarray(np.linalg.inv(to_absolute))
+    to_relative: Array = np.asarray(np.linalg.inv(to_absolute), dtype=np.float64)
     words = {0: "", 1: "angles", 2: "rates", 4: "accelerations"}
     if n > 1 and any(parent != SUPPORT for parent in m.parents):
         for mask in (7, 1, 2, 4, 3, 5, 6):

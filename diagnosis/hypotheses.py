@@ -164,7 +164,9 @@ def groups(mechanism: Mechanism, p: Parameters) -> list[Family]:
     every = range(n)
     inertia, damping, torque = _sizes(p)
     length = float(np.max(np.hypot(p.com_along, p.com_across), initial=0.0)) or 1.0
-    lengths = dict.fromkeys(("com_along", "com_across", "hinge_along", "hinge_across"), (every, 1))
+    lengths: dict[str, tuple[Sequence[int], int]] = dict.fromkeys(
+        ("com_along", "com_across", "hinge_along", "hinge_across"), (every, 1)
+    )
     families = [
         scaled("length", lengths, -1, "every length"),
         scaled("length", lengths | {"inertia": (every, 2)}, -1, "every length"),

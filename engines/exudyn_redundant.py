@@ -17,22 +17,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-import exudyn
 import numpy as np
-from exudyn.itemInterface import (
-    LoadMassProportional,
-    MarkerBodyMass,
-    MarkerBodyPosition,
-    NodeRigidBody2D,
-    ObjectGround,
-    ObjectJointRevolute2D,
-    ObjectRigidBody2D,
-)
 
 from ..models import PlanarTree, System
 from ..models.tree import SUPPORT
 from ..models.units import in_units, units_of
-from .exudyn_settings import Current, Initial, quiet_settings, run
+from .exudyn_settings import Current, Initial, exudyn, items, quiet_settings, run
 from .protocol import Array, ModelFields
 
 _SOLVER = exudyn.LinearSolverType.EigenSparse
@@ -61,22 +51,22 @@ class ExudynRedundant:
 
     def _build(self, tree: PlanarTree) -> None:
         mbs = self._mbs
-        ground = mbs.AddObject(ObjectGround())
+        ground = mbs.AddObject(items.ObjectGround())
         for link in tree.links:
-            node = mbs.AddNode(NodeRigidBody2D(referenceCoordinates=[0.0, 0.0, 0.0]))
-            body = mbs.AddObject(ObjectRigidBody2D(nodeNumber=node, mass=link.mass, inertia=link.inertia))
-            load = LoadMassProportional(
-                markerNumber=mbs.AddMarker(MarkerBodyMass(bodyNumber=body)), loadVector=[0.0, -tree.gravity, 0.0]
+            node = mbs.AddNode(items.NodeRigidBody2D(referenceCoordinates=[0.0, 0.0, 0.0]))
+            body = mbs.AddObject(items.ObjectRigidBody2D(nodeNumber=node, mass=link.mass, inertia=link.inertia))
+            load = items.LoadMassProportional(
+                markerNumber=mbs.AddMarker(items.MarkerBodyMass(bodyNumber=body)), loadVector=[0.0, -tree.gravity, 0.0]
             )
             carrier, centre = (
                 (ground, (0.0, 0.0))
                 if link.parent == SUPPORT
                 else (self._bodies[link.parent], tree.links[link.parent].com)
             )
-            on_carrier = MarkerBodyPosition(bodyNumber=carrier, localPosition=_point(link.hinge, centre))
-            on_body = MarkerBodyPosition(bodyNumber=body, localPosition=_point((0.0, 0.0), link.com))
+            on_carrier = items.MarkerBodyPosition(bodyNumber=carrier, localPosition=_point(link.hinge, centre))
+            on_body = items.MarkerBodyPosition(bodyNumber=body, localPosition=_point((0.0, 0.0), link.com))
             markers = [mbs.AddMarker(on_carrier), mbs.AddMarker(on_body)]
-            self._joints.append(mbs.AddObject(ObjectJointRevolute2D(markerNumbers=markers)))
+            self._joints.append(mbs.AddObject(items.ObjectJointRevolute2D(markerNumbers=markers)))
             self._loads.append(mbs.AddLoad(load))
             self._bodies.append(body)
         mbs.Assemble()

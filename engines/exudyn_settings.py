@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import Any
 
-import exudyn
 import numpy as np
 
 from .protocol import Array
+
+# Exudyn's type stubs do not fit its own interface: Any, here and nowhere else.
+exudyn: Any = import_module("exudyn")
+items: Any = import_module("exudyn.itemInterface")
 
 Initial = exudyn.ConfigurationType.Initial
 Current = exudyn.ConfigurationType.Current

@@ -15,14 +15,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-import exudyn
 import numpy as np
-from exudyn.itemInterface import NodeGenericODE2, ObjectKinematicTree
 
 from ..models import System
 from ..models.units import in_units, units_of
 from .coordinates import RelativeCoordinates
-from .exudyn_settings import Current, Initial, quiet_settings, run, run_adaptive
+from .exudyn_settings import Current, Initial, exudyn, items, quiet_settings, run, run_adaptive
 from .protocol import Array, ModelFields
 
 _SOLVER = exudyn.LinearSolverType.EigenDense
@@ -38,7 +36,7 @@ class ExudynTree:
         links, n = tree.links, tree.n
         self._mbs = exudyn.SystemContainer().AddSystem()
         self._node = self._mbs.AddNode(
-            NodeGenericODE2(
+            items.NodeGenericODE2(
                 referenceCoordinates=[0.0] * n,
                 initialCoordinates=[0.0] * n,
                 initialCoordinates_t=[0.0] * n,
@@ -46,7 +44,7 @@ class ExudynTree:
             )
         )
         self._tree = self._mbs.AddObject(
-            ObjectKinematicTree(
+            items.ObjectKinematicTree(
                 nodeNumber=self._node,
                 gravity=[0.0, -tree.gravity, 0.0],
                 baseOffset=[0.0, 0.0, 0.0],

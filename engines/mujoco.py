@@ -20,16 +20,19 @@ import warnings
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-import mujoco
 import numpy as np
 
 from ..models import PlanarTree, System, to_mjcf
 from ..models.writers.mjcf import DEEPEST, LEAST_INERTIA
 from .coordinates import RelativeCoordinates
 from .protocol import Array, BareCall, ModelFields
+
+# MuJoCo's bindings have no type stubs that fit: Any, here and nowhere else.
+mujoco: Any = import_module("mujoco")
 
 INTEGRATORS = {
     "Euler": mujoco.mjtIntegrator.mjINT_EULER,
@@ -135,9 +138,7 @@ class Mujoco:
 
     def bare_calls(self, theta: Array, omega: Array, threads: int) -> dict[str, BareCall]:
         """``mj_forward`` on the first state, and the batch module on all of them."""
-        from mujoco.batch import Batch
-
-        batch = Batch(self._model, len(theta), threads)
+        batch = import_module("mujoco.batch").Batch(self._model, len(theta), threads)
         batch.qpos, batch.qvel = self._coordinates.relative(theta), self._coordinates.relative(omega)
         batch.bind("qacc")  # else it would compute and give nothing back
         self._data.qpos[:], self._data.qvel[:] = batch.qpos[0], batch.qvel[0]

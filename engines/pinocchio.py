@@ -14,15 +14,18 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Callable
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pinocchio
 
 from ..models import InvalidInput, System, to_mjcf, to_urdf
 from .coordinates import RelativeCoordinates
 from .protocol import Array, BareCall, ModelFields, Native
+
+# Pinocchio is a C++ extension without types: Any, here and nowhere else.
+pinocchio: Any = import_module("pinocchio")
 
 
 class _Pinocchio:

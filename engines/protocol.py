@@ -121,3 +121,10 @@ class Engine(Protocol):
     def lighter(self) -> Mapping[str, Callable[[], AbstractContextManager[None]]]:
         """Contexts in which its calls are spared what its bindings alone add, by name; it may leave this out."""
         ...
+
+    def gap(self) -> float:
+        """Largest distance [m] between the two points that a joint holds together, at the end of the last run.
+
+        Only where joints are constraints, in maximal coordinates; others leave this out.
+        """
+        ...

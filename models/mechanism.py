@@ -227,18 +227,22 @@ def find_plane(axis: Array, gravity: Array, merged: Sequence[_Merged] = ()) -> P
     gravity in the plane, down is the world's, or where the first hinge is across that, towards the first centre.
     """
     seen_from = axis if _first_sign((-axis[1], axis[0], axis[2])) >= 0 else -axis
-    for candidate in (
-        gravity,
-        np.array([0.0, 0.0, -1.0]),
-        *(m.inertial.centre for m in merged),
-        np.eye(3)[0],
-    ):
-        flat = candidate - (candidate @ seen_from) * seen_from
-        if np.linalg.norm(flat) > 1e-9 * max(float(np.linalg.norm(candidate)), 1e-300):
+    candidates = (gravity, np.array([0.0, 0.0, -1.0]), *(m.inertial.centre for m in merged))
+    for candidate in candidates:
+        flat = _across_axis(candidate, seen_from)
+        if flat is not None:
             break
+    else:
+        flat = np.eye(3)[0] - seen_from[0] * seen_from
     down = flat / np.linalg.norm(flat)
     down = np.where(np.abs(down) < 4e-16, 0.0, down)
     return Plane(down, np.cross(seen_from, down), seen_from)
+
+
+def _across_axis(vector: Array, axis: Array) -> Array | None:
+    """The part of a vector across a unit ``axis``; None where nothing but rounding is left of it."""
+    across = np.asarray(vector - (vector @ axis) * axis)
+    return across if np.linalg.norm(across) > 1e-9 * max(float(np.linalg.norm(vector)), 1e-300) else None
 
 
 def _first_sign(values: Sequence[float]) -> float:

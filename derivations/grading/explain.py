@@ -149,7 +149,7 @@ def sums(images: Images, rows: Sequence[Vector], remainder: Remainder) -> list[t
         left = remainder.after(first)
         if not left or (len(left) == len(remainder.rows) and remainder.rows.keys().isdisjoint(first.change)):
             continue
-        row = min(left, key=lambda i: len(left[i]))
+        row, _ = min(left.items(), key=lambda item: len(item[1]))
         for number in left[row]:
             for second in table[row].get(number, ()):
                 if second is not first and _explains(left, second) and _can_add(images, first, second, given):

@@ -46,6 +46,10 @@ class FileEngine(Protocol):
         """Generalised forces [N m] of the absolute angles, (B, n)."""
         ...
 
+    def contacts(self, theta: Array) -> list[tuple[int, str]]:
+        """Rows of ``theta`` (B, n) in which geoms touch, with the pair's names. Only with the feature ``contact``."""
+        ...
+
 
 @dataclass(frozen=True)
 class Reader:

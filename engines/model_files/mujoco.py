@@ -7,9 +7,9 @@ the file says is put into the compiled model, whose equations need no more.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from importlib import import_module
 from typing import Any
 
-import mujoco
 import numpy as np
 
 from ...models.mechanism import Body, Mechanism, SpatialHinge, planar_mechanism
@@ -18,6 +18,9 @@ from ...models.spatial import Inertial, Pose, from_quaternion
 from ..mujoco import _quiet_data
 from ..protocol import Array
 from .adapter import FileCoordinates, in_order
+
+# MuJoCo's bindings have no type stubs that fit: Any, here and nowhere else.
+mujoco: Any = import_module("mujoco")
 
 LIFTED = {"mjcf": 1e-15, "urdf": 1e-14}  # the smallest that its two readers take [kg m²]
 REFUSED = ("mjMINVAL", "positive eigenvalues")

@@ -9,17 +9,20 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Mapping
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pinocchio
 
 from ...models.mechanism import Body, Mechanism, SpatialHinge, planar_mechanism
 from ...models.readers.model_file import ModelFile
 from ...models.spatial import Inertial, Pose, about
 from ..protocol import Array
 from .adapter import FileCoordinates, in_order
+
+# Pinocchio is a C++ extension without types: Any, here and nowhere else.
+pinocchio: Any = import_module("pinocchio")
 
 
 class PinocchioFile:
