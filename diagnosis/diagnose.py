@@ -316,7 +316,7 @@ def _compiled(held: Mechanism, file: ModelFile, theory: Mechanism, measured: Mea
         nothing = dict.fromkeys(ignored, 0.0)
         acting = replace(held, hinges=tuple(replace(hinge, **nothing) for hinge in held.hinges))  # type: ignore[arg-type]
         if measured.worst(planar.parameters(acting)) <= 1:
-            stops = tuple(replace(h, stops=w.stops) for h, w in zip(acting.hinges, theory.hinges, strict=True))
+            stops = tuple(replace(h, limits=w.limits) for h, w in zip(acting.hinges, theory.hinges, strict=True))
             named = differences(replace(acting, hinges=stops), theory, who, "the file says", suspects(file))
             return _weighed(file, named, who) + named
     return []
@@ -459,8 +459,8 @@ def described(mechanism: Mechanism) -> dict[str, Any]:
     links = []
     for i, (link, hinge) in enumerate(zip(mechanism.links, mechanism.hinges, strict=True)):
         held = {
-            name: getattr(hinge, name)
-            for name in ("armature", "damping", "friction", "stiffness", "rest", "stops")
+            "stops" if name == "limits" else name: getattr(hinge, name)  # the name that reports have always had
+            for name in ("armature", "damping", "friction", "stiffness", "rest", "limits")
             if getattr(hinge, name) != getattr(plain, name)
         }
         links.append(

@@ -200,8 +200,8 @@ def _hinges(found: Mechanism, expected: Mechanism, who: str, asked: str) -> Iter
                 yield _degrees(name, "spring reference", got.rest, wanted.rest, who)
             says = f"{who}: {name}: its spring rests at {amount(got.rest)} rad, {asked} {amount(wanted.rest)}"
             yield Finding("spring-reference", name, got.rest, wanted.rest, says)
-        if got.stops != wanted.stops and not _alike(got.stops, wanted.stops):
-            yield from _stops(name, got.stops, wanted.stops, who, asked)
+        if got.limits != wanted.limits and not _alike(got.limits, wanted.limits):
+            yield from _stops(name, got.limits, wanted.limits, who, asked)
 
 
 def _stops(

@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..models import Link
-from ..models.mechanism import Body
+from ..models.projection import Body
 from ..models.readers.model_file import ModelFile
-from ..models.spatial import HERE, NOTHING, Inertial, Pose
+from ..models.spatial import IDENTITY, ZERO_INERTIAL, Inertial, Pose
 from .finding import Finding, joint
 from .measurement import Array
 
@@ -67,7 +67,7 @@ def suspects(file: ModelFile, own: bool = False) -> Suspects:
     lost = _links_of(file, lambda body: _lost(file, body.name, body.inertial))
     com = _links_of(file, lambda body: _com_turned(file, body.name, body.inertial))
     unfused = _links_of(file, lambda body: body.inertial, turn_fixed=False)
-    geoms = _links_of(file, lambda body: file.geoms.get(body.name, NOTHING))
+    geoms = _links_of(file, lambda body: file.geoms.get(body.name, ZERO_INERTIAL))
     unit = _links_of(file, lambda body: Inertial(1.0, np.zeros(3), np.eye(3)))
     for i, value in right.items():
         for found, place in ((lost, rotation_lost), (com, turned), (unfused, fused), (geoms, drawn), (unit, ignored)):
@@ -114,13 +114,15 @@ def _links_of(file: ModelFile, inertial: Callable[[Body], Inertial], turn_fixed:
     seen: list[Pose] = []
     for body in file.bodies:
         carrier, carrying, at = (
-            (poses[body.parent], link_of[body.parent], seen[body.parent]) if body.parent >= 0 else (HERE, -1, HERE)
+            (poses[body.parent], link_of[body.parent], seen[body.parent])
+            if body.parent >= 0
+            else (IDENTITY, -1, IDENTITY)
         )
         pose = carrier @ body.pose
         fixed = not body.hinges and carrying >= 0
-        looks = Pose(at.turn, (at @ body.pose).shift) if fixed and not turn_fixed else at @ body.pose
+        looks = Pose(at.rotation, (at @ body.pose).translation) if fixed and not turn_fixed else at @ body.pose
         for hinge in body.hinges:
-            totals.append(NOTHING)
+            totals.append(ZERO_INERTIAL)
             anchors.append(pose.point(hinge.anchor))
             carrying = len(totals) - 1
             looks = pose
@@ -128,7 +130,7 @@ def _links_of(file: ModelFile, inertial: Callable[[Body], Inertial], turn_fixed:
         seen.append(looks)
         link_of.append(carrying)
         if carrying >= 0:
-            totals[carrying] = totals[carrying] + inertial(body).seen_from(looks)
+            totals[carrying] = totals[carrying] + inertial(body).transformed(looks)
     found = {}
     for i, (total, anchor) in enumerate(zip(totals, anchors, strict=True)):
         com = plane.point(total.centre - anchor) if total.mass else (0.0, 0.0)
@@ -142,9 +144,9 @@ def degrees_in_file(file: ModelFile) -> Iterator[Finding]:
     if file.language != "mjcf":
         return
     for i, hinge in enumerate(file.mechanism.hinges):
-        if hinge.stops is None:
+        if hinge.limits is None:
             continue
-        ends = [end * 180 / math.pi for end in hinge.stops]
+        ends = [end * 180 / math.pi for end in hinge.limits]
         widest = max(map(abs, ends))
         if widest <= 2 * math.pi + 1e-3 and any(_part_of_pi(end) for end in ends if end):
             name = joint(file.mechanism, i)
@@ -152,7 +154,7 @@ def degrees_in_file(file: ModelFile) -> Iterator[Finding]:
                 f"the file: {name}: range {ends[0]:.6g} to {ends[1]:.6g} is read in degrees, MJCF's default; it looks "
                 "like radians: say <compiler angle='radian'/>"
             )
-            yield Finding("degree-vs-radian", name, hinge.stops[1], ends[1], says)
+            yield Finding("degree-vs-radian", name, hinge.limits[1], ends[1], says)
 
 
 def _part_of_pi(angle: float) -> bool:

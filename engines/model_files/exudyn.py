@@ -65,7 +65,7 @@ class ExudynFile:
                 strict=True,
             )
         )
-        hinges = tuple(replace(h, armature=0.0, friction=0.0, stops=None) for h in mechanism.hinges)
+        hinges = tuple(replace(h, armature=0.0, friction=0.0, limits=None) for h in mechanism.hinges)
         return replace(mechanism, links=links, hinges=hinges)
 
     def notes(self) -> tuple[str, ...]:

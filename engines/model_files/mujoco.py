@@ -12,7 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from ...models.mechanism import Body, Mechanism, SpatialHinge, planar_mechanism
+from ...models.mechanism import Mechanism
+from ...models.projection import Body, SpatialHinge, planar_mechanism
 from ...models.readers.model_file import ModelFile
 from ...models.spatial import Inertial, Pose, from_quaternion
 from ..mujoco import _quiet_data
@@ -87,7 +88,7 @@ class MujocoFile:
             turned = Pose(from_quaternion(model.body_iquat[b]), model.body_ipos[b].copy())
             unturned = Inertial(float(model.body_mass[b]), np.zeros(3), np.diag(model.body_inertia[b]))
             name = model.body(b).name
-            bodies.append(Body(name, int(model.body_parentid[b]) - 1, pose, hinges, unturned.seen_from(turned)))
+            bodies.append(Body(name, int(model.body_parentid[b]) - 1, pose, hinges, unturned.transformed(turned)))
         off = model.opt.disableflags & int(SWITCHES["gravity"])
         gravity = np.zeros(3) if off else model.opt.gravity.copy()
         return in_order(planar_mechanism(bodies, gravity, self._file.plane), self._file.mechanism)
@@ -111,7 +112,7 @@ class MujocoFile:
             friction=0.0 if slips else float(model.dof_frictionloss[dof]),
             stiffness=0.0 if off & int(SWITCHES["spring"]) else _linear(model.jnt_stiffness[joint]),
             rest=float(model.qpos_spring[position]) - zero,
-            stops=(low, high) if limited else None,
+            limits=(low, high) if limited else None,
             zero=zero,
         )
 

@@ -15,9 +15,10 @@ from typing import Any
 
 import numpy as np
 
-from ...models.mechanism import Body, Mechanism, SpatialHinge, planar_mechanism
+from ...models.mechanism import Mechanism
+from ...models.projection import Body, SpatialHinge, planar_mechanism
 from ...models.readers.model_file import ModelFile
-from ...models.spatial import Inertial, Pose, about
+from ...models.spatial import Inertial, Pose, from_axis_angle
 from ..protocol import Array
 from .adapter import FileCoordinates, in_order
 
@@ -60,7 +61,7 @@ class PinocchioFile:
             axis = np.asarray(self._data.joints[j].S, dtype=np.float64).ravel()[3:]
             zero = zeros.get(name, 0.0)
             placement = model.jointPlacements[j]
-            pose = Pose(placement.rotation @ about(axis, zero), placement.translation.copy())
+            pose = Pose(placement.rotation @ from_axis_angle(axis, zero), placement.translation.copy())
             inertia = model.inertias[j]
             hinge = SpatialHinge(
                 name=name,

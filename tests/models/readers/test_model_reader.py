@@ -81,9 +81,9 @@ def test_mjcf_is_read_as_mujoco_compiles_it(feature, head):
             assert getattr(a, name) == pytest.approx(getattr(b, name), rel=1e-13), name
         if a.stiffness:
             assert a.rest == pytest.approx(b.rest, rel=1e-13)
-        assert (a.stops is None) == (b.stops is None)
-        if a.stops:
-            assert a.stops == pytest.approx(b.stops, rel=1e-13)
+        assert (a.limits is None) == (b.limits is None)
+        if a.limits:
+            assert a.limits == pytest.approx(b.limits, rel=1e-13)
 
 
 def test_classes_reach_their_children():
