@@ -102,7 +102,7 @@ def planar_mechanism(bodies: Sequence[Body], gravity: Array, plane: Plane | None
     """
     found = _fused(bodies)
     if not found:
-        raise InvalidInput("no hinge in it: at least one body must hang on a hinge")
+        raise InvalidInput("no hinge: at least one body must be on a hinge")
     if len(found) > MOST_LINKS:
         raise InvalidInput(f"{len(found)} hinges; at most {MOST_LINKS} are taken")
     if plane is None:
@@ -253,7 +253,7 @@ def _refuse_weightless(links: Sequence[Link], names: Sequence[str]) -> None:
     for i in range(len(links) - 1, -1, -1):
         if not resisting[i]:
             raise InvalidInput(
-                f"link {names[i]!r}: neither it nor anything it carries has an inertia about its hinge, so that its "
+                f"link {names[i]!r}: neither it nor its subtree has an inertia about its hinge, so that its "
                 "acceleration is not determined; give it a mass away from the hinge, or an inertia"
             )
         if links[i].parent != SUPPORT and any(links[i].hinge):

@@ -53,7 +53,7 @@ def read_urdf(root: Element) -> Urdf:
     for name, value in _extension(root).items():
         kept.children.append(Element("mujoco", {}, root.file, root.line, [Element("compiler", {name: value})]))
     if len(links) > MOST_BODIES:
-        raise root.wrong(f"{len(links)} links, which no pendulum needs; at most {MOST_BODIES} are taken")
+        raise root.wrong(f"{len(links)} links; at most {MOST_BODIES} are read")
     if not links:
         raise root.wrong("no links; at least one must hang from the support")
     below = _children(links, joints)
@@ -101,18 +101,15 @@ def _children(links: dict[str, Element], joints: dict[str, Element]) -> dict[str
             ends[role] = link
         if ends["child"] in joint_above:
             raise refuse(
-                joint, f"link {ends['child'][:60]!r} hangs on two joints, {joint_above[ends['child']][:60]!r} too"
+                joint,
+                f"link {ends['child'][:60]!r} is the child of {joint_above[ends['child']][:60]!r} too",
             )
         joint_above[ends["child"]] = name
         below[ends["parent"]].append(name)
     roots = [name for name in links if name not in joint_above]
     if len(roots) != 1:
         first = next(iter(joints.values()), None) or next(iter(links.values()), None)
-        what = (
-            "the joints go round in a circle"
-            if not roots
-            else f"{len(roots)} links hang on nothing: {', '.join(roots)[:120]}"
-        )
+        what = "the joints form a loop" if not roots else f"{len(roots)} links have no parent: {', '.join(roots)[:120]}"
         where = first.file if first is not None else "the file"
         raise InvalidInput(f"{where}: {what}; one link, the support, must carry all the others")
     below[""] = roots
@@ -137,7 +134,7 @@ def _read(file: Urdf, links: dict[str, Element], joints: dict[str, Element], bel
         reached += 1
         pending.extend((lower, index) for lower in reversed(below[link.get("name")]))
     if reached != len(links):
-        raise InvalidInput(f"{file.root.file}: the joints go round in a circle; they must make a tree")
+        raise InvalidInput(f"{file.root.file}: the joints form a loop; they must form a tree")
     for link in links.values():
         link.children = [child for child in link.children if child.tag == "inertial"]
     for joint in joints.values():

@@ -62,7 +62,7 @@ def read_xml(path: Path) -> Element:
     except ValueError as error:  # a null byte in the name
         raise InvalidInput(f"{str(path)!r:.80}: cannot be read: {error}") from None
     if len(content) > LARGEST_FILE:
-        raise InvalidInput(f"{path}: larger than {LARGEST_FILE // 1_000_000} MB, which no pendulum needs")
+        raise InvalidInput(f"{path}: larger than {LARGEST_FILE // 1_000_000} MB, the most that is read")
     return parse_xml(content, str(path))
 
 
@@ -121,7 +121,7 @@ class _Builder:
         element = Element(tag, attributes, self._file, self._parser.CurrentLineNumber)
         self._count += 1
         if self._count > MOST_ELEMENTS:
-            raise element.wrong(f"more than {MOST_ELEMENTS} elements, which no pendulum needs")
+            raise element.wrong(f"more than {MOST_ELEMENTS} elements, the most that are read")
         if len(self._open) >= DEEPEST:
             raise element.wrong(f"nested more than {DEEPEST} levels deep")
         for name, value in attributes.items():

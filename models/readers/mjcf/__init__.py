@@ -1,4 +1,4 @@
 """Reads MJCF, MuJoCo's model format: bodies, joints, inertials, geoms, defaults, frames, options and includes.
 
-May import :mod:`furiko.models` alone.
+May import models alone.
 """

@@ -63,11 +63,11 @@ class Bodies:
     def _body(self, element: Element, parent: int, frame: Pose, childclass: str) -> int:
         name = self._named(element, "body")
         if len(self.bodies) >= MOST_BODIES:
-            raise element.wrong(f"more than {MOST_BODIES} bodies, which no pendulum needs")
+            raise element.wrong(f"more than {MOST_BODIES} bodies")
         if element.get("mocap") == "true":
             raise refuse(element, "mocap: a body that is moved from outside")
         if number(element, "gravcomp") != 0:
-            raise element.wrong("gravcomp: a body that gravity does not pull alike is not modelled; remove it")
+            raise element.wrong("gravcomp: gravity compensation is not modelled; remove it")
         joints = element.all("joint", "freejoint")
         hinges = tuple(self._hinge(self._defaults.applied(joint, childclass), joint) for joint in joints)
         inertial = self._inertials.of_body(element, name, childclass)

@@ -50,7 +50,7 @@ class Inertials:
             found = self._given(given, name) if given is not None else ZERO_INERTIAL
         if not found.tensor.any() and 0 < compiler.least_inertia <= POINT_MASS_BOUND:
             self._note(
-                f"boundinertia={compiler.least_inertia:g} is taken as what lets MuJoCo's compiler take a point mass"
+                f"boundinertia={compiler.least_inertia:g} is ignored: it is there to let MuJoCo compile a point mass"
             )
             return Inertial(max(found.mass, compiler.least_mass), found.centre, found.tensor)
         return _bounded(found, compiler)
