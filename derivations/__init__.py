@@ -4,4 +4,6 @@ From a derivation to a diagnosis: :mod:`.submission` reads it (:mod:`.tokens`, :
 the exact algebra of :mod:`.trig`; :mod:`.verdict` decides whether it is right; :mod:`.explain` looks for mistakes of
 the catalogue (:mod:`.mistakes`) that lead to it; :mod:`.findings` tells the terms; :mod:`.grade` puts it together.
 Nothing is imported here, so that each part costs only what it needs.
+
+May import models and reference.
 """

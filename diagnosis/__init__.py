@@ -1,1 +1,4 @@
-"""Why an engine or a model file differs from the theory: hypotheses, each tested by measurement."""
+"""Why an engine or a model file differs from the theory: hypotheses, each tested by measurement.
+
+May import models, reference, engines and checks.
+"""

@@ -1,4 +1,7 @@
-"""The theory: both documents' equations, and the truth that is proved or computed from them. Knows no engine."""
+"""The theory: both documents' equations, and the truth that is proved or computed from them. Knows no engine.
+
+May import models alone.
+"""
 
 from .documents.equation import Equation, Slip
 from .documents.equations_of_motion import (

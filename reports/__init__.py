@@ -1,4 +1,7 @@
-"""Writes the result stream, reads it back, and renders it: terminal, HTML, Markdown, JUnit; compares two runs."""
+"""Writes the result stream, reads it back, and renders it: terminal, HTML, Markdown, JUnit; compares two runs.
+
+May import models, records, reference and studies.
+"""
 
 from .compare import Comparison, compare
 from .report import Cell, Report

@@ -1,1 +1,4 @@
-"""Each of the documents' numbered equations against first principles."""
+"""Each of the documents' numbered equations against first principles.
+
+May import models, reference and the rest of derivations.
+"""

@@ -1,1 +1,4 @@
-"""The catalogue of mistakes: every operator at every place of a derivation."""
+"""The catalogue of mistakes: every operator at every place of a derivation.
+
+May import models, reference and the rest of derivations.
+"""

@@ -1,1 +1,4 @@
-"""Accelerations in O(n), as plain numpy and as compiled code."""
+"""Accelerations in O(n), as plain numpy and as compiled code.
+
+May import models and the rest of reference.
+"""

@@ -1,1 +1,4 @@
-"""How far rounding may carry an algorithm's result: bounds derived from its arithmetic."""
+"""How far rounding may carry an algorithm's result: bounds derived from its arithmetic.
+
+May import models and the rest of reference.
+"""

@@ -1,1 +1,4 @@
-"""Tables in the terminal."""
+"""Tables in the terminal.
+
+May import models, records, reference, studies and the rest of reports.
+"""

@@ -1,1 +1,4 @@
-"""Time against error: of engines, of integrators and of furiko itself."""
+"""Time against error: of engines, of integrators and of furiko itself.
+
+May import models, records, reference, engines and checks.
+"""
