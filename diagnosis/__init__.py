@@ -1,4 +1,1 @@
-"""Why an engine or a model file differs from the theory: hypotheses, each tested by measurement.
-
-May import models, reference, engines and checks.
-"""
+"""Why an engine or a model file differs from the theory: hypotheses, each tested by measurement."""

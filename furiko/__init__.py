@@ -1,8 +1,6 @@
 """furiko: cross-checks hand-derived equations of motion and physics engines, and names the cause where they differ.
 
 Names are imported where they are first used: ``import furiko`` alone loads neither an engine nor numpy.
-
-May import everything else: nothing else imports it.
 """
 
 from __future__ import annotations

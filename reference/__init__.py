@@ -1,7 +1,4 @@
-"""The theory: both documents' equations, and the truth that is proved or computed from them. Knows no engine.
-
-May import models alone.
-"""
+"""The theory: both documents' equations, and the truth that is proved or computed from them. Knows no engine."""
 
 from .documents.equation import Equation, Slip
 from .documents.equations_of_motion import (

@@ -1,7 +1,4 @@
-"""Writes the result stream, reads it back, and renders it: terminal, HTML, Markdown, JUnit; compares two runs.
-
-May import models, records, reference and studies.
-"""
+"""Writes the result stream, reads it back, and renders it: terminal, HTML, Markdown, JUnit; compares two runs."""
 
 from .compare import Comparison, compare
 from .report import Cell, Report

@@ -1,4 +1,1 @@
-"""Both documents' equations, symbol by symbol, and their final form put together for a mechanism.
-
-May import models and the rest of reference.
-"""
+"""Both documents' equations, symbol by symbol, and their final form put together for a mechanism."""

@@ -1,4 +1,1 @@
-"""Accelerations in O(n), as plain numpy and as compiled code.
-
-May import models and the rest of reference.
-"""
+"""Accelerations in O(n), as plain numpy and as compiled code."""

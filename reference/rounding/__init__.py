@@ -1,4 +1,1 @@
-"""How far rounding may carry an algorithm's result: bounds derived from its arithmetic.
-
-May import models and the rest of reference.
-"""
+"""How far rounding may carry an algorithm's result: bounds derived from its arithmetic."""

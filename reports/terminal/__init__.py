@@ -1,4 +1,1 @@
-"""Tables in the terminal.
-
-May import models, records, reference, studies and the rest of reports.
-"""
+"""Tables in the terminal."""

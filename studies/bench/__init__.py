@@ -1,4 +1,1 @@
-"""Time against error: of engines, of integrators and of furiko itself.
-
-May import models, records, reference, engines and checks.
-"""
+"""Time against error: of engines, of integrators and of furiko itself."""
