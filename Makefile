@@ -12,10 +12,11 @@ check: $(VENV)/.check  ## run the catalogue against every engine; writes furiko-
 test: $(VENV)/.test  ## run the tests
 	$(BIN)/python -m pytest -n $(JOBS)
 
-lint: $(VENV)/.test  ## ruff and mypy --strict
+lint: $(VENV)/.test  ## ruff, mypy --strict and basedpyright
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+	$(BIN)/basedpyright
 
 models:  ## write the catalogue's model files and the JSON schemas again
 	$(BIN)/python -m furiko.models.writers.catalogue_files

@@ -225,8 +225,8 @@ def _hinges(found: Mechanism, expected: Mechanism, who: str, expectation: str) -
             says = f"{who}: {name}: rest angle of the spring: found {rounded(got.rest)}, "
             says += f"{expectation} {rounded(wanted.rest)} rad"
             yield Finding("spring-reference", name, got.rest, wanted.rest, says)
-        if got.stops != wanted.stops and not _same_limits(got.stops, wanted.stops):
-            yield from _limits(name, got.stops, wanted.stops, who, expectation)
+        if got.limits != wanted.limits and not _same_limits(got.limits, wanted.limits):
+            yield from _limits(name, got.limits, wanted.limits, who, expectation)
 
 
 def _limits(

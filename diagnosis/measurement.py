@@ -81,8 +81,8 @@ def probe_states(mechanism: Mechanism, count: int = LEAST_STATES, seed: int = 1)
     n = mechanism.n
     phi = generator.uniform(-np.pi, np.pi, (count, n))
     for i, hinge in enumerate(mechanism.hinges):
-        if hinge.stops is not None:
-            low, high = hinge.stops
+        if hinge.limits is not None:
+            low, high = hinge.limits
             margin = 0.02 * (high - low)
             phi[:, i] = generator.uniform(max(low + margin, -np.pi), min(high - margin, np.pi), count)
     hinges = sum(float(np.hypot(*link.hinge)) for link in mechanism.links)

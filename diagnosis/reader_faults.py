@@ -11,9 +11,9 @@ from collections.abc import Callable, Iterator, Mapping
 import numpy as np
 
 from ..models import Link
-from ..models.mechanism import Body
+from ..models.projection import Body
 from ..models.readers.model_file import ModelFile
-from ..models.spatial import HERE, NOTHING, Inertial, Pose
+from ..models.spatial import IDENTITY, ZERO_INERTIAL, Inertial, Pose
 from .finding import Finding, joint_label
 from .measurement import Array
 
@@ -59,7 +59,7 @@ def possible_reader_faults(file: ModelFile, own_geoms: bool = False) -> ReaderFa
         "urdf-inertial-rpy-lost": _planar_inertials(file, lambda body: _without_tensor_rotation(file, body)),
         "inertial-com-rotated": _planar_inertials(file, lambda body: _with_centre_rotated(file, body)),
         "fused-static-frame": _planar_inertials(file, lambda body: body.inertial, turn_fixed=False),
-        "inertia-from-geoms": _planar_inertials(file, lambda body: file.geoms.get(body.name, NOTHING)),
+        "inertia-from-geoms": _planar_inertials(file, lambda body: file.geoms.get(body.name, ZERO_INERTIAL)),
         "inertial-ignored": _planar_inertials(file, lambda body: Inertial(1.0, np.zeros(3), np.eye(3))),
     }
     faults = {
@@ -111,13 +111,13 @@ def _planar_inertials(
         carrier, carrying, at = (
             (poses[body.parent], link_of[body.parent], assumed_poses[body.parent])
             if body.parent >= 0
-            else (HERE, -1, HERE)
+            else (IDENTITY, -1, IDENTITY)
         )
         pose = carrier @ body.pose
         fixed = not body.hinges and carrying >= 0
-        assumed = Pose(at.turn, (at @ body.pose).shift) if fixed and not turn_fixed else at @ body.pose
+        assumed = Pose(at.rotation, (at @ body.pose).translation) if fixed and not turn_fixed else at @ body.pose
         for hinge in body.hinges:
-            totals.append(NOTHING)
+            totals.append(ZERO_INERTIAL)
             anchors.append(pose.point(hinge.anchor))
             carrying = len(totals) - 1
             assumed = pose
@@ -125,7 +125,7 @@ def _planar_inertials(
         assumed_poses.append(assumed)
         link_of.append(carrying)
         if carrying >= 0:
-            totals[carrying] = totals[carrying] + inertial(body).seen_from(assumed)
+            totals[carrying] = totals[carrying] + inertial(body).transformed(assumed)
     found = {}
     for i, (total, anchor) in enumerate(zip(totals, anchors, strict=True)):
         com = plane.point(total.centre - anchor) if total.mass else (0.0, 0.0)
@@ -139,9 +139,9 @@ def degrees_in_file(file: ModelFile) -> Iterator[Finding]:
     if file.language != "mjcf":
         return
     for i, hinge in enumerate(file.mechanism.hinges):
-        if hinge.stops is None:
+        if hinge.limits is None:
             continue
-        ends = [end * 180 / math.pi for end in hinge.stops]
+        ends = [end * 180 / math.pi for end in hinge.limits]
         widest = max(map(abs, ends))
         if widest <= 2 * math.pi + 1e-3 and any(_fraction_of_pi(end) for end in ends if end):
             name = joint_label(file.mechanism, i)
@@ -149,7 +149,7 @@ def degrees_in_file(file: ModelFile) -> Iterator[Finding]:
                 f"the file: {name}: range {ends[0]:.6g} to {ends[1]:.6g} is read in degrees, MJCF's default, but looks "
                 "like radians; for radians write <compiler angle='radian'/>"
             )
-            yield Finding("degree-vs-radian", name, hinge.stops[1], ends[1], says)
+            yield Finding("degree-vs-radian", name, hinge.limits[1], ends[1], says)
 
 
 def _fraction_of_pi(angle: float) -> bool:

@@ -1,6 +1,7 @@
-"""Physics engines behind one protocol; nothing else in furiko imports one.
+"""Physics engines behind one protocol (:mod:`.protocol`), and the only place where an engine is imported.
 
-What an engine is and can do is known without numpy: a plan is made while the workers are still importing it.
+May import models and records, and nothing of the theory. An engine's name and capabilities are known without importing
+it or numpy: a plan is made while the workers are still importing them.
 """
 
 from __future__ import annotations

@@ -1,14 +1,14 @@
 """Exudyn in maximal coordinates: a free body (x, y, angle) for each link, held together by revolute joints.
 
 * Exudyn's plane is x-y with y up. Each body's origin is its centre of mass, its angle the absolute one.
-* Joints are constraints; their forces are Lagrange multipliers, the force on the carrying body being positive.
+* Joints are constraints; their forces are Lagrange multipliers, positive for the force on the parent.
 * Accelerations are the initial accelerations that the implicit solver computes. For them it differentiates the velocity
   constraint numerically, one coordinate at a time, by a single forward difference: with the default step they are
   wrong by up to 1e-6. A revolute joint's velocity constraint is a·cos φ + b·sin φ + c in each body's angle φ, though,
   so that three forward differences, with steps of a quarter turn, three quarters and a whole one, give its derivative
   exactly: see :data:`STEPS`.
 * Linear solver: Eigen's sparse LU; the dense ones cost a hundred times as much at a hundred links.
-* It holds the mechanism in units that fit it (:mod:`furiko.models.units`), and each state in a unit of time that does.
+* The mechanism is scaled to units that fit it (:mod:`furiko.models.units`), and each state to a unit of time.
 """
 
 from __future__ import annotations
@@ -17,22 +17,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-import exudyn
 import numpy as np
-from exudyn.itemInterface import (
-    LoadMassProportional,
-    MarkerBodyMass,
-    MarkerBodyPosition,
-    NodeRigidBody2D,
-    ObjectGround,
-    ObjectJointRevolute2D,
-    ObjectRigidBody2D,
-)
 
 from ..models import PlanarTree, System
 from ..models.tree import SUPPORT
 from ..models.units import in_units, units_of
-from .exudyn_settings import Current, Initial, quiet_settings, run
+from .exudyn_settings import Current, Initial, exudyn, items, quiet_settings, run
 from .protocol import Array, ModelFields
 
 _SOLVER = exudyn.LinearSolverType.EigenSparse
@@ -61,22 +51,22 @@ class ExudynRedundant:
 
     def _build(self, tree: PlanarTree) -> None:
         mbs = self._mbs
-        ground = mbs.AddObject(ObjectGround())
+        ground = mbs.AddObject(items.ObjectGround())
         for link in tree.links:
-            node = mbs.AddNode(NodeRigidBody2D(referenceCoordinates=[0.0, 0.0, 0.0]))
-            body = mbs.AddObject(ObjectRigidBody2D(nodeNumber=node, mass=link.mass, inertia=link.inertia))
-            load = LoadMassProportional(
-                markerNumber=mbs.AddMarker(MarkerBodyMass(bodyNumber=body)), loadVector=[0.0, -tree.gravity, 0.0]
+            node = mbs.AddNode(items.NodeRigidBody2D(referenceCoordinates=[0.0, 0.0, 0.0]))
+            body = mbs.AddObject(items.ObjectRigidBody2D(nodeNumber=node, mass=link.mass, inertia=link.inertia))
+            load = items.LoadMassProportional(
+                markerNumber=mbs.AddMarker(items.MarkerBodyMass(bodyNumber=body)), loadVector=[0.0, -tree.gravity, 0.0]
             )
-            carrier, centre = (
+            parent, centre = (
                 (ground, (0.0, 0.0))
                 if link.parent == SUPPORT
                 else (self._bodies[link.parent], tree.links[link.parent].com)
             )
-            on_carrier = MarkerBodyPosition(bodyNumber=carrier, localPosition=_point(link.hinge, centre))
-            on_body = MarkerBodyPosition(bodyNumber=body, localPosition=_point((0.0, 0.0), link.com))
-            markers = [mbs.AddMarker(on_carrier), mbs.AddMarker(on_body)]
-            self._joints.append(mbs.AddObject(ObjectJointRevolute2D(markerNumbers=markers)))
+            on_parent = items.MarkerBodyPosition(bodyNumber=parent, localPosition=_point(link.hinge, centre))
+            on_body = items.MarkerBodyPosition(bodyNumber=body, localPosition=_point((0.0, 0.0), link.com))
+            markers = [mbs.AddMarker(on_parent), mbs.AddMarker(on_body)]
+            self._joints.append(mbs.AddObject(items.ObjectJointRevolute2D(markerNumbers=markers)))
             self._loads.append(mbs.AddLoad(load))
             self._bodies.append(body)
         mbs.Assemble()
@@ -89,12 +79,12 @@ class ExudynRedundant:
         hinges = np.empty((len(bodies), 2))
         parents = []
         for row, joint in enumerate(self._joints):
-            on_carrier, on_body = (mbs.GetMarker(marker) for marker in mbs.GetObject(joint)["markerNumbers"])
-            parent = link_of_body.get(int(on_carrier["bodyNumber"]), SUPPORT)
+            on_parent, on_body = (mbs.GetMarker(marker) for marker in mbs.GetObject(joint)["markerNumbers"])
+            parent = link_of_body.get(int(on_parent["bodyNumber"]), SUPPORT)
             parents.append(parent)
             centres[row] = -_along_across(on_body["localPosition"])
             # Both are measured from a centre of mass; the parent's comes before its children's.
-            hinges[row] = _along_across(on_carrier["localPosition"]) + (centres[parent] if parent != SUPPORT else 0.0)
+            hinges[row] = _along_across(on_parent["localPosition"]) + (centres[parent] if parent != SUPPORT else 0.0)
         size, units = mbs.systemData, self._units
         return ModelFields(
             dofs=size.ODE2Size() - size.AEsize(),
@@ -109,7 +99,7 @@ class ExudynRedundant:
         )
 
     def _load_on_a_unit_of_mass(self) -> Array:
-        """The same for every body, or else there is no one gravity to speak of."""
+        """Gravity (3,), which must be the same for every body; else NaN."""
         loads = np.array([self._mbs.GetLoad(load)["loadVector"] for load in self._loads])
         x, y, z = loads[0] if (loads == loads[0]).all() else np.full(3, np.nan)
         return np.array([x, -z, y])
@@ -118,7 +108,7 @@ class ExudynRedundant:
         return self._solve(theta, omega)[0][:, 2::3]
 
     def joint_forces(self, theta: Array, omega: Array, alpha: Array) -> Array:
-        """The multipliers come with Exudyn's own accelerations: ``alpha`` is passed over."""
+        """The multipliers come with Exudyn's own accelerations: ``alpha`` is ignored."""
         return self._solve(theta, omega)[1]
 
     def energy(self, theta: Array, omega: Array) -> Array:
@@ -146,7 +136,7 @@ class ExudynRedundant:
         return self._run(theta, omega, integrator, step, steps, all_states=True)
 
     def gap(self) -> float:
-        """Largest distance [m] between the two points that a joint holds together, where the last run ended."""
+        """Largest distance [m] between the two points that a joint holds together, at the end of the last run."""
         mbs, position = self._mbs, exudyn.OutputVariableType.Position
         ends = [
             [mbs.GetMarkerOutput(marker, position, Current) for marker in mbs.GetObject(joint)["markerNumbers"]]
@@ -160,7 +150,7 @@ class ExudynRedundant:
         """Started from the accelerations of :meth:`_solve_one`: those that the solver would compute are off by 1e-6."""
         units = self._units.fitting(self._gravity, omega, step)
         data = self._mbs.systemData
-        with self._in_time(units.time):
+        with self._in_unit_of_time(units.time):
             ((position,), (rate,)) = self._links.states(theta[None], units.time * omega[None])
             accelerations, _ = self._solve_one(position, rate)
             data.SetODE2Coordinates(position, Initial)
@@ -184,7 +174,7 @@ class ExudynRedundant:
         seconds = np.array([units.time for units in fitting])
         positions, rates = self._links.states(theta, omega * seconds[:, None])
         for units in set(fitting):  # together, because loads are set one by one
-            with self._in_time(units.time):
+            with self._in_unit_of_time(units.time):
                 for row in np.flatnonzero(seconds == units.time):
                     found, multipliers = self._solve_one(positions[row], rates[row])
                     accelerations[row] = units.in_seconds(found, power=2)
@@ -210,8 +200,8 @@ class ExudynRedundant:
         return accelerations, forces
 
     @contextmanager
-    def _in_time(self, unit: float) -> Iterator[None]:
-        """With the loads as they are in this unit of time [s]."""
+    def _in_unit_of_time(self, unit: float) -> Iterator[None]:
+        """With the loads scaled to this unit of time [s]."""
         mbs = self._mbs
         kept = [mbs.GetLoad(load)["loadVector"] for load in self._loads] if self._gravity and unit != 1 else []
         for load, vector in zip(self._loads, kept, strict=False):
@@ -224,7 +214,7 @@ class ExudynRedundant:
 
 
 class _Links:
-    """Where the bodies are and how they move, for given angles and rates: what assembles an initial state."""
+    """Positions and velocities of the bodies for given angles and rates, which satisfy the joints' constraints."""
 
     def __init__(self, tree: PlanarTree) -> None:
         self._parents = tree.parents

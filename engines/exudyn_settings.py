@@ -1,18 +1,22 @@
-"""What both Exudyn adapters need: a quiet, fileless solver, and runs of its integrators."""
+"""Shared by both Exudyn adapters: settings that print and write nothing, and runs of Exudyn's integrators."""
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import Any
 
-import exudyn
 import numpy as np
 
 from .protocol import Array
 
+# Exudyn's type stubs do not fit its own interface: Any, here and nowhere else.
+exudyn: Any = import_module("exudyn")
+items: Any = import_module("exudyn.itemInterface")
+
 Initial = exudyn.ConfigurationType.Initial
 Current = exudyn.ConfigurationType.Current
 
-# Exudyn prints from C++, past sys.stdout; there is no other switch than this one, which is the whole process's.
+# Exudyn prints from C++, past sys.stdout; its only switch is this one, for the whole process.
 exudyn.config.printToConsole = False
 
 
@@ -43,8 +47,8 @@ def run(
     With ``all_states`` those of the start and of every step, (steps + 1, coordinates). ``accelerations``: those of the
     initial state, where Exudyn is not to compute them itself.
 
-    NaN where an implicit scheme's Newton iterations find no next state, as where an explicit one overflows. They end
-    where rounding does: with the default tolerances (relative 1e-8) they add a fifth to the error of 25 000 steps.
+    NaN where an implicit scheme's Newton iterations do not converge, as where an explicit scheme overflows. Their
+    tolerance is at the level of rounding: the default one (relative 1e-8) adds a fifth to the error of 25 000 steps.
     """
     settings = quiet_settings(linear_solver)
     integration = settings.timeIntegration
@@ -54,25 +58,26 @@ def run(
     integration.adaptiveStep = False
     integration.newton.relativeTolerance = 1e-12
     data = mbs.systemData
-    # Of numbers near one (:mod:`furiko.models.units`), with a rounding for every equation: less is not to be had.
+    # The numbers are near one (:mod:`furiko.models.units`), each equation has a rounding error: this is the smallest
+    # tolerance that the iterations reach.
     integration.newton.absoluteTolerance = 1e-13 * data.ODE2Size()
     if accelerations is not None:
         integration.generalizedAlpha.computeInitialAccelerations = False
         data.SetODE2Coordinates_tt(accelerations, Initial)
     states: list[tuple[Array, Array]] = []
 
-    def note(_mbs: Any = None, _time: float = 0.0) -> bool:
+    def record(_mbs: Any = None, _time: float = 0.0) -> bool:
         states.append((np.array(data.GetODE2Coordinates(Current)), np.array(data.GetODE2Coordinates_t(Current))))
         return True
 
     if all_states:
-        mbs.SetPreStepUserFunction(note)
+        mbs.SetPreStepUserFunction(record)
     try:
         exudyn.SolveDynamic(mbs, settings, solverType=getattr(exudyn.DynamicSolverType, integrator))
-        note()
+        record()
     except exudyn.SolverError:
-        lost = np.full(data.ODE2Size(), np.nan)
-        states += [(lost, lost)] * (steps + 1 - len(states) if all_states else 1)
+        no_state = np.full(data.ODE2Size(), np.nan)
+        states += [(no_state, no_state)] * (steps + 1 - len(states) if all_states else 1)
     finally:
         if all_states:
             mbs.SetPreStepUserFunction(0)
@@ -81,7 +86,7 @@ def run(
 
 
 def run_adaptive(mbs: Any, linear_solver: Any, scheme: str, duration: float, tolerance: float) -> tuple[Array, Array]:
-    """Coordinates and their rates after ``duration`` [s] in steps that the scheme chooses; NaN where it gives up.
+    """Coordinates and their rates after ``duration`` [s] in steps that the scheme chooses; NaN where it fails.
 
     ``tolerance``: relative and absolute, of one step. The first step is a thousandth of the whole.
     """
@@ -96,6 +101,6 @@ def run_adaptive(mbs: Any, linear_solver: Any, scheme: str, duration: float, tol
     try:
         exudyn.SolveDynamic(mbs, settings, solverType=getattr(exudyn.DynamicSolverType, scheme))
     except exudyn.SolverError:
-        lost = np.full(data.ODE2Size(), np.nan)
-        return lost, lost
+        no_state = np.full(data.ODE2Size(), np.nan)
+        return no_state, no_state
     return np.array(data.GetODE2Coordinates(Current)), np.array(data.GetODE2Coordinates_t(Current))

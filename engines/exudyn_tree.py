@@ -1,12 +1,12 @@
 """Exudyn in minimal coordinates: one ``ObjectKinematicTree`` whose coordinates are the relative hinge angles.
 
 * Exudyn's plane is x-y with y up; hinges turn about +z, so that angles keep their sign.
-* Accelerations are the initial accelerations that the implicit solver computes when it is initialised; a mass matrix
-  and a right-hand side are to be had from the solver after ``computeInitialAccelerations`` is switched off.
+* Accelerations are the initial accelerations that the implicit solver computes when it is initialised; it gives its
+  mass matrix and right-hand side only after ``computeInitialAccelerations`` is switched off.
 * Linear solver: Eigen's dense LU. Exudyn's own (the default) inverts the matrix, which costs a factor of thirty in
   accuracy at a hundred links, and time.
 * The potential energy is counted from the reference configuration (all angles zero), not from the support.
-* It holds the mechanism in units that fit it, see :mod:`furiko.models.units`; in a motion the unit of time fits, too.
+* The mechanism is scaled to units that fit it, see :mod:`furiko.models.units`; in a motion the unit of time, too.
 """
 
 from __future__ import annotations
@@ -15,14 +15,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-import exudyn
 import numpy as np
-from exudyn.itemInterface import NodeGenericODE2, ObjectKinematicTree
 
 from ..models import System
 from ..models.units import in_units, units_of
 from .coordinates import RelativeCoordinates
-from .exudyn_settings import Current, Initial, quiet_settings, run, run_adaptive
+from .exudyn_settings import Current, Initial, exudyn, items, quiet_settings, run, run_adaptive
 from .protocol import Array, ModelFields
 
 _SOLVER = exudyn.LinearSolverType.EigenDense
@@ -38,7 +36,7 @@ class ExudynTree:
         links, n = tree.links, tree.n
         self._mbs = exudyn.SystemContainer().AddSystem()
         self._node = self._mbs.AddNode(
-            NodeGenericODE2(
+            items.NodeGenericODE2(
                 referenceCoordinates=[0.0] * n,
                 initialCoordinates=[0.0] * n,
                 initialCoordinates_t=[0.0] * n,
@@ -46,7 +44,7 @@ class ExudynTree:
             )
         )
         self._tree = self._mbs.AddObject(
-            ObjectKinematicTree(
+            items.ObjectKinematicTree(
                 nodeNumber=self._node,
                 gravity=[0.0, -tree.gravity, 0.0],
                 baseOffset=[0.0, 0.0, 0.0],
@@ -79,7 +77,7 @@ class ExudynTree:
             masses=np.array(held["linkMasses"]) * units.mass,
             inertias=np.array([inertia[2, 2] for inertia in _items(held["linkInertiasCOM"])]) * units.inertia,
             gravity=np.array([x, -z, y]) * units.acceleration,
-            armature=np.zeros(n),  # Exudyn has no such thing
+            armature=np.zeros(n),  # Exudyn has none
             damping=(np.array(damping) if len(damping) else np.zeros(n)) * (units.energy * units.time),
         )
 
@@ -96,7 +94,7 @@ class ExudynTree:
     def inverse_dynamics(self, theta: Array, omega: Array, alpha: Array, *, gravity: bool = True) -> Array:
         forces = np.empty_like(theta)
         solver = exudyn.MainSolverImplicitSecondOrder()
-        with self._in_time(1.0 if gravity else 0.0):
+        with self._in_unit_of_time(1.0 if gravity else 0.0):
             for row, (q, v, a) in enumerate(self._relative(theta, omega, alpha)):
                 self._start_at(q, v)
                 solver.InitializeSolver(self._mbs, self._at_rest)
@@ -107,7 +105,7 @@ class ExudynTree:
         return self._coordinates.absolute_forces(forces) * self._units.energy
 
     def energy(self, theta: Array, omega: Array) -> Array:
-        # Swung out level to the one side and to the other, any mass is as high above the support as it is below.
+        # With all links level, to the one side and to the other, the heights of each mass above the support cancel.
         level = np.repeat([[np.pi / 2], [-np.pi / 2]], theta.shape[1], axis=1)
         energies = self._energies(theta, omega)
         energies[:, 1] -= self._energies(level, np.zeros_like(level))[:, 1].mean()
@@ -132,7 +130,7 @@ class ExudynTree:
     ) -> tuple[Array, Array]:
         units = self._units.fitting(self._gravity, omega, step)
         self._start_at(*(row[0] for row in map(self._coordinates.relative, (theta[None], units.time * omega[None]))))
-        with self._in_time(units.time):
+        with self._in_unit_of_time(units.time):
             angles, rates = run(self._mbs, _SOLVER, integrator, step / units.time, steps, all_states=all_states)
         return self._coordinates.absolute(angles), units.in_seconds(self._coordinates.absolute(rates))
 
@@ -149,8 +147,8 @@ class ExudynTree:
         return energies
 
     @contextmanager
-    def _in_time(self, unit: float) -> Iterator[None]:
-        """With gravity as it is in this unit of time [s]: none at all in zero seconds."""
+    def _in_unit_of_time(self, unit: float) -> Iterator[None]:
+        """With gravity scaled to this unit of time [s]; a unit of 0 s switches it off."""
         kept = self._mbs.GetObjectParameter(self._tree, "gravity")
         self._mbs.SetObjectParameter(self._tree, "gravity", [g * unit * unit for g in kept])
         try:

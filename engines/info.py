@@ -1,4 +1,4 @@
-"""What is known of an engine without importing it or numpy."""
+"""An engine's name and capabilities, as plain data: known without importing the engine or numpy."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ Quantity = Literal["fields", "accelerations", "inverse_dynamics", "joint_forces"
 
 @dataclass(frozen=True)
 class Integrator:
-    """One of an engine's own time-stepping schemes: its name there, and the order its makers give it.
+    """One of an engine's own integrators with a fixed step: its name in the engine, and its order of convergence.
 
-    ``tolerance``: the residual, relative to that of a first guess, at which an implicit scheme's iterations end.
-    ``remembers``: a step starts from more than angles and rates (accelerations, joints that have come apart), so that
-    n single steps are not a run of n steps.
+    ``tolerance``: the residual, relative to that of the first guess, at which an implicit scheme's iterations end; 0
+    for an explicit scheme. ``remembers``: the scheme has a state besides angles and rates (accelerations, violated
+    constraints), so that n runs of one step are not one run of n steps.
     """
 
     name: str
@@ -26,18 +26,25 @@ class Integrator:
 
 @dataclass(frozen=True)
 class EngineInfo:
-    """An engine's name and capabilities, known without importing it.
+    """An engine's name and capabilities.
 
-    ``adapter``: where its class is, ``module:Class``; ``module``: what it imports; ``package``: what to pip install.
-    ``coordinates``: those in which it forms and solves the equations, hence where its rounding arises; ``moments``: the
-    point about which it takes moments then, each link's own hinge or the centre of mass of the whole tree.
-    ``placed``: whether its reader has each link's place on its parent as it stands, or as a difference of two in the
-    world. ``interchanges``: whether it solves for accelerations with rows interchanged, however large each one is.
-    ``adaptive``: its schemes that choose their own steps from a tolerance. ``missing``: for each quantity it cannot
-    give, the sentence that says why. ``accuracy``: relative accuracy of one operation, and ``accuracy_reason`` where
-    that is more than double precision's rounding. ``largest_n`` links it takes, and a mass of ``least_mass`` [kg] or
-    more and an inertia about the hinge of ``least_inertia`` [kg m²] or more for each link; the reasons say what stands
-    in the way.
+    * ``formulation``: a phrase that tells two adapters of one engine apart; ``adapter``: its class, ``module:Class``;
+      ``module``: the module it imports; ``package``: the package to pip install; ``homepage``: its address.
+    * ``integrators``: with a fixed step; ``adaptive``: names of schemes that choose their steps from a tolerance.
+    * ``missing``: by name of each quantity that it cannot give, a sentence that says why.
+
+    Limits: ``largest_n`` links, ``least_mass`` [kg] and ``least_inertia`` [kg m²] about the hinge for each link. The
+    reasons for them are half sentences that follow "takes at most … links:" and "takes masses from …:".
+
+    How it computes, from which bounds on its rounding errors are derived:
+
+    * ``coordinates``: those in which it forms and solves the equations of motion: joint angles (``relative``), absolute
+      angles, or all coordinates of free bodies (``maximal``).
+    * ``moments``: the point about which it takes moments: each link's ``hinge``, or the centre of mass of the ``tree``.
+    * ``placed``: whether its model has a link's place in the frame of the ``parent``, as it is given, or as the
+      difference of two places in the ``world``.
+    * ``interchanges``: whether its linear solver interchanges rows (partial pivoting, without scaling them).
+    * ``accuracy``: relative accuracy of one operation, with ``accuracy_reason`` where it is not the unit roundoff.
     """
 
     name: str

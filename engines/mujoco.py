@@ -1,14 +1,14 @@
 """MuJoCo, driven through ``mj_forward`` and ``mj_inverse`` on one model and one ``MjData``.
 
-* The model is the MJCF document that furiko writes. Readers of XML give up on deep nesting, so that a longer chain is
-  built by ``MjSpec``, body by body; where both ways are open they give the same accelerations to the last bit.
-* The compiler takes no body whose inertia is below 1e-15 kg m², though the equations need none: where a link has less
-  the compiler lifts it, and the exact number is put into the compiled model.
-* It also takes a centre of mass within 1e-6 m of the hinge for one at the hinge (``body_sameframe``), and does without
-  the exact one, which the compiled model holds all the same; it is told otherwise.
+* The model is the MJCF document that furiko writes. Readers of XML fail on deep nesting, so that a longer chain is
+  built by ``MjSpec``, body by body; where both ways work they give the same accelerations to the last bit.
+* The compiler refuses a body whose inertia is below 1e-15 kg m², though the equations need none: where a link has less
+  the compiler raises it (``boundinertia``), and the exact number is set in the compiled model.
+* It also treats a centre of mass within 1e-6 m of the hinge as one at the hinge (``body_sameframe``), and ignores the
+  exact one, which the compiled model has all the same: that is reversed.
 * ``mj_step`` and the batch module announce a NaN on standard error and in a file MUJOCO_LOG.TXT, the first time that
   an ``MjData`` meets one. Its warning counters are therefore set before it starts. ``mujoco.batch`` keeps its own
-  ``MjData``, which cannot be quietened; at two hundred states it saves no more than what making it costs.
+  ``MjData``, which cannot be silenced; at two hundred states it saves no more than what making it costs.
 * After a NaN ``mj_step`` starts again from the initial state unless ``autoreset`` is off.
 * Joint forces (``cfrc_int``) are only computed for sensors, or when ``mj_rnePostConstraint`` is called.
 """
@@ -20,16 +20,19 @@ import warnings
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-import mujoco
 import numpy as np
 
 from ..models import PlanarTree, System, to_mjcf
 from ..models.writers.mjcf import DEEPEST, LEAST_INERTIA
 from .coordinates import RelativeCoordinates
 from .protocol import Array, BareCall, ModelFields
+
+# MuJoCo's bindings have no type stubs that fit: Any, here and nowhere else.
+mujoco: Any = import_module("mujoco")
 
 INTEGRATORS = {
     "Euler": mujoco.mjtIntegrator.mjINT_EULER,
@@ -43,7 +46,7 @@ class Mujoco:
 
     def __init__(self, system: System) -> None:
         tree = system.tree()
-        # The compiler's own MjData cannot be quietened, and warns of inertias that are mended afterwards.
+        # The compiler's own MjData cannot be silenced, and warns of inertias that are set afterwards.
         mujoco.set_mju_user_warning(lambda message: None)
         deep = tree.depth > DEEPEST or any(0 < link.inertia < LEAST_INERTIA for link in tree.links)
         self._model = model_from_spec(tree) if deep else mujoco.MjModel.from_xml_string(to_mjcf(system))
@@ -53,10 +56,10 @@ class Mujoco:
             if link.inertia < LEAST_INERTIA:
                 self._model.body_inertia[body] = link.inertia
         _keep_centres(self._model)
-        # The energies are asked for when they are wanted.
+        # Energies are computed only when they are asked for.
         self._model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_ENERGY)
-        self._data = _quiet_data(self._model)
-        self._moving = _quiet_data(self._model)
+        self._data = quiet_data(self._model)
+        self._moving = quiet_data(self._model)
         self._coordinates = RelativeCoordinates(tree.parents, self._model.jnt_dofadr[self._hinges])
 
     def fields(self) -> ModelFields:
@@ -110,7 +113,7 @@ class Mujoco:
             mujoco.mj_fwdVelocity(model, data)
             data.qacc[:] = a
             mujoco.mj_rnePostConstraint(model, data)
-            # Rows are torque, then force, in the world's axes: what the carrying body does to the carried one.
+            # Rows are torque, then force, in the world's axes, of the parent on the child.
             forces[row] = -data.cfrc_int[self._bodies][:, [3, 5]]
         return forces
 
@@ -135,11 +138,9 @@ class Mujoco:
 
     def bare_calls(self, theta: Array, omega: Array, threads: int) -> dict[str, BareCall]:
         """``mj_forward`` on the first state, and the batch module on all of them."""
-        from mujoco.batch import Batch
-
-        batch = Batch(self._model, len(theta), threads)
+        batch = import_module("mujoco.batch").Batch(self._model, len(theta), threads)
         batch.qpos, batch.qvel = self._coordinates.relative(theta), self._coordinates.relative(omega)
-        batch.bind("qacc")  # else it would compute and give nothing back
+        batch.bind("qacc")  # else it would return nothing
         self._data.qpos[:], self._data.qvel[:] = batch.qpos[0], batch.qvel[0]
         return {
             "mj_forward": BareCall(1, partial(mujoco.mj_forward, self._model, self._data)),
@@ -153,7 +154,7 @@ class Mujoco:
         """The state at the start and after each stride of so many steps, (strides + 1, n) each."""
         model, data, option = self._model, self._moving, self._model.opt
         mujoco.mj_resetData(model, data)
-        _quieten(data)
+        _silence(data)
         ((data.qpos[:], data.qvel[:]),) = self._relative(theta[None], omega[None])
         angles, rates = [data.qpos.copy()], [data.qvel.copy()]
         kept = option.integrator, option.timestep
@@ -172,7 +173,7 @@ class Mujoco:
 
 
 def model_from_spec(tree: PlanarTree) -> Any:
-    """The model that the written MJCF describes, less what is only seen, made without XML."""
+    """The compiled model that furiko's MJCF describes, without its geoms, built without XML."""
     spec = mujoco.MjSpec()
     spec.modelname = "furiko"
     compiler, option = spec.compiler, spec.option
@@ -184,8 +185,8 @@ def model_from_spec(tree: PlanarTree) -> Any:
     option.disableflags = int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT) | int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
     bodies: list[Any] = []
     for link, body_name, hinge_name in zip(tree.links, tree.names("link"), tree.names("hinge"), strict=True):
-        carrier = bodies[link.parent] if link.parent >= 0 else spec.worldbody
-        body = carrier.add_body(
+        parent = bodies[link.parent] if link.parent >= 0 else spec.worldbody
+        body = parent.add_body(
             name=body_name,
             pos=_point(link.hinge),
             mass=link.mass,
@@ -195,26 +196,26 @@ def model_from_spec(tree: PlanarTree) -> Any:
         )
         body.add_joint(name=hinge_name, type=mujoco.mjtJoint.mjJNT_HINGE, axis=[0.0, -1.0, 0.0])
         bodies.append(body)
-    with warnings.catch_warnings():  # as which the compiler's come out of here
+    with warnings.catch_warnings():  # this way the compiler's warnings are Python's
         warnings.simplefilter("ignore")
         return spec.compile()
 
 
 def _keep_centres(model: Any) -> None:
-    """Each centre of mass where the model says it is, however near the hinge."""
-    taken_for_hinge = model.body_sameframe == int(mujoco.mjtSameFrame.mjSAMEFRAME_BODY)
-    mended = taken_for_hinge & model.body_ipos.any(axis=1)
-    model.body_sameframe[mended] = int(mujoco.mjtSameFrame.mjSAMEFRAME_BODYROT)
+    """Make the compiled model use each centre of mass as it is given, however near the hinge."""
+    treated_as_hinge = model.body_sameframe == int(mujoco.mjtSameFrame.mjSAMEFRAME_BODY)
+    wrong = treated_as_hinge & model.body_ipos.any(axis=1)
+    model.body_sameframe[wrong] = int(mujoco.mjtSameFrame.mjSAMEFRAME_BODYROT)
     # A lone such body is "simple": its inertia is that of the posture in which it was compiled.
-    model.body_simple[mended] = 0
-    model.dof_simplenum[mended[model.dof_bodyid]] = 0
+    model.body_simple[wrong] = 0
+    model.dof_simplenum[wrong[model.dof_bodyid]] = 0
 
 
 @contextmanager
 def _timer_off() -> Iterator[None]:
-    """Without the clock that the Python package, unlike the C library, reads again and again in every step.
+    """Without the clock that the Python package, unlike the C library, reads several times in every step.
 
-    ``mujoco.set_mjcb_time(None)`` does not take it away: the package's own clock stays where it is.
+    ``mujoco.set_mjcb_time(None)`` does not remove it: the package's own clock stays set.
     """
     (library,) = Path(mujoco.__file__).parent.glob("*mujoco.*[0-9]*")
     clock = ctypes.c_void_p.in_dll(ctypes.CDLL(str(library)), "mjcb_time")
@@ -225,14 +226,15 @@ def _timer_off() -> Iterator[None]:
         clock.value = kept
 
 
-def _quiet_data(model: Any) -> Any:
+def quiet_data(model: Any) -> Any:
+    """An ``MjData`` that neither prints nor writes MUJOCO_LOG.TXT."""
     data = mujoco.MjData(model)
-    _quieten(data)
+    _silence(data)
     return data
 
 
-def _quieten(data: Any) -> None:
-    """Make it believe to have warned already: it then neither prints nor writes MUJOCO_LOG.TXT."""
+def _silence(data: Any) -> None:
+    """Set its warning counters: it then neither prints nor writes MUJOCO_LOG.TXT."""
     data.warning.number[:] = 1
 
 
@@ -246,7 +248,7 @@ def _along_across(points: Array) -> Array:
 
 
 def _inertia_about_y(model: Any, body: int) -> float:
-    """The principal inertias, turned into the body's axes, about the one along the hinge."""
+    """The moment of inertia [kg m²] about the hinge axis, from the principal moments and their axes."""
     turn = np.empty(9)
     mujoco.mju_quat2Mat(turn, model.body_iquat[body])
     return float(turn.reshape(3, 3)[1] ** 2 @ model.body_inertia[body])

@@ -1,9 +1,9 @@
 """Pinocchio, from URDF or MJCF: the articulated-body algorithm, or the mass matrix and its Cholesky factors.
 
 * The PyPI package is ``pin``; the one called ``pinocchio`` there is something else.
-* URDF says nothing of gravity and the MJCF reader passes over ``<option gravity>``: the model is told.
-* The MJCF reader takes only a file, and of several bodies on the support only the first. It honours ``boundinertia``,
-  so that point masses come lifted to 1e-15 kg m² and are set back to none.
+* URDF has no gravity and the MJCF reader ignores ``<option gravity>``: gravity is set in the model.
+* The MJCF reader takes only a file, and of several bodies on the support only the first. It applies ``boundinertia``,
+  which gives point masses an inertia of 1e-15 kg m²; it is set back to zero.
 * Joints are ordered depth first and siblings by name (URDF) or as written (MJCF): columns are found by name.
 * One call, one state: the parallel routines give other roundings, and are no faster on two cores.
 * Its data hold second derivatives of the kinematics, 6 n³ numbers, whatever is computed.
@@ -14,19 +14,22 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Callable
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pinocchio
 
 from ..models import InvalidInput, System, to_mjcf, to_urdf
 from .coordinates import RelativeCoordinates
 from .protocol import Array, BareCall, ModelFields, Native
 
+# Pinocchio is a C++ extension without types: Any, here and nowhere else.
+pinocchio: Any = import_module("pinocchio")
+
 
 class _Pinocchio:
-    """What the variants share: all but how the model is read and how its accelerations are solved for."""
+    """Shared by all variants, which differ in how the model is read and how accelerations are solved for."""
 
     def __init__(self, system: System) -> None:
         tree = system.tree()
@@ -89,7 +92,7 @@ class _Pinocchio:
             pinocchio.rnea(model, data, q, v, a)
             pinocchio.forwardKinematics(model, data, q)
             for link, joint in enumerate(self._joints):
-                # data.f: what the carrying body does to the carried one, in the latter's axes.
+                # data.f: the force of the parent on the child, in the child's axes.
                 forces[row, link] = -(data.oMi[joint].rotation @ data.f[joint].linear)[[0, 2]]
         return forces
 
@@ -116,7 +119,7 @@ class PinocchioAba(_Pinocchio):
         return lambda q, v: aba(model, data, q, v, torques)
 
     def bare_calls(self, theta: Array, omega: Array, threads: int) -> dict[str, BareCall]:
-        """``aba`` on the first state; ``threads`` is for batches, which it has none of."""
+        """``aba`` on the first state; ``threads`` has no use: there are no batches."""
         ((q, v),) = self._relative(theta[:1], omega[:1])
         torques = np.zeros(self._model.nv)
         return {"aba": BareCall(1, partial(pinocchio.aba, self._model, self._data, q, v, torques))}

@@ -1,7 +1,62 @@
-"""What an engine is to furiko: six questions that it may be asked.
+"""The protocol between furiko and a physics engine. Whoever writes an adapter reads this file first.
 
-Angles and rates are absolute and along the last axis, batches along the first: ``theta`` [rad] and ``omega`` [rad/s]
-have shape (B, n). Forces and torques are those of the planar mechanism; x is to the right, z up.
+An adapter is a class that is made for one mechanism and answers up to six questions about it: the methods ``fields``,
+``accelerations``, ``inverse_dynamics``, ``joint_forces``, ``energy`` and ``trajectory`` of :class:`Engine`.
+
+Conventions, the same for all questions:
+
+* SI units; angles in rad. The plane of motion is x-z, x to the right, z up; gravity is along -z. A hinge turns about
+  the axis (0, -1, 0).
+* ``theta`` and ``omega`` = dθ/dt are **absolute** angles and rates: θ_i is the angle of link i from the downward
+  vertical, whatever its parent does, counter-clockwise positive, so that a positive angle moves the tip to +x. An
+  engine whose joint coordinates are relative to the parent converts with
+  :class:`~furiko.engines.coordinates.RelativeCoordinates`.
+* Index i of the last axis is link i of ``system.tree().links``, parents before children: for an N-leg pendulum the
+  first rod, then the legs; for a rod chain the rods from the support on. n is ``system.n``.
+* Arrays are C-contiguous float64 and belong to the caller: do not write to them, and return new ones. States come in
+  batches, shape (B, n), B ≥ 0; row b of an answer belongs to row b of the question. Only ``trajectory``, ``path`` and
+  ``adaptive`` are given one state, (n,).
+* All forces are those of the ideal mechanism: no damping, friction, contact, joint limits or actuators. Switch off what
+  the engine has of them.
+* NaN or infinity is an answer, and is compared as such. An exception is reported as an error of the engine, with its
+  traceback. An answer of another shape is an error, too: see :class:`~furiko.engines.shapes.AnyShape`, which checks
+  input and answers, so that an adapter need not.
+
+The class attribute ``info``, an :class:`~furiko.engines.info.EngineInfo`, says what furiko must know before it
+imports the engine: its integrators, its largest system, how it solves. **What may be left out:** a question that the
+engine cannot answer goes into ``info.missing`` with the sentence that the report shows as the reason, and its method
+may then be left out. ``path``, ``bare_calls``, ``native``, ``lighter`` and ``gap`` are optional: leave the method
+out, nothing else. ``adaptive`` is needed only where ``info.adaptive`` names schemes.
+
+A complete adapter; ``furiko check -e my_adapter:MyMujoco`` runs it, ``my_adapter.py`` being on Python's path::
+
+    import mujoco
+    import numpy as np
+    from furiko.engines import EngineInfo
+    from furiko.engines.coordinates import RelativeCoordinates
+    from furiko.models import to_mjcf
+
+    OTHERS = ("fields", "inverse_dynamics", "joint_forces", "energy", "trajectory")
+
+    class MyMujoco:
+        info = EngineInfo(
+            name="my-mujoco", formulation="mj_forward on furiko's MJCF", adapter="my_adapter:MyMujoco",
+            module="mujoco", package="mujoco", homepage="https://mujoco.org", coordinates="relative",
+            missing=dict.fromkeys(OTHERS, "this adapter computes accelerations only"),
+        )
+
+        def __init__(self, system):
+            self.model = mujoco.MjModel.from_xml_string(to_mjcf(system))
+            self.data = mujoco.MjData(self.model)
+            self.coordinates = RelativeCoordinates(system.tree().parents)
+
+        def accelerations(self, theta, omega):
+            found = np.empty_like(theta)
+            for row, (q, v) in enumerate(zip(*map(self.coordinates.relative, (theta, omega)))):
+                self.data.qpos[:], self.data.qvel[:] = q, v
+                mujoco.mj_forward(self.model, self.data)
+                found[row] = self.data.qacc
+            return self.coordinates.absolute(found)
 """
 
 from __future__ import annotations
@@ -21,13 +76,14 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class ModelFields:
-    """What the engine holds after it has read the model, in the order of the mechanism's links.
+    """The model as the engine holds it after it has read or built it, in the order of the mechanism's links.
 
-    ``dofs``: degrees of freedom; ``parents``: index of each link's parent, -1 for the support; ``hinges`` and
-    ``centres``: hinge in the parent's frame and centre of mass in its own, (along, across) [m], shape (n, 2);
-    ``masses`` [kg]; ``inertias`` about the centre of mass and the hinge axis [kg m²]; ``gravity``: the vector
-    (x, y, z) [m/s²] in the world where z is up and y into the plane; ``armature`` [kg m²] and ``damping`` [N m s] of
-    each hinge.
+    Read it back from the engine, not from the system: it is compared with the system. ``dofs``: degrees of freedom;
+    ``parents``: index of each link's parent, -1 for the support; ``hinges`` (n, 2): each hinge in the frame of the
+    parent, ``centres`` (n, 2): each centre of mass in the link's own frame, as (along, across) [m] of
+    :mod:`furiko.models.tree`; ``masses`` (n,) [kg]; ``inertias`` (n,) about the centre of mass and the hinge axis
+    [kg m²]; ``gravity`` (3,): the vector (x, y, z) [m/s²] in the world where z is up and y into the plane; ``armature``
+    (n,) [kg m²] and ``damping`` (n,) [N m s] of each hinge.
     """
 
     dofs: int
@@ -43,7 +99,7 @@ class ModelFields:
 
 @dataclass(frozen=True)
 class BareCall:
-    """One call of an engine's interface, its input in place, that computes the accelerations of ``states`` states."""
+    """One call of the engine's own interface that computes the accelerations of ``states`` states; its input is set."""
 
     states: int
     call: Callable[[], object]
@@ -51,7 +107,11 @@ class BareCall:
 
 @dataclass(frozen=True)
 class Native:
-    """An engine's accelerations a(q, v), (n,), in its own coordinates, and the changes to and from them, (B, n)."""
+    """The engine's accelerations in its own coordinates q, v = dq/dt.
+
+    ``accelerate``: q (n,), v (n,) → dv/dt (n,). ``from_absolute``: θ, or its rates, (B, n) → q, or its rates, (B, n);
+    ``to_absolute``: the inverse. Both are linear.
+    """
 
     accelerate: Callable[[Array, Array], Array]
     from_absolute: Callable[[Array], Array]
@@ -59,65 +119,90 @@ class Native:
 
 
 class Engine(Protocol):
-    """An adapter: made for one system, asked in absolute angles. It need not answer what its info calls missing."""
+    """An adapter: see the module's docstring for the conventions and for what may be left out."""
 
-    def __init__(self, system: System) -> None: ...
+    def __init__(self, system: System) -> None:
+        """Build the engine's model of ``system``; ``system.tree()`` has its links, lengths, masses and gravity."""
+        ...
 
     def fields(self) -> ModelFields:
         """The model as the engine compiled it."""
         ...
 
     def accelerations(self, theta: Array, omega: Array) -> Array:
-        """θ̈ [rad/s²], shape (B, n)."""
+        """Forward dynamics: θ̈ [rad/s²], shape (B, n), in the states ``theta``, ``omega`` (B, n)."""
         ...
 
     def inverse_dynamics(self, theta: Array, omega: Array, alpha: Array, *, gravity: bool = True) -> Array:
-        """Generalised forces [N m] that the absolute angles need for the accelerations ``alpha``, shape (B, n)."""
+        """Generalised forces τ [N m], shape (B, n), that the accelerations ``alpha`` [rad/s²] (B, n) need.
+
+        τ_i is conjugate to the absolute angle θ_i: with relative joint torques τ_rel, τ = S⁻ᵀ τ_rel, which is
+        :meth:`~furiko.engines.coordinates.RelativeCoordinates.absolute_forces`. With ``gravity`` false as if there
+        were none: furiko obtains mass matrix, velocity terms and gravity terms from such calls.
+        """
         ...
 
     def joint_forces(self, theta: Array, omega: Array, alpha: Array) -> Array:
-        """Force (x, z) [N] that each link exerts on what carries it, at its hinge, in that motion; shape (B, n, 2).
+        """Force (x, z) [N] that each link exerts on its parent, or on the support, at its hinge; shape (B, n, 2).
 
-        For a rod chain row j is Takeno's T_j, j = 0 … n-1: the force of A_{j+1} on A_j at their joint. An engine that
-        only solves for forces along with its own accelerations may pass over ``alpha``.
+        In the motion with the accelerations ``alpha`` [rad/s²] (B, n). For a rod chain row j is Takeno's T_j,
+        j = 0 … n-1: the force of A_{j+1} on A_j at their joint. An engine that has forces only along with its own
+        accelerations may ignore ``alpha``.
         """
         ...
 
     def energy(self, theta: Array, omega: Array) -> Array:
-        """Kinetic and potential energy [J], the latter zero at the support's height; shape (B, 2)."""
+        """Kinetic and potential energy [J], shape (B, 2); the potential energy is zero at the height of the support."""
         ...
 
     def trajectory(self, theta: Array, omega: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
-        """θ and ω, shape (n,) each, after ``steps`` steps of ``step`` seconds from one state (n,), (n,)."""
+        """θ and ω, shape (n,) each, after ``steps`` ≥ 1 steps of ``step`` seconds from the one state (n,), (n,).
+
+        ``integrator``: the name of one of ``info.integrators``. Every call starts anew: nothing is kept from earlier
+        calls. Do not wrap angles into one turn. NaN where the engine fails to find a next state.
+        """
         ...
 
     def path(self, theta: Array, omega: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
-        """The same run with all its states, the first included: shape (steps + 1, n) each.
+        """The same run with all its states, the first included: θ and ω, shape (steps + 1, n) each.
 
-        An adapter may leave this out: whoever wants a path then runs to each of its points anew.
+        Optional: without it furiko calls ``trajectory`` once for each point, which a scheme with a state of its own
+        (``Integrator.remembers``) does not allow.
         """
         ...
 
     def adaptive(
         self, theta: Array, omega: Array, scheme: str, duration: float, tolerance: float
     ) -> tuple[Array, Array]:
-        """θ and ω, shape (n,) each, after ``duration`` seconds by one of the info's adaptive schemes, if there are any.
+        """θ and ω, shape (n,) each, after ``duration`` seconds from one state, in steps that the scheme chooses.
 
-        ``tolerance``: relative and absolute, of one step.
+        ``scheme``: one of ``info.adaptive``; ``tolerance``: relative and absolute, of one step. Needed only where
+        ``info.adaptive`` is not empty.
         """
         ...
 
     def bare_calls(self, theta: Array, omega: Array, threads: int) -> Mapping[str, BareCall]:
-        """Its barest ways to accelerations, by the names that its users know, prepared to be timed.
+        """The engine's shortest ways to accelerations, by the names that its users know, prepared to be timed.
 
-        A call works on all the states (B, n), or on the first alone. An adapter may leave this out.
+        Each works on all the states (B, n), with ``threads`` threads where it has them, or on the first state alone.
+        Optional: for ``furiko bench``.
         """
         ...
 
     def native(self) -> Native:
-        """Its accelerations in its own coordinates, one state a call; an adapter may leave this out."""
+        """The engine's accelerations in its own coordinates, one state a call. Optional: for ``furiko bench``."""
         ...
 
     def lighter(self) -> Mapping[str, Callable[[], AbstractContextManager[None]]]:
-        """Contexts in which its calls are spared what its bindings alone add, by name; it may leave this out."""
+        """By name, contexts in which calls lack an overhead that only the engine's Python bindings add.
+
+        Optional: for ``furiko bench``.
+        """
+        ...
+
+    def gap(self) -> float:
+        """Largest distance [m] between the two points that a joint holds together, at the end of the last run.
+
+        Optional: only where joints are constraints (maximal coordinates), which a solver satisfies approximately.
+        """
         ...

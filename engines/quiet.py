@@ -1,4 +1,4 @@
-"""Engines write warnings past Python, to the process's own standard streams: here they lead nowhere for a while."""
+"""Silences engines that write warnings past Python, to the standard streams of the process."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def silenced() -> Iterator[None]:
-    """Standard output and error of the whole process to nowhere."""
+    """Discard standard output and standard error of the whole process in this context."""
     for stream in (sys.stdout, sys.stderr):
         if stream is not None:
             stream.flush()

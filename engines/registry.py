@@ -1,4 +1,4 @@
-"""The engines: what each is and can do, as data; and the only place where one is imported."""
+"""The engines that furiko knows, as data, and the functions that look one up and load it."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ ENGINES: dict[str, EngineInfo] = {
             moments="tree",  # mjData.cinert, cdof, cvel and cacc are "com-based", about subtree_com of the root body
             integrators=(Integrator("Euler", 1), Integrator("implicitfast", 1), Integrator("RK4", 4)),
             largest_n=1000,
-            largest_n_reason="its compiler gives up on bodies nested 1024 deep",
+            largest_n_reason="its compiler fails on bodies nested 1024 deep",
             least_mass=1e-15,
             least_inertia=1e-15,
             least_reason="it puts 1e-15 (mjMINVAL) in the place of anything less in the mass matrix",
@@ -112,7 +112,7 @@ def engine_names() -> list[str]:
 
 
 def engine_info(name: str) -> EngineInfo:
-    """What an engine is and can do.
+    """An engine's name and capabilities, without importing the engine.
 
     ``name``: one of :func:`engine_names`, or ``package.module:Class`` for an adapter from elsewhere, a class with an
     :class:`EngineInfo` as its attribute ``info``. Raises :class:`InvalidInput` where there is none such.
@@ -140,7 +140,7 @@ def engine_version(name: str) -> str:
 
 
 def cannot(info: EngineInfo, system: System) -> str | None:
-    """Why an engine cannot take a system, in a sentence; None where it can."""
+    """A sentence on why an engine cannot take a system; None where it can."""
     if system.n > info.largest_n:
         return f"{info.name} takes at most {info.largest_n} links, not {system.n}: {info.largest_n_reason}"
     for number, link in enumerate(system.tree().links, start=1):
@@ -155,7 +155,9 @@ def cannot(info: EngineInfo, system: System) -> str | None:
 
 
 def load_engine(name: str, system: System) -> AnyShape:
-    """Import an engine and give it a system.
+    """Import an engine and build its model of a system.
+
+    ``name``: as for :func:`engine_info`.
 
     Raises :class:`InvalidInput` for an unknown engine or a system that it cannot take (before anything is imported or
     allocated), :class:`EngineMissing` where the engine cannot be imported.
@@ -182,7 +184,7 @@ def _adapter(path: str) -> Any:
 
 
 def _require(info: EngineInfo) -> None:
-    """Import the engine's own module, or say how to get it."""
+    """Import the engine's own module. Raises :class:`EngineMissing` with how to install it."""
     if not info.module:
         return
     advice = f"{info.name} needs the package {info.package!r}: pip install {info.package}"

@@ -1,4 +1,4 @@
-"""Whatever shape a state comes in, rows for the adapter; and what the adapter gives back, held to its shape."""
+"""Checks what an adapter is given and what it answers, and turns states of any shape into rows for it."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from .protocol import Array, BareCall, Engine, ModelFields, Native
 class AnyShape:
     """An engine that takes states of any leading shape (..., n), and answers in the same.
 
-    It refuses input that makes no state with :class:`InvalidInput`, and what the engine's ``info`` calls missing with
-    that sentence. An answer of the wrong shape raises RuntimeError: it is the engine's fault. NaN passes.
+    Input that is no state, and questions that the engine's ``info`` calls missing, raise :class:`InvalidInput`. An
+    answer of the wrong shape raises RuntimeError: it is the engine's fault. NaN in an answer is passed on.
     """
 
     def __init__(self, engine: Engine, info: EngineInfo, n: int) -> None:
@@ -52,7 +52,7 @@ class AnyShape:
         return self._batched(forces, (self._n,), theta=theta, omega=omega, alpha=alpha)
 
     def joint_forces(self, theta: ArrayLike, omega: ArrayLike, alpha: ArrayLike) -> Array:
-        """Force (x, z) [N] of each link on what carries it, shape (..., n, 2)."""
+        """Force (x, z) [N] of each link on its parent or the support, shape (..., n, 2)."""
         self._refuse_missing("joint_forces")
         return self._batched(self._engine.joint_forces, (self._n, 2), theta=theta, omega=omega, alpha=alpha)
 
@@ -95,7 +95,7 @@ class AnyShape:
         return self._held(angles, (self._n,)), self._held(rates, (self._n,))
 
     def bare_calls(self, theta: ArrayLike, omega: ArrayLike, threads: int = 1) -> Mapping[str, BareCall]:
-        """The engine's barest ways to the accelerations of states (B, n), to be timed; none if it offers none."""
+        """The engine's shortest ways to the accelerations of states (B, n), to be timed; empty if it offers none."""
         if not hasattr(self._engine, "bare_calls"):
             return {}
         return self._engine.bare_calls(_numbers("theta", theta), _numbers("omega", omega), threads)
@@ -105,17 +105,17 @@ class AnyShape:
         return self._engine.native() if hasattr(self._engine, "native") else None
 
     def lighter(self) -> Mapping[str, Callable[[], AbstractContextManager[None]]]:
-        """Contexts in which the engine is spared what its bindings alone add to each call, by name."""
+        """By name, contexts in which calls lack an overhead that only the engine's Python bindings add."""
         return self._engine.lighter() if hasattr(self._engine, "lighter") else {}
 
     def gap(self) -> float | None:
-        """How far a joint has come apart [m] at the end of the last run; None where joints cannot."""
+        """Largest violation of a joint's constraint [m] at the end of the last run; None without constraints."""
         return float(self._engine.gap()) if hasattr(self._engine, "gap") else None
 
     def _start(
         self, theta: ArrayLike, omega: ArrayLike, integrator: str, step: float, steps: int
     ) -> tuple[Array, Array]:
-        """One state, (n,) each, after all that a run is given has been looked at."""
+        """One state, (n,) each, once all arguments of a run have been checked."""
         self._refuse_missing("trajectory")
         known = [scheme.name for scheme in self.info.integrators]
         if integrator not in known:

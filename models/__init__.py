@@ -1,4 +1,7 @@
-"""What is simulated: the mechanisms, the scenes they stand in, and the model files written from them."""
+"""The mechanisms that are simulated, their scenes and states, and the model files read and written.
+
+May import nothing else of furiko: everything else rests on it.
+"""
 
 from .errors import EngineMissing, InvalidInput
 from .scene import Scene, catalogue, find_scene, find_scenes

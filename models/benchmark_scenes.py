@@ -1,4 +1,4 @@
-"""The motions that ``furiko bench`` times unless it is told others: rods that start at rest, fanned out."""
+"""The scenes that ``furiko bench`` times by default: rods that start at rest with rising angles."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The two failures that are the user's to mend: bad input, and an engine that is missing."""
+"""The two errors that a user can correct: invalid input, and an engine that is not installed."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from collections.abc import Iterable
 
 
 class InvalidInput(ValueError):
-    """Something a user gave does not make sense; the message says what, where, and what would be right."""
+    """A user's input is invalid; the message says what, where, and what would be right."""
 
 
 class EngineMissing(RuntimeError):
-    """An engine that was asked for cannot be imported here; the message says how to install it."""
+    """An engine that was asked for cannot be imported; the message says how to install it."""
 
 
 def nearest(word: str, known: Iterable[str]) -> str:

@@ -1,6 +1,6 @@
-"""A scene: a mechanism, the states it is looked at in, and how long it moves; read from a TOML file.
+"""A scene: a mechanism, the states in which it is compared, and the duration of its motion; read from a TOML file.
 
-The catalogue's own scenes stand in ``catalogue/`` beside this file, one a file, in the format that a user's own have.
+The scenes of the catalogue are in ``catalogue/`` beside this file, one a file, in the same format as a user's own.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ RANDOM_STATES = 200
 
 @dataclass(frozen=True)
 class Scene:
-    """One row of the catalogue, or one file of a user's.
+    """One scene of the catalogue, or of a user's file.
 
-    ``theta`` [rad] and ``omega`` [rad/s] are the state that a trajectory starts from, n each, or None where the file
-    gives none; ``duration`` [s], 0 for no trajectory. ``random`` and ``named`` say in which further states
-    instantaneous quantities are compared (:func:`furiko.models.states.states`). ``equations`` names what of the
-    documents this scene exercises.
+    ``theta`` [rad] and ``omega`` [rad/s], (n,) each: the state that a trajectory starts from, or None where the file
+    gives none; ``duration`` [s], 0 for no trajectory. ``random``: number of random states, ``named``: names of further
+    states, in which accelerations, forces and energies are compared (:func:`furiko.models.states.states`).
+    ``equations``: the documents' equations that this scene exercises.
     """
 
     name: str

@@ -1,4 +1,7 @@
-"""Rigid bodies in space: how files write rotations, and how inertias are turned, moved and added."""
+"""Rigid bodies in space: poses, rotations as files write them, and inertias transformed, shifted and added.
+
+Rotation matrices act on column vectors: a vector with components v in the rotated frame has R v in the outer one.
+"""
 
 from __future__ import annotations
 
@@ -14,33 +17,39 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Pose:
-    """Where a frame is in another: ``turn`` (3, 3) and ``shift`` [m] (3,); a point p of it is turn·p + shift there."""
+    """A frame in an outer frame: the point p of the one is ``rotation`` p + ``translation`` in the other.
 
-    turn: Array
-    shift: Array
+    ``rotation`` (3, 3) is orthogonal, ``translation`` (3,) in m. ``a @ b`` is b, given in a, in a's outer frame.
+    """
+
+    rotation: Array
+    translation: Array
 
     def __matmul__(self, other: Pose) -> Pose:
-        return Pose(self.turn @ other.turn, self.turn @ other.shift + self.shift)
+        return Pose(self.rotation @ other.rotation, self.rotation @ other.translation + self.translation)
 
     def point(self, p: Array) -> Array:
-        """A point of this frame in the other."""
-        return np.asarray(self.turn @ p + self.shift)
+        """A point (3,) of this frame in the outer frame [m]."""
+        return np.asarray(self.rotation @ p + self.translation)
 
 
-HERE = Pose(np.eye(3), np.zeros(3))
+IDENTITY = Pose(np.eye(3), np.zeros(3))
 
 
 @dataclass(frozen=True)
 class Inertial:
-    """Mass [kg], centre of mass [m] (3,) and inertia tensor about it [kg m²] (3, 3), in some frame's axes."""
+    """``mass`` [kg], ``centre`` of mass [m] (3,) and inertia ``tensor`` about it [kg m²] (3, 3), in one frame's axes.
+
+    ``a + b``: the inertial of both bodies, fixed together.
+    """
 
     mass: float
     centre: Array
     tensor: Array
 
-    def seen_from(self, pose: Pose) -> Inertial:
-        """The same in the frame that ``pose`` is given in."""
-        return Inertial(self.mass, pose.point(self.centre), pose.turn @ self.tensor @ pose.turn.T)
+    def transformed(self, pose: Pose) -> Inertial:
+        """The same inertial in the outer frame of ``pose``; it is given in the inner one."""
+        return Inertial(self.mass, pose.point(self.centre), pose.rotation @ self.tensor @ pose.rotation.T)
 
     def __add__(self, other: Inertial) -> Inertial:
         if other.mass == 0 and not other.tensor.any():
@@ -50,19 +59,19 @@ class Inertial:
         mass = self.mass + other.mass
         share = other.mass / mass if mass > 0 else 0.5
         centre = self.centre + share * (other.centre - self.centre)
-        return Inertial(mass, centre, self.about(centre) + other.about(centre))
+        return Inertial(mass, centre, self.tensor_about(centre) + other.tensor_about(centre))
 
-    def about(self, point: Array) -> Array:
-        """The tensor about another point."""
+    def tensor_about(self, point: Array) -> Array:
+        """The inertia tensor [kg m²] (3, 3) about ``point`` (3,) [m], by the parallel axis theorem."""
         r = self.centre - point
         return np.asarray(self.tensor + self.mass * (r @ r * np.eye(3) - np.outer(r, r)))
 
 
-NOTHING = Inertial(0.0, np.zeros(3), np.zeros((3, 3)))
+ZERO_INERTIAL = Inertial(0.0, np.zeros(3), np.zeros((3, 3)))
 
 
 def from_quaternion(q: Any) -> Array:
-    """The rotation of a quaternion (w, x, y, z) of any length but zero."""
+    """The rotation matrix (3, 3) of a quaternion (w, x, y, z) of any length but zero."""
     w, x, y, z = np.asarray(q, dtype=np.float64) / math.hypot(*q)
     return np.array(
         [
@@ -73,9 +82,12 @@ def from_quaternion(q: Any) -> Array:
     )
 
 
-def to_quaternion(turn: Array) -> Array:
-    """The quaternion (w, x, y, z) of a rotation: the eigenvector that belongs to it, well defined at every angle."""
-    m = turn
+def to_quaternion(rotation: Array) -> Array:
+    """The unit quaternion (w, x, y, z), w ≥ 0, of a rotation matrix.
+
+    The eigenvector of the largest eigenvalue of Bar-Itzhack's matrix, well defined at every angle.
+    """
+    m = rotation
     k = np.array(
         [
             [m[0, 0] + m[1, 1] + m[2, 2], m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]],
@@ -88,8 +100,8 @@ def to_quaternion(turn: Array) -> Array:
     return np.asarray(q if q[0] >= 0 else -q)
 
 
-def about(axis: Any, angle: float) -> Array:
-    """The rotation by ``angle`` [rad] about ``axis``, of any length but zero."""
+def from_axis_angle(axis: Any, angle: float) -> Array:
+    """The rotation matrix by ``angle`` [rad] about ``axis`` (3,), of any length but zero (Rodrigues' formula)."""
     x, y, z = np.asarray(axis, dtype=np.float64) / math.hypot(*axis)
     c, s = math.cos(angle), math.sin(angle)
     d = 1 - c
@@ -104,11 +116,11 @@ def about(axis: Any, angle: float) -> Array:
 
 def from_euler(angles: Any, sequence: str) -> Array:
     """Successive rotations [rad] about x, y, z: lower case about the moved axes, upper case about the fixed ones."""
-    turn = np.eye(3)
+    rotation = np.eye(3)
     for angle, letter in zip(angles, sequence, strict=True):
-        step = about(np.eye(3)["xyz".index(letter.lower())], angle)
-        turn = turn @ step if letter.islower() else step @ turn
-    return turn
+        step = from_axis_angle(np.eye(3)["xyz".index(letter.lower())], angle)
+        rotation = rotation @ step if letter.islower() else step @ rotation
+    return rotation
 
 
 def from_roll_pitch_yaw(angles: Any) -> Array:
@@ -117,17 +129,17 @@ def from_roll_pitch_yaw(angles: Any) -> Array:
 
 
 def from_z_axis(z: Any) -> Array:
-    """The least rotation that takes the third axis to ``z``."""
+    """The rotation by the smallest angle that takes the third axis to the direction of ``z`` (3,)."""
     direction = np.asarray(z, dtype=np.float64) / math.hypot(*z)
     axis = np.cross([0.0, 0.0, 1.0], direction)
     sine = math.hypot(*axis)
     if sine < 1e-300:
         return np.eye(3) if direction[2] > 0 else np.diag([1.0, -1.0, -1.0])
-    return about(axis, math.atan2(sine, direction[2]))
+    return from_axis_angle(axis, math.atan2(sine, direction[2]))
 
 
 def from_x_and_y(six: Any) -> Array:
-    """The rotation whose first axis is along the first three numbers, the second in their plane with the last three."""
+    """MJCF's ``xyaxes``: first axis along the first three numbers, second in their plane with the last three."""
     x = np.asarray(six[:3], dtype=np.float64) / math.hypot(*six[:3])
     y = np.asarray(six[3:], dtype=np.float64)
     y = y - (x @ y) * x
@@ -136,5 +148,5 @@ def from_x_and_y(six: Any) -> Array:
 
 
 def symmetric(xx: float, yy: float, zz: float, xy: float, xz: float, yz: float) -> Array:
-    """The symmetric tensor of these six."""
+    """The symmetric tensor (3, 3) of these six components."""
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])

@@ -1,4 +1,4 @@
-"""The states in which a scene's instantaneous quantities are compared."""
+"""The states in which a scene's accelerations, forces and energies are compared: given, named and random ones."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from .systems import System
 Array = NDArray[np.float64]
 
 # Random angles and rates are multiples of this, so that differences of neighbouring angles (an engine's relative
-# coordinates) are exact and no comparison is blurred by how its input was rounded.
+# coordinates) are exact and no comparison depends on how its input was rounded.
 QUANTUM = 2.0**-40
 
 
 @dataclass(frozen=True)
 class States:
-    """``theta`` [rad] and ``omega`` [rad/s], shape (B, n), and a label for each of the B."""
+    """``theta`` [rad] and ``omega`` [rad/s], shape (B, n), and a label for each of the B states."""
 
     labels: tuple[str, ...]
     theta: Array
@@ -31,13 +31,13 @@ class States:
         return len(self.labels)
 
     def only(self, chosen: NDArray[np.bool_]) -> States:
-        """Some of them."""
+        """The states where ``chosen`` (B,) is true."""
         labels = tuple(label for label, taken in zip(self.labels, chosen, strict=True) if taken)
         return States(labels, self.theta[chosen], self.omega[chosen])
 
 
 def states(scene: Scene, random: int | None = None) -> States:
-    """The scene's given state, its named ones, then its random ones (``random`` of them instead of the scene's)."""
+    """The scene's given state, its named ones, then its random ones; at most ``random`` of these, if given."""
     system = scene.system
     labels: list[str] = []
     rows: list[tuple[Array, Array]] = []
@@ -58,13 +58,13 @@ def states(scene: Scene, random: int | None = None) -> States:
 
 
 def natural_rate(system: System) -> float:
-    """√(g/L) of the longest way down [rad/s]; 1 where there is no gravity."""
+    """√(g/L) [rad/s], L being the length of the longest chain of links; 1 where there is no gravity."""
     reach = sum(system.lengths) if system.kind == "rod-chain" else system.lengths[0] + max(system.lengths[1:])
     return math.sqrt(system.gravity / reach) or 1.0
 
 
 def named_state(word: str, system: System) -> tuple[Array, Array]:
-    """θ [rad] and ω [rad/s] of one of the states that have a name, shape (n,) each."""
+    """θ [rad] and ω [rad/s], shape (n,) each, of one of :data:`furiko.models.scene.NAMED_STATES`. Else ValueError."""
     n = system.n
     rest = np.zeros(n)
     index = np.arange(1, n + 1)
@@ -86,7 +86,7 @@ def named_state(word: str, system: System) -> tuple[Array, Array]:
 def random_states(seed: str, system: System, count: int) -> tuple[Array, Array]:
     """Angles uniform on the circle, rates uniform within six times the natural rate; shape (count, n) each.
 
-    ``seed`` is a word (a scene's name). The first 20 of 200 states are the same as 20 asked for alone.
+    ``seed`` is a word (a scene's name). The first 20 of 200 states are the same as 20 states asked for alone.
     """
     digest = hashlib.sha256(seed.encode()).digest()
     generator = np.random.Generator(np.random.PCG64(int.from_bytes(digest[:16], "big")))
@@ -95,5 +95,5 @@ def random_states(seed: str, system: System, count: int) -> tuple[Array, Array]:
 
 
 def quantised(values: NDArray[np.floating]) -> Array:
-    """Rounded to multiples of :data:`QUANTUM`."""
+    """The values rounded to multiples of :data:`QUANTUM`."""
     return np.asarray(np.round(values / QUANTUM) * QUANTUM, dtype=np.float64)

@@ -1,4 +1,4 @@
-"""The two mechanisms of the documents, checked when they are made.
+"""The two mechanisms of the documents, validated when they are created.
 
 Both are planar, hang from the origin, and are described by absolute angles from the downward vertical,
 counter-clockwise positive: a positive angle moves the bob to +x. SI units throughout.
@@ -21,7 +21,7 @@ SMALLEST, LARGEST = 1e-50, 1e50
 
 
 class System(Protocol):
-    """What every part of furiko may ask of a mechanism."""
+    """A mechanism, as every part of furiko uses it."""
 
     @property
     def n(self) -> int:
@@ -45,11 +45,11 @@ class System(Protocol):
 
     @property
     def kind(self) -> str:
-        """The word for it in scene files: ``n-leg`` or ``rod-chain``."""
+        """Its name in scene files: ``n-leg`` or ``rod-chain``."""
         ...
 
     def tree(self) -> PlanarTree:
-        """The planar tree of hinged links that this mechanism is."""
+        """The same mechanism as a planar tree of links."""
         ...
 
 
@@ -57,8 +57,8 @@ class System(Protocol):
 class NLegPendulum:
     """Shiki 2020: one point mass on a rod, with N further point masses hanging from it, each on a rod of its own.
 
-    ``lengths[0]`` [m] and ``masses[0]`` [kg] are the document's l₁ and m₁; the N ≥ 1 legs follow. Rods weigh
-    nothing. ``gravity`` [m/s²] points along -z. Raises :class:`InvalidInput` where a value makes no mechanism.
+    ``lengths[0]`` [m] and ``masses[0]`` [kg] are the document's l₁ and m₁; the N ≥ 1 legs follow. Rods have
+    no mass. ``gravity`` [m/s²] points along -z. Raises :class:`InvalidInput` where a value makes no mechanism.
     """
 
     lengths: tuple[float, ...]
@@ -142,7 +142,7 @@ class RodChain:
 
 
 def number(field: str, value: object) -> float:
-    """``value`` as a float; :class:`InvalidInput` naming ``field`` where it is no number."""
+    """``value`` as a float. Raises :class:`InvalidInput` naming ``field`` where it is not a number."""
     if isinstance(value, bool) or not isinstance(value, Real):
         raise InvalidInput(f"{field}: a number is needed, got {value!r:.60}")
     try:

@@ -1,4 +1,4 @@
-"""The planar tree of hinged links: the one form from which model files are written and engines are built.
+"""A planar tree of links on hinges: the form from which model files are written and engines' models are built.
 
 Frame of a link: origin at its hinge, first axis *along* the link (down when its angle is zero), second axis *across*
 (to +x when its angle is zero). Points in it are pairs ``(along, across)`` [m]. Angles are absolute.
@@ -15,9 +15,10 @@ SUPPORT = -1  # the parent of a link that hangs from the fixed support
 class Link:
     """One rigid link.
 
-    ``parent``: index of the link that carries it, smaller than its own, or :data:`SUPPORT`; ``hinge``: where on the
-    parent, in the parent's frame [m]; ``com``: centre of mass in its own frame [m]; ``mass`` [kg]; ``inertia``: about
-    the centre of mass and the hinge axis [kg m²], zero for a point mass; ``length``: what to draw [m].
+    ``parent``: index of the link that it hangs on, smaller than its own, or :data:`SUPPORT`; ``hinge``: their joint in
+    the parent's frame, (along, across) [m]; ``com``: centre of mass in its own frame [m]; ``mass`` [kg]; ``inertia``:
+    about the centre of mass and an axis parallel to the hinge's [kg m²], zero for a point mass; ``length``: of the
+    drawing [m].
     """
 
     parent: int
@@ -30,7 +31,7 @@ class Link:
 
 @dataclass(frozen=True)
 class PlanarTree:
-    """Links in an order in which every parent comes before its children, and gravity along -z [m/s²]."""
+    """Links, every parent before its children, and gravity along -z [m/s²]. Raises ValueError for another order."""
 
     links: tuple[Link, ...]
     gravity: float
@@ -47,24 +48,24 @@ class PlanarTree:
 
     @property
     def parents(self) -> tuple[int, ...]:
-        """Parent of each link, :data:`SUPPORT` for those on the support."""
+        """Index of each link's parent, :data:`SUPPORT` for links on the support."""
         return tuple(link.parent for link in self.links)
 
     @property
     def depth(self) -> int:
-        """Number of links on the longest way from the support to a tip."""
+        """Number of links of the longest chain from the support to a tip."""
         depths: list[int] = []
         for link in self.links:
             depths.append(1 if link.parent == SUPPORT else depths[link.parent] + 1)
         return max(depths, default=0)
 
     def names(self, prefix: str) -> tuple[str, ...]:
-        """``prefix`` and the document's number of each link, zero-padded so that every sorting keeps the order."""
+        """``prefix`` with each link's number from 1, zero-padded so that sorting by name keeps the order."""
         width = len(str(self.n))
         return tuple(f"{prefix}{i:0{width}}" for i in range(1, self.n + 1))
 
     def children(self) -> tuple[tuple[int, ...], ...]:
-        """The links that hang from each link."""
+        """Indices of each link's children."""
         found: list[list[int]] = [[] for _ in self.links]
         for i, link in enumerate(self.links):
             if link.parent != SUPPORT:
@@ -72,5 +73,5 @@ class PlanarTree:
         return tuple(map(tuple, found))
 
     def roots(self) -> tuple[int, ...]:
-        """The links that hang from the support."""
+        """Indices of the links on the support."""
         return tuple(i for i, link in enumerate(self.links) if link.parent == SUPPORT)

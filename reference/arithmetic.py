@@ -155,7 +155,8 @@ def ball_matrix(a: Array) -> Any:
     """An array of balls, shape (rows, columns), as flint's own matrix."""
     from flint import arb_mat
 
-    return arb_mat(*a.shape, a.ravel().tolist())
+    rows, columns = a.shape
+    return arb_mat(rows, columns, a.ravel().tolist())
 
 
 def floats(dtype: Any = np.float64) -> Arithmetic:

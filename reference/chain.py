@@ -48,7 +48,9 @@ def small_swings(n: int, links: Links, count: int, length: float = LENGTH, gravi
         from scipy.sparse.linalg import eigsh
 
         M, K = (
-            diags_array([band[1][1:], band[0], band[1][1:]], offsets=[-1, 0, 1]).tocsc() for band in (mass, stiffness)
+            # scipy has no types: the one of its default, 0, is taken for the only one.
+            diags_array([band[1][1:], band[0], band[1][1:]], offsets=[-1, 0, 1]).tocsc()  # pyright: ignore[reportArgumentType]
+            for band in (mass, stiffness)
         )
         start = np.linspace(0, 1, n)  # fixed: the solver's own would be random
         squares = np.sort(eigsh(K, k=count, M=M, sigma=0, v0=start, tol=0, return_eigenvectors=False))

@@ -194,8 +194,8 @@ def _complex(along_across: tuple[float, float]) -> Any:
 
 
 def _rows(point: Array, angle: Array) -> Array:
-    return np.stack([point.real, point.imag, angle.astype(Wide)], axis=1).ravel()
+    return np.stack([np.real(point), np.imag(point), angle.astype(Wide)], axis=1).ravel()
 
 
 def _pairs(point: Array) -> Array:
-    return np.stack([point.real, point.imag], axis=1).ravel()
+    return np.stack([np.real(point), np.imag(point)], axis=1).ravel()

@@ -1,1 +1,4 @@
-"""Measurements over many runs: the benchmark and the stress test."""
+"""Measurements over many runs: the benchmark and the stress test.
+
+May import models, records, reference, engines and checks.
+"""

@@ -11,7 +11,9 @@ ROOMS = ("models", "records", "reference", "engines", "diagnosis", "checks", "st
 def files() -> list[Path]:
     """Every module of the rooms and of furiko/ itself, relative to the root; links are not entered twice."""
     own = [path for path in (ROOT / "furiko").rglob("*.py") if not _linked(path)]
-    return sorted(path.relative_to(ROOT) for path in [*own, *(p for room in ROOMS for p in (ROOT / room).rglob("*.py"))])
+    return sorted(
+        path.relative_to(ROOT) for path in [*own, *(p for room in ROOMS for p in (ROOT / room).rglob("*.py"))]
+    )
 
 
 def _linked(path: Path) -> bool:
@@ -64,7 +66,7 @@ def imports(path: Path, *, lazy: bool = True) -> Iterator[str]:
 
 def room(module: str) -> str:
     """The folder at the root."""
-    return module.split(".")[0]
+    return module.split(".", maxsplit=1)[0]
 
 
 def folder(module: str) -> str:

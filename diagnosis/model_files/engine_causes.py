@@ -79,7 +79,7 @@ def _by_what_it_compiled(
     for ignored in IGNORED_TOGETHER:
         acting = with_hinges_cleared(held, ignored)
         if measured.worst(planar.parameters(acting)) <= 1:
-            hinges = tuple(replace(h, stops=w.stops) for h, w in zip(acting.hinges, theory.hinges, strict=True))
+            hinges = tuple(replace(h, limits=w.limits) for h, w in zip(acting.hinges, theory.hinges, strict=True))
             faults = possible_reader_faults(file)
             found = differences(replace(acting, hinges=hinges), theory, who, "the file says", faults)
             return inertia_from_geoms(file, found, who) + found

@@ -30,8 +30,8 @@ def rearranged(found: Mechanism, order: Sequence[int], turns: Sequence[float]) -
         base = turns[parent] if parent != SUPPORT else 0.0
         links.append(replace(link, parent=parent, hinge=_turn(link.hinge, -base), com=_turn(link.com, -turns[new])))
         shift = turns[new] - base
-        stops = None if hinge.stops is None else (hinge.stops[0] - shift, hinge.stops[1] - shift)
-        hinges.append(replace(hinge, rest=hinge.rest - shift if hinge.stiffness else 0.0, stops=stops))
+        stops = None if hinge.limits is None else (hinge.limits[0] - shift, hinge.limits[1] - shift)
+        hinges.append(replace(hinge, rest=hinge.rest - shift if hinge.stiffness else 0.0, limits=stops))
     return replace(
         found,
         links=tuple(links),
@@ -44,7 +44,7 @@ def mirrored(found: Mechanism) -> Mechanism:
     """The same mechanism seen from behind: all angles change sign."""
     links = tuple(replace(k, hinge=(k.hinge[0], -k.hinge[1]), com=(k.com[0], -k.com[1])) for k in found.links)
     hinges = tuple(
-        replace(h, rest=-h.rest, sense=-h.sense, stops=None if h.stops is None else (-h.stops[1], -h.stops[0]))
+        replace(h, rest=-h.rest, sense=-h.sense, limits=None if h.limits is None else (-h.limits[1], -h.limits[0]))
         for h in found.hinges
     )
     gravity = (found.gravity[0], -found.gravity[1])

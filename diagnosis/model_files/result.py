@@ -9,7 +9,7 @@ from typing import Any
 from ...models.mechanism import Hinge, Mechanism
 from ..finding import CAUSES, Finding
 
-HINGE_NUMBERS = ("armature", "damping", "friction", "stiffness", "rest", "stops")
+HINGE_NUMBERS = ("armature", "damping", "friction", "stiffness", "rest", "limits")
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,9 @@ def mechanism_to_json(mechanism: Mechanism) -> dict[str, Any]:
     links = []
     for i, (link, hinge) in enumerate(zip(mechanism.links, mechanism.hinges, strict=True)):
         not_ideal = {
-            name: getattr(hinge, name) for name in HINGE_NUMBERS if getattr(hinge, name) != getattr(ideal, name)
+            "stops" if name == "limits" else "stops" if name == "limits" else name: getattr(hinge, name)
+            for name in HINGE_NUMBERS
+            if getattr(hinge, name) != getattr(ideal, name)
         }
         links.append(
             {

@@ -1,1 +1,4 @@
-"""A user's own model file in each engine that reads it."""
+"""Adapters that load a user's own model file, MJCF or URDF, into an engine.
+
+May import models and the rest of engines.
+"""

@@ -1,14 +1,14 @@
-"""Engines that read a user's own model file: MuJoCo and Pinocchio by themselves, Exudyn through furiko's reader.
+"""Engines that load a user's own model file: MuJoCo and Pinocchio read it themselves, Exudyn through furiko's reader.
 
-What they are given is :attr:`ModelFile.text`, which furiko's reader has accepted; they are asked in the absolute
-angles of :class:`Mechanism`, like every engine.
+They are given :attr:`ModelFile.text`, which furiko's reader has accepted, and are asked in the absolute angles of
+:class:`Mechanism`, like every engine.
 """
 
 from __future__ import annotations
 
 import importlib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 import numpy as np
@@ -29,15 +29,15 @@ class FileEngine(Protocol):
         ...
 
     def notes(self) -> tuple[str, ...]:
-        """Sentences on what the engine was told besides the file."""
+        """Sentences on changes to the model and settings that are not in the file."""
         ...
 
     def settings(self) -> Mapping[str, Any]:
-        """What else it holds that a report should show."""
+        """Further settings of the engine that a report should show."""
         ...
 
     def accelerations(self, theta: Array, omega: Array, without: frozenset[str] = frozenset()) -> Array:
-        """θ̈ [rad/s²], (B, n); with features of the engine switched off where it has such switches."""
+        """θ̈ [rad/s²], (B, n); ``without`` the features of its reader that are named, see :class:`Reader`."""
         ...
 
     def inverse_dynamics(
@@ -46,11 +46,19 @@ class FileEngine(Protocol):
         """Generalised forces [N m] of the absolute angles, (B, n)."""
         ...
 
+    def contacts(self, theta: Array) -> list[tuple[int, str]]:
+        """Rows of ``theta`` (B, n) in which geoms touch, with the pair's names. Only with the feature ``contact``."""
+        ...
+
 
 @dataclass(frozen=True)
 class Reader:
-    """An engine's way to a file: ``adapter`` module:Class, ``features`` it can switch off, ``honours``: what of a
-    hinge reaches its equations of motion; ``native``: whether it reads the file itself."""
+    """How an engine loads a model file, known without importing it.
+
+    ``adapter``: its class, ``module:Class``; ``module``, ``package``: to import and to install; ``native``: whether the
+    engine reads the file itself; ``features``: those it can switch off; ``without``: fields of a hinge that do not
+    reach its equations of motion.
+    """
 
     name: str
     adapter: str
@@ -61,7 +69,7 @@ class Reader:
     without: tuple[str, ...] = ()
 
     def load(self, model: ModelFile) -> FileEngine:
-        """Import the engine and give it the file. What the engine raises passes through."""
+        """Import the engine and load the file into it. Exceptions of the engine are passed on."""
         module, _, name = self.adapter.partition(":")
         made: FileEngine = getattr(importlib.import_module(module, __package__), name)(model)
         return made
@@ -92,7 +100,10 @@ READERS: dict[str, Reader] = {
 
 
 class FileCoordinates:
-    """Between absolute angles and a file's joint coordinates q = sense·φ + zero, in an engine's order of columns."""
+    """Conversion between absolute angles and a file's joint coordinates q = sense·φ + zero, for rows (B, n).
+
+    ``columns``: the engine's column of each link's hinge.
+    """
 
     def __init__(self, mechanism: Mechanism, columns: list[int]) -> None:
         self._parents = mechanism.parents
@@ -139,14 +150,12 @@ class FileCoordinates:
 
 
 def in_order(found: Mechanism, wanted: Mechanism) -> Mechanism:
-    """``found`` with its links in the order of ``wanted``'s hinges, by name; as it is where they are others."""
+    """``found`` with its links in the order of ``wanted``'s hinges, by name; unchanged where the names differ."""
     names = [hinge.name for hinge in found.hinges]
     order = [names.index(hinge.name) for hinge in wanted.hinges if hinge.name in names]
     if len(order) != found.n:
         return found
     place = {old: new for new, old in enumerate(order)} | {SUPPORT: SUPPORT}
-    from dataclasses import replace
-
     links = tuple(replace(found.links[old], parent=place[found.links[old].parent]) for old in order)
     if any(link.parent >= i for i, link in enumerate(links)):
         return found

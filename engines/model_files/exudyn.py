@@ -1,7 +1,7 @@
-"""A user's model in Exudyn, which reads neither MJCF nor URDF: built from what furiko's reader understood.
+"""A user's model in Exudyn, which reads neither MJCF nor URDF: the model is built by furiko's reader.
 
 It shows whether the equations of motion are right for the file as furiko reads it, not whether furiko reads it right.
-Its kinematic tree has no armature and no dry friction; damping and springs it has.
+Its kinematic tree has damping and springs, but neither armature nor dry friction.
 """
 
 from __future__ import annotations
@@ -20,19 +20,19 @@ from ..protocol import Array
 
 
 @dataclass(frozen=True)
-class _Given:
-    """A tree as an adapter wants its system."""
+class _TreeOnly:
+    """A planar tree in the place of the system that an adapter is made for."""
 
-    given: PlanarTree
+    planar_tree: PlanarTree
 
     def tree(self) -> PlanarTree:
-        return self.given
+        return self.planar_tree
 
 
-class _Driven(ExudynTree):
+class _WithPassiveTorques(ExudynTree):
     """A tree whose hinges have springs and dampers."""
 
-    def drive(self, mechanism: Mechanism) -> None:
+    def set_passive_torques(self, mechanism: Mechanism) -> None:
         hinges, torque = mechanism.hinges, self._units.energy
         for parameter, values in (
             ("jointPControlVector", [hinge.stiffness / torque for hinge in hinges]),
@@ -48,9 +48,9 @@ class ExudynFile:
 
     def __init__(self, model: ModelFile) -> None:
         self._mechanism = mechanism = model.mechanism
-        self._engine = _Driven(_Given(PlanarTree(mechanism.links, mechanism.gravity[0])))  # type: ignore[arg-type]
+        self._engine = _WithPassiveTorques(_TreeOnly(PlanarTree(mechanism.links, mechanism.gravity[0])))  # type: ignore[arg-type]
         if any(hinge.stiffness or hinge.damping for hinge in mechanism.hinges):
-            self._engine.drive(mechanism)
+            self._engine.set_passive_torques(mechanism)
 
     def compiled(self) -> Mechanism:
         fields, mechanism = self._engine.fields(), self._mechanism
@@ -65,11 +65,11 @@ class ExudynFile:
                 strict=True,
             )
         )
-        hinges = tuple(replace(h, armature=0.0, friction=0.0, stops=None) for h in mechanism.hinges)
+        hinges = tuple(replace(h, armature=0.0, friction=0.0, limits=None) for h in mechanism.hinges)
         return replace(mechanism, links=links, hinges=hinges)
 
     def notes(self) -> tuple[str, ...]:
-        said = ["Exudyn reads neither format: built from what furiko's reader understood"]
+        said = ["Exudyn reads neither format: the model was built by furiko's reader"]
         if any(h.armature or h.friction for h in self._mechanism.hinges):
             said.append("Exudyn's kinematic tree has no armature and no dry friction: compared without them")
         return tuple(said)

@@ -1,25 +1,29 @@
 """A user's MJCF or URDF in MuJoCo, read by MuJoCo itself.
 
-The compiler refuses a moving body without inertia; where it does, it is told to lift it (``boundinertia``), and what
-the file says is put into the compiled model, whose equations need no more.
+The compiler refuses a moving body without inertia; where it does, it is made to raise the inertia (``boundinertia``),
+and the file's own number is set in the compiled model, whose equations need no more.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from importlib import import_module
 from typing import Any
 
-import mujoco
 import numpy as np
 
-from ...models.mechanism import Body, Mechanism, SpatialHinge, planar_mechanism
+from ...models.mechanism import Mechanism
+from ...models.projection import Body, SpatialHinge, planar_mechanism
 from ...models.readers.model_file import ModelFile
 from ...models.spatial import Inertial, Pose, from_quaternion
-from ..mujoco import _quiet_data
+from ..mujoco import quiet_data
 from ..protocol import Array
 from .adapter import FileCoordinates, in_order
 
-LIFTED = {"mjcf": 1e-15, "urdf": 1e-14}  # the smallest that its two readers take [kg m²]
+# MuJoCo's bindings have no type stubs that fit: Any, here and nowhere else.
+mujoco: Any = import_module("mujoco")
+
+LEAST_INERTIA = {"mjcf": 1e-15, "urdf": 1e-14}  # the smallest that its two readers accept [kg m²]
 REFUSED = ("mjMINVAL", "positive eigenvalues")
 SWITCHES = {
     "contact": mujoco.mjtDisableBit.mjDSBL_CONTACT,
@@ -35,7 +39,7 @@ class MujocoFile:
     """The file in MuJoCo."""
 
     def __init__(self, model: ModelFile) -> None:
-        # Otherwise a model that is nearly singular has MuJoCo write a file MUJOCO_LOG.TXT into the present folder.
+        # Otherwise MuJoCo writes a file MUJOCO_LOG.TXT into the current folder where a model is nearly singular.
         mujoco.set_mju_user_warning(lambda message: None)
         self._file = model
         self._notes: list[str] = []
@@ -44,9 +48,9 @@ class MujocoFile:
         if self._model.nv != len(hinges):
             raise ValueError(f"MuJoCo compiled {self._model.nv} degrees of freedom, the file has {len(hinges)}")
         columns = [int(self._model.joint(hinge.name).dofadr[0]) for hinge in hinges]
-        if model.language == "urdf":  # which says nothing of gravity
+        if model.language == "urdf":  # which has no gravity
             self._model.opt.gravity[:] = model.mechanism.gravity_vector
-        self._data = _quiet_data(self._model)
+        self._data = quiet_data(self._model)
         self._coordinates = FileCoordinates(model.mechanism, columns)
 
     def _compile(self, file: ModelFile) -> Any:
@@ -55,22 +59,22 @@ class MujocoFile:
         except ValueError as error:
             if not any(words in str(error) for words in REFUSED):
                 raise
-            compiled = self._lifted(file)
+            compiled = self._with_least_inertia(file)
         for body in file.bodies:
             found = mujoco.mj_name2id(compiled, mujoco.mjtObj.mjOBJ_BODY, body.name)
             if found > 0 and not body.inertial.tensor.any():
                 compiled.body_inertia[found] = 0.0
         return compiled
 
-    def _lifted(self, file: ModelFile) -> Any:
-        least = LIFTED[file.language]
+    def _with_least_inertia(self, file: ModelFile) -> Any:
+        least = LEAST_INERTIA[file.language]
         bound = f'<compiler boundinertia="{least!r}"/>'
         if file.language == "urdf":
             bound = f"<mujoco>{bound}</mujoco>"
         start = file.text.index(">") + 1
         compiled = mujoco.MjModel.from_xml_string(file.text[:start] + bound + file.text[start:])
         self._notes.append(
-            f"MuJoCo refuses a moving body without inertia: it was compiled with {least:g} kg m² and set back to none"
+            f"MuJoCo refuses a moving body without inertia: compiled with {least:g} kg m², which was set back to zero"
         )
         return compiled
 
@@ -84,7 +88,7 @@ class MujocoFile:
             turned = Pose(from_quaternion(model.body_iquat[b]), model.body_ipos[b].copy())
             unturned = Inertial(float(model.body_mass[b]), np.zeros(3), np.diag(model.body_inertia[b]))
             name = model.body(b).name
-            bodies.append(Body(name, int(model.body_parentid[b]) - 1, pose, hinges, unturned.seen_from(turned)))
+            bodies.append(Body(name, int(model.body_parentid[b]) - 1, pose, hinges, unturned.transformed(turned)))
         off = model.opt.disableflags & int(SWITCHES["gravity"])
         gravity = np.zeros(3) if off else model.opt.gravity.copy()
         return in_order(planar_mechanism(bodies, gravity, self._file.plane), self._file.mechanism)
@@ -98,17 +102,17 @@ class MujocoFile:
         zero = float(model.qpos0[position])
         limited = bool(model.jnt_limited[joint]) and not no_constraint and not off & int(SWITCHES["limit"])
         low, high = (float(end) - zero for end in model.jnt_range[joint])
-        slips = no_constraint or bool(off & int(SWITCHES["frictionloss"]))
+        frictionless = no_constraint or bool(off & int(SWITCHES["frictionloss"]))
         return SpatialHinge(
             name=name,
             axis=model.jnt_axis[joint].copy(),
             anchor=model.jnt_pos[joint].copy(),
             armature=float(model.dof_armature[dof]),
             damping=0.0 if off & int(SWITCHES["damper"]) else _linear(model.dof_damping[dof]),
-            friction=0.0 if slips else float(model.dof_frictionloss[dof]),
+            friction=0.0 if frictionless else float(model.dof_frictionloss[dof]),
             stiffness=0.0 if off & int(SWITCHES["spring"]) else _linear(model.jnt_stiffness[joint]),
             rest=float(model.qpos_spring[position]) - zero,
-            stops=(low, high) if limited else None,
+            limits=(low, high) if limited else None,
             zero=zero,
         )
 
@@ -124,7 +128,7 @@ class MujocoFile:
         }
 
     def contacts(self, theta: Array) -> list[tuple[int, str]]:
-        """States in which geoms touch, with the pair's names."""
+        """Rows of ``theta`` (B, n) in which geoms touch, with the pair's names."""
         model, data, found = self._model, self._data, []
         for row, q in enumerate(self._coordinates.positions(theta)):
             data.qpos[:], data.qvel[:] = q, 0.0

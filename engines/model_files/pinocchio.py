@@ -1,25 +1,29 @@
 """A user's MJCF or URDF in Pinocchio, read by Pinocchio itself, solved by the articulated-body algorithm.
 
-* Its MJCF reader passes over ``<option gravity>`` and URDF has none: the model is told.
+* Its MJCF reader ignores ``<option gravity>`` and URDF has none: gravity is set in the model.
 * A hinge without limits in URDF (``continuous``) has two coordinates there, its angle's cosine and sine.
-* Damping and friction are held, but no algorithm of forward dynamics applies them: that is the caller's to do.
+* The model has damping and friction, but no algorithm of forward dynamics applies them: the caller must.
 """
 
 from __future__ import annotations
 
 import tempfile
 from collections.abc import Mapping
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pinocchio
 
-from ...models.mechanism import Body, Mechanism, SpatialHinge, planar_mechanism
+from ...models.mechanism import Mechanism
+from ...models.projection import Body, SpatialHinge, planar_mechanism
 from ...models.readers.model_file import ModelFile
-from ...models.spatial import Inertial, Pose, about
+from ...models.spatial import Inertial, Pose, from_axis_angle
 from ..protocol import Array
 from .adapter import FileCoordinates, in_order
+
+# Pinocchio is a C++ extension without types: Any, here and nowhere else.
+pinocchio: Any = import_module("pinocchio")
 
 
 class PinocchioFile:
@@ -40,12 +44,12 @@ class PinocchioFile:
             )
         self._joints = [self._model.getJointId(name) for name in known]
         for j, link in zip(self._joints, model.mechanism.links, strict=True):
-            if link.mass and link.inertia == 0:  # lifted by boundinertia, which its MJCF reader honours
+            if link.mass and link.inertia == 0:  # raised by boundinertia, which its MJCF reader applies
                 held = self._model.inertias[j]
                 self._model.inertias[j] = pinocchio.Inertia(held.mass, held.lever, np.zeros((3, 3)))
         self._data = self._model.createData()
         self._coordinates = FileCoordinates(model.mechanism, [self._model.idx_vs[j] for j in self._joints])
-        # Where each column of rates has its coordinate, and whether that is an angle or its cosine and sine.
+        # For each column of rates: the index of its coordinate, and whether that is an angle or its cosine and sine.
         by_column = sorted(self._joints, key=lambda j: int(self._model.idx_vs[j]))
         self._places = [(int(self._model.idx_qs[j]), int(self._model.nqs[j]) == 2) for j in by_column]
 
@@ -57,7 +61,7 @@ class PinocchioFile:
             axis = np.asarray(self._data.joints[j].S, dtype=np.float64).ravel()[3:]
             zero = zeros.get(name, 0.0)
             placement = model.jointPlacements[j]
-            pose = Pose(placement.rotation @ about(axis, zero), placement.translation.copy())
+            pose = Pose(placement.rotation @ from_axis_angle(axis, zero), placement.translation.copy())
             inertia = model.inertias[j]
             hinge = SpatialHinge(
                 name=name,
@@ -75,7 +79,7 @@ class PinocchioFile:
 
     def notes(self) -> tuple[str, ...]:
         said = (
-            ["Pinocchio was told the file's gravity, which its reader passes over"]
+            ["Pinocchio's reader ignores the file's gravity: it was set in the model"]
             if self._file.language == "mjcf"
             else []
         )
@@ -116,7 +120,7 @@ class PinocchioFile:
 
 
 def _refuse(file: ModelFile) -> None:
-    """What its MJCF reader is known not to take, before it drops it without a word."""
+    """Refuse what its MJCF reader is known to drop silently."""
     if file.language != "mjcf":
         return
     if sum(body.parent < 0 for body in file.bodies) > 1:

@@ -1,10 +1,9 @@
-"""Numbers and words out of an element's attributes; what is wrong with one is said with where it stands."""
+"""Reads numbers and words from the attributes of an element; errors name the file, the line and the attribute."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +17,10 @@ LARGEST = 1e50  # beyond it products of a few numbers overflow
 
 
 def numbers(element: Element, attribute: str, count: int | tuple[int, int], otherwise: Sequence[float] = ()) -> Array:
-    """The attribute's numbers: exactly ``count``, or between two counts; ``otherwise`` where it is not given."""
+    """The attribute's numbers: exactly ``count``, or between two counts; ``otherwise`` where it is not given.
+
+    Like all functions here it raises :class:`InvalidInput` where the attribute is malformed.
+    """
     text = element.attributes.get(attribute)
     if text is None:
         return np.array(otherwise, dtype=np.float64)
@@ -68,7 +70,7 @@ def _number(element: Element, attribute: str, text: str) -> float:
 
 
 def axis(element: Element, attribute: str, otherwise: Sequence[float]) -> Array:
-    """A direction of unit length."""
+    """A direction (3,), scaled to unit length."""
     given = numbers(element, attribute, 3, otherwise)
     length = math.hypot(*given)
     if length < 1e-10:
@@ -76,12 +78,6 @@ def axis(element: Element, attribute: str, otherwise: Sequence[float]) -> Array:
     return np.asarray(given / length)
 
 
-def unique(taken: dict[str, Any], element: Element, name: str) -> None:
-    """Refuse a name that is taken already."""
-    if name in taken:
-        raise element.wrong(f"a second {element.tag} of that name; names must be unique")
-
-
 def refuse(element: Element, says: str) -> InvalidInput:
-    """The error for what no planar tree of hinges has."""
+    """The error for an element that no planar tree of hinges has, to be raised."""
     return element.wrong(f"{says}: not a planar tree of hinges")

@@ -1,4 +1,4 @@
-"""A user's model file, MJCF or URDF, as furiko understands it: accepted here before any engine sees it."""
+"""A user's model file, MJCF or URDF, as furiko understands it: validated here before any engine reads it."""
 
 from __future__ import annotations
 
@@ -9,23 +9,27 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import InvalidInput
-from ..mechanism import Body, Mechanism, Plane, planar_mechanism
+from ..mechanism import Mechanism
+from ..projection import Body, Plane, planar_mechanism
 from ..spatial import Inertial
 from .attributes import Array
-from .mjcf import Mjcf, read_mjcf
+from .mjcf.document import Mjcf, read_mjcf
 from .urdf import Urdf, read_urdf
 from .xml_file import Element, parse_xml, read_xml, write_xml
 
 
 @dataclass(frozen=True)
 class ModelFile:
-    """``language``: ``mjcf`` or ``urdf``; ``mechanism``: the planar tree that it describes; ``bodies`` and ``plane``:
-    the same in space. ``text``: what engines are given: the file's own words, included files put in place, less what
-    cannot matter (meshes, sensors, cameras). ``notes``: sentences on what was left out or taken for granted.
+    """A model file that furiko has accepted.
 
-    ``from_geoms``: bodies whose inertial is that of their geoms; ``geoms``: what each body's geoms would make it;
-    ``tensors``: each body's inertial before its rotation, and that rotation; ``continuous``: hinges without limits to
-    which Pinocchio gives two coordinates.
+    ``language``: ``mjcf`` or ``urdf``; ``mechanism``: the planar tree that it describes; ``bodies`` and ``plane``: the
+    same in space. ``text``: the document that engines are given: the file's own elements with included files put in
+    place, without those that cannot matter (meshes, sensors, cameras). ``notes``: sentences on what was left out or
+    assumed. ``timestep`` [s] and ``integrator``: MJCF's options.
+
+    By the name of a body: ``from_geoms``: bodies whose inertial is that of their geoms; ``geoms``: the inertial that
+    its geoms have together; ``tensors``: its inertial before its rotation, and that rotation (3, 3). ``continuous``:
+    URDF joints without limits, which have two coordinates in Pinocchio.
     """
 
     path: str
@@ -52,7 +56,7 @@ def read_model(path: str | Path) -> ModelFile:
 
 
 def model_from_text(text: str, name: str = "model") -> ModelFile:
-    """The same from a text; includes are looked for in the present folder."""
+    """Read an MJCF or URDF text, called ``name`` in messages; includes are looked for in the current folder."""
     return _understand(parse_xml(text.encode(), name), Path(name))
 
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..errors import InvalidInput
-from ..mechanism import MOST_BODIES, Body, SpatialHinge
-from ..spatial import HERE, NOTHING, Inertial, Pose, from_roll_pitch_yaw, symmetric
+from ..projection import MOST_BODIES, Body, SpatialHinge
+from ..spatial import IDENTITY, ZERO_INERTIAL, Inertial, Pose, from_roll_pitch_yaw, symmetric
 from .attributes import Array, axis, not_negative, number, numbers, refuse, word
 from .xml_file import Element
 
@@ -21,20 +21,23 @@ SIX = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 
 @dataclass
 class Urdf:
-    """A URDF file as furiko understands it; ``root`` is what engines are given. It says nothing of gravity."""
+    """A URDF file as furiko understands it.
+
+    ``root``: the elements that engines are given; ``bodies``: parents first; ``gravity`` (3,) [m/s²], assumed, since
+    URDF has none; ``tensors``: by link, its inertial before its rotation, and that rotation (3, 3); ``continuous``:
+    joints of that type.
+    """
 
     root: Element
     bodies: list[Body]
     gravity: Array
     notes: list[str] = field(default_factory=list)
-    tensors: dict[str, tuple[Inertial, Array]] = field(
-        default_factory=dict
-    )  # inertial before it is turned, and the turn
+    tensors: dict[str, tuple[Inertial, Array]] = field(default_factory=dict)
     continuous: list[str] = field(default_factory=list)
 
 
 def read_urdf(root: Element) -> Urdf:
-    """Understand a URDF document. Raises :class:`InvalidInput`."""
+    """Understand a URDF document. Raises :class:`InvalidInput` naming the element that is wrong."""
     kept = Element("robot", {"name": root.get("name") or "robot"}, root.file, root.line)
     file = Urdf(kept, [], np.array([0.0, 0.0, -9.81]))
     file.notes.append("URDF says nothing of gravity: 9.81 m/s² along −z is taken")
@@ -50,7 +53,7 @@ def read_urdf(root: Element) -> Urdf:
     for name, value in _extension(root).items():
         kept.children.append(Element("mujoco", {}, root.file, root.line, [Element("compiler", {name: value})]))
     if len(links) > MOST_BODIES:
-        raise root.wrong(f"{len(links)} links, which no pendulum needs; at most {MOST_BODIES} are taken")
+        raise root.wrong(f"{len(links)} links; at most {MOST_BODIES} are read")
     if not links:
         raise root.wrong("no links; at least one must hang from the support")
     below = _children(links, joints)
@@ -61,7 +64,7 @@ def read_urdf(root: Element) -> Urdf:
 
 
 def _extension(root: Element) -> dict[str, str]:
-    """Of MuJoCo's own extension, what lets it take a point mass."""
+    """The attributes of MuJoCo's own extension that let it accept a point mass."""
     found: dict[str, str] = {}
     for extension in root.all("mujoco"):
         for compiler in extension.all("compiler"):
@@ -82,9 +85,9 @@ def _take(known: dict[str, Element], element: Element) -> None:
 
 
 def _children(links: dict[str, Element], joints: dict[str, Element]) -> dict[str, list[str]]:
-    """The joints on each link, once it is certain that they make one tree."""
+    """The joints on each link by its name; under "" the root link. Refuses joints that do not form one tree."""
     below: dict[str, list[str]] = {name: [] for name in links}
-    carried_by: dict[str, str] = {}
+    joint_above: dict[str, str] = {}
     for name, joint in joints.items():
         ends = {}
         for role in ("parent", "child"):
@@ -96,20 +99,17 @@ def _children(links: dict[str, Element], joints: dict[str, Element]) -> dict[str
             if link not in links:
                 raise joint.wrong(f"{role} link={link[:60]!r}: no such link")
             ends[role] = link
-        if ends["child"] in carried_by:
+        if ends["child"] in joint_above:
             raise refuse(
-                joint, f"link {ends['child'][:60]!r} hangs on two joints, {carried_by[ends['child']][:60]!r} too"
+                joint,
+                f"link {ends['child'][:60]!r} is the child of {joint_above[ends['child']][:60]!r} too",
             )
-        carried_by[ends["child"]] = name
+        joint_above[ends["child"]] = name
         below[ends["parent"]].append(name)
-    roots = [name for name in links if name not in carried_by]
+    roots = [name for name in links if name not in joint_above]
     if len(roots) != 1:
         first = next(iter(joints.values()), None) or next(iter(links.values()), None)
-        what = (
-            "the joints go round in a circle"
-            if not roots
-            else f"{len(roots)} links hang on nothing: {', '.join(roots)[:120]}"
-        )
+        what = "the joints form a loop" if not roots else f"{len(roots)} links have no parent: {', '.join(roots)[:120]}"
         where = first.file if first is not None else "the file"
         raise InvalidInput(f"{where}: {what}; one link, the support, must carry all the others")
     below[""] = roots
@@ -117,24 +117,24 @@ def _children(links: dict[str, Element], joints: dict[str, Element]) -> dict[str
 
 
 def _read(file: Urdf, links: dict[str, Element], joints: dict[str, Element], below: dict[str, list[str]]) -> None:
-    """Bodies, parents first and siblings in the file's order."""
+    """Read the bodies, parents first and siblings in the file's order."""
     root = below[""][0]
-    file.bodies.append(Body(root, -1, HERE, (), _inertial(file, links[root]), str(links[root])))
+    file.bodies.append(Body(root, -1, IDENTITY, (), _inertial(file, links[root]), str(links[root])))
     pending = [(name, 0) for name in reversed(below[root])]
     reached = 1
     while pending:
-        name, carrier = pending.pop()
+        name, parent = pending.pop()
         joint = joints[name]
         child = joint.first("child")
         link = links[child.get("link") if child is not None else ""]
         pose = _origin(joint)
         hinges = _hinges(file, joint)
-        file.bodies.append(Body(link.get("name"), carrier, pose, hinges, _inertial(file, link), str(link)))
+        file.bodies.append(Body(link.get("name"), parent, pose, hinges, _inertial(file, link), str(link)))
         index = len(file.bodies) - 1
         reached += 1
         pending.extend((lower, index) for lower in reversed(below[link.get("name")]))
     if reached != len(links):
-        raise InvalidInput(f"{file.root.file}: the joints go round in a circle; they must make a tree")
+        raise InvalidInput(f"{file.root.file}: the joints form a loop; they must form a tree")
     for link in links.values():
         link.children = [child for child in link.children if child.tag == "inertial"]
     for joint in joints.values():
@@ -162,13 +162,13 @@ def _hinges(file: Urdf, joint: Element) -> tuple[SpatialHinge, ...]:
             anchor=np.zeros(3),
             damping=not_negative(dynamics, "damping"),
             friction=not_negative(dynamics, "friction"),
-            stops=_stops(joint, kind),
+            limits=_limits(joint, kind),
             where=str(joint),
         ),
     )
 
 
-def _stops(joint: Element, kind: str) -> tuple[float, float] | None:
+def _limits(joint: Element, kind: str) -> tuple[float, float] | None:
     limit = joint.first("limit")
     if kind == "continuous":
         return None
@@ -185,18 +185,18 @@ def _stops(joint: Element, kind: str) -> tuple[float, float] | None:
 def _origin(element: Element) -> Pose:
     origin = element.first("origin")
     if origin is None:
-        return HERE
-    turn = numbers(origin, "rpy", 3, (0.0, 0.0, 0.0))
-    if (np.abs(turn) > 1e6).any():
+        return IDENTITY
+    angles = numbers(origin, "rpy", 3, (0.0, 0.0, 0.0))
+    if (np.abs(angles) > 1e6).any():
         raise origin.wrong(f"rpy={origin.get('rpy')!r}: angles in radians are needed")
-    shift = numbers(origin, "xyz", 3, (0.0, 0.0, 0.0))
-    return Pose(from_roll_pitch_yaw(turn) if turn.any() else np.eye(3), shift)
+    translation = numbers(origin, "xyz", 3, (0.0, 0.0, 0.0))
+    return Pose(from_roll_pitch_yaw(angles) if angles.any() else np.eye(3), translation)
 
 
 def _inertial(file: Urdf, link: Element) -> Inertial:
     given = link.first("inertial")
     if given is None:
-        return NOTHING
+        return ZERO_INERTIAL
     mass_element, moments = given.first("mass"), given.first("inertia")
     if mass_element is None or "value" not in mass_element.attributes:
         raise given.wrong("<mass value=> is needed")
@@ -209,5 +209,5 @@ def _inertial(file: Urdf, link: Element) -> Inertial:
     if least < -1e-9 * abs(float(np.trace(tensor))) or math.isnan(least):
         raise given.wrong("inertia: no body has an inertia with a negative principal moment")
     pose = _origin(given)
-    file.tensors[link.get("name")] = (Inertial(mass, pose.shift, tensor), pose.turn)
-    return Inertial(mass, np.zeros(3), tensor).seen_from(pose)
+    file.tensors[link.get("name")] = (Inertial(mass, pose.translation, tensor), pose.rotation)
+    return Inertial(mass, np.zeros(3), tensor).transformed(pose)

@@ -1,7 +1,7 @@
-"""Reads an XML file that nobody vouches for: bounded in size, depth and number, without entities or a DTD.
+"""Reads an XML file from an untrusted source: bounded in size, depth and number, without entities or a DTD.
 
 Expat expands entities and ElementTree builds without end; here a document type declaration is refused where it begins
-and every element is counted as it comes, so that no file costs more than its own size.
+and every element is counted as it is read, so that no file costs more than its own size.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ LONGEST_ATTRIBUTE = 10_000  # characters; a list of a few hundred numbers
 
 @dataclass
 class Element:
-    """One element: tag, attributes, children, and where it stands."""
+    """One element: tag, attributes, children, and its file and line."""
 
     tag: str
     attributes: dict[str, str]
@@ -48,7 +48,7 @@ class Element:
         return f"{self.file}, line {self.line}, <{self.tag}{called}>"
 
     def wrong(self, says: str) -> InvalidInput:
-        """The error that this element is: where, then what is wrong and what would be right."""
+        """An error to be raised: where this element is, then what is wrong and what would be right."""
         return InvalidInput(f"{self}: {says}")
 
 
@@ -62,7 +62,7 @@ def read_xml(path: Path) -> Element:
     except ValueError as error:  # a null byte in the name
         raise InvalidInput(f"{str(path)!r:.80}: cannot be read: {error}") from None
     if len(content) > LARGEST_FILE:
-        raise InvalidInput(f"{path}: larger than {LARGEST_FILE // 1_000_000} MB, which no pendulum needs")
+        raise InvalidInput(f"{path}: larger than {LARGEST_FILE // 1_000_000} MB, the most that is read")
     return parse_xml(content, str(path))
 
 
@@ -121,7 +121,7 @@ class _Builder:
         element = Element(tag, attributes, self._file, self._parser.CurrentLineNumber)
         self._count += 1
         if self._count > MOST_ELEMENTS:
-            raise element.wrong(f"more than {MOST_ELEMENTS} elements, which no pendulum needs")
+            raise element.wrong(f"more than {MOST_ELEMENTS} elements, the most that are read")
         if len(self._open) >= DEEPEST:
             raise element.wrong(f"nested more than {DEEPEST} levels deep")
         for name, value in attributes.items():

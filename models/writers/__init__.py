@@ -1,1 +1,4 @@
-"""Writes a mechanism as MJCF or URDF."""
+"""Writes a mechanism as MJCF or URDF, for engines and for people.
+
+May import models alone.
+"""

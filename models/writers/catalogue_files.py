@@ -26,7 +26,7 @@ def model_files() -> dict[str, str]:
 
 
 def main(folder: Path = FOLDER) -> None:
-    """Write them all, and delete those of scenes that are no more."""
+    """Write all model files into ``folder``, and delete those of scenes that no longer exist."""
     folder.mkdir(exist_ok=True)
     files = model_files()
     for stale in {path.name for path in folder.iterdir()} - set(files):

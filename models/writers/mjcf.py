@@ -1,4 +1,4 @@
-"""A planar tree as MuJoCo's MJCF."""
+"""Writes a planar tree as MJCF, MuJoCo's model format."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from ..errors import InvalidInput
 from ..systems import System
 from ..tree import SUPPORT, PlanarTree
 
-# The smallest principal inertia that MuJoCo's compiler takes [kg m²]. A point mass has none; the compiler is told to
-# lift it to this (``boundinertia``), and an adapter that can sets it back to zero in the compiled model.
+# The smallest principal moment of inertia that MuJoCo's compiler accepts [kg m²]. A point mass has none: the compiler
+# raises it to this (``boundinertia``), and an adapter that can sets it back to zero in the compiled model.
 LEAST_INERTIA = 1e-15
-# MJCF nests a body in the body that carries it, and TinyXML-2, which MuJoCo reads it with, stops at 500 levels.
+# MJCF nests a body in its parent, and TinyXML-2, which MuJoCo reads it with, fails beyond 500 levels.
 DEEPEST = 450
 
 
@@ -20,13 +20,14 @@ def to_mjcf(system: System) -> str:
 
     Up is +z, the plane x-z, every hinge turns about (0, -1, 0), so that a positive angle moves the bob to +x. Joint
     coordinates are relative: each hinge's angle is the link's absolute angle less its parent's. Inertials are explicit
-    and numbers exact (``repr``). The geoms are there to be seen: they neither collide nor weigh.
+    and numbers exact (``repr``). Geoms are for display: they have no mass and do not collide. Raises
+    :class:`InvalidInput` for more than 450 links one after the other.
     """
     return write_mjcf(system.tree(), system.kind)
 
 
 def write_mjcf(tree: PlanarTree, model: str) -> str:
-    """A planar tree as an MJCF document whose model is called ``model``. Raises :class:`InvalidInput` if too deep."""
+    """A planar tree as an MJCF document whose model is called ``model``; see :func:`to_mjcf`."""
     if tree.depth > DEEPEST:
         raise InvalidInput(f"a chain of {tree.depth} links: MJCF nests them, and its readers take at most {DEEPEST}")
     root = ElementTree.Element("mujoco", model=model)
@@ -61,17 +62,17 @@ def write_mjcf(tree: PlanarTree, model: str) -> str:
 
 
 def point(along_across: tuple[float, float]) -> str:
-    """A point of a link's frame as ``x y z`` of its body's frame."""
+    """The point (along, across) [m] of a link's frame as the text ``x y z`` of its body's frame."""
     along, across = along_across
     return f"{across!r} 0 {0.0 - along!r}"
 
 
 def _draw(body: ElementTree.Element, length: float, bob: tuple[float, float] | None) -> None:
-    unseen_by_physics = {"contype": "0", "conaffinity": "0", "mass": "0", "group": "1"}
+    display_only = {"contype": "0", "conaffinity": "0", "mass": "0", "group": "1"}
     ElementTree.SubElement(
         body,
         "geom",
-        unseen_by_physics,
+        display_only,
         type="capsule",  # not by its ends: MuJoCo refuses those nearer than 1e-7 m to each other
         pos=point((length / 2, 0.0)),
         size=f"{length / 40!r} {length / 2!r}",
@@ -81,7 +82,7 @@ def _draw(body: ElementTree.Element, length: float, bob: tuple[float, float] | N
         ElementTree.SubElement(
             body,
             "geom",
-            unseen_by_physics,
+            display_only,
             type="sphere",
             pos=point(bob),
             size=repr(length / 12),

@@ -1,4 +1,4 @@
-"""A planar tree as URDF."""
+"""Writes a planar tree as URDF."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from ..systems import System
 from ..tree import SUPPORT, PlanarTree
 from .mjcf import LEAST_INERTIA, point
 
-# A hinge that turns freely would be "continuous", which Pinocchio gives two coordinates (cos, sin); "revolute" has one,
-# and wants limits: beyond any angle, rate or torque that is ever reached.
+# A free hinge would be "continuous", which has two coordinates in Pinocchio (cos, sin); "revolute" has one, and needs
+# limits: these are beyond any angle, rate or torque that is ever reached.
 NO_LIMIT = repr(1e30)
 
 
 def to_urdf(system: System) -> str:
     """The mechanism as a URDF document.
 
-    Conventions as in :func:`furiko.models.mjcf.to_mjcf`. URDF has no gravity: an engine that reads it must be told.
+    Conventions as in :func:`furiko.models.writers.mjcf.to_mjcf`. URDF has no gravity: it must be set in the engine.
     Names are zero-padded, since some readers order children by name.
     """
     return write_urdf(system.tree(), system.kind)
@@ -26,7 +26,7 @@ def write_urdf(tree: PlanarTree, name: str) -> str:
     """A planar tree as a URDF document whose robot is called ``name``."""
     robot = ElementTree.Element("robot", name=name)
     if any(link.inertia == 0 for link in tree.links):
-        # For MuJoCo's own URDF reader alone, which refuses a point mass; every other reader passes this element over.
+        # For MuJoCo's own URDF reader alone, which refuses a point mass; every other reader ignores this element.
         extension = ElementTree.SubElement(robot, "mujoco")
         ElementTree.SubElement(extension, "compiler", boundinertia=repr(LEAST_INERTIA), balanceinertia="false")
     ElementTree.SubElement(robot, "link", name="world")

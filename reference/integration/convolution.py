@@ -11,7 +11,8 @@ from typing import Any
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
-from numba.extending import intrinsic
+
+from ..kernels.compiling import intrinsic
 
 EIGHT = 8
 SINE, COSINE, OMEGA, FP, FQ, SERIES = range(6)  # series[which, order, link]
@@ -21,7 +22,7 @@ DOUBLE, INTEGER = ir.DoubleType(), ir.IntType(64)
 VECTOR = ir.VectorType(DOUBLE, EIGHT)
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@intrinsic
 def convolve_eight(_context: Any, series: Any, _order: Any, _start: Any, part: Any) -> Any:
     """For order k and links start … start + 7, with i from 1:
 

@@ -64,7 +64,7 @@ def variation(system: Mechanism, theta: Floats, omega: Floats) -> Variation:
 def _divide(xp: object, mass: Floats, right: Floats) -> Floats:
     """-M⁻¹ times a matrix; column by column where the arithmetic has no solver for matrices."""
     if mass.dtype == np.float64:
-        return np.asarray(-np.linalg.solve(mass, right))
+        return np.asarray(-np.linalg.solve(mass, right), dtype=np.float64)
     columns = [-xp.solve(mass, right[..., k]) for k in range(right.shape[-1])]  # type: ignore[attr-defined]
     return np.stack(columns, axis=-1)
 

@@ -11,10 +11,11 @@ from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
 
+import numba
 import numpy as np
 from llvmlite import ir
-from numba import njit, types
-from numba.extending import intrinsic
+from numba import types
+from numba.extending import intrinsic as numba_intrinsic
 
 LINE = 8  # numbers in a line of the cache
 F = TypeVar("F", bound=Callable[..., Any])
@@ -32,6 +33,13 @@ SOURCES = (
     "kernels/forward_dynamics_compiled.py",
     "integration/taylor_compiled.py",
 )
+
+njit: Any = numba.njit  # numba's own types know neither forceinline nor what the result can be called with
+
+
+def intrinsic(function: Callable[..., Any]) -> Any:
+    """numba's decorator for a function that is written in instructions: its first parameter is not the caller's."""
+    return numba_intrinsic(function)
 
 
 def inlined(function: F) -> F:
@@ -81,19 +89,19 @@ def aligned(count: int) -> Any:
     return numbers[start : start + count]
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@intrinsic
 def fma(_context: Any, _a: Any, _b: Any, _c: Any) -> Any:
     """a·b + c, rounded once, on every processor."""
     return types.float64(types.float64, types.float64, types.float64), lambda _c, builder, _s, args: builder.fma(*args)
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@intrinsic
 def bits(_context: Any, _x: Any) -> Any:
     """The 64 bits of a float as an integer."""
     return types.int64(types.float64), lambda _c, builder, _s, args: builder.bitcast(args[0], ir.IntType(64))
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@intrinsic
 def flip_sign(_context: Any, _x: Any, _mask: Any) -> Any:
     """The float whose bits are x's, exclusive-or the mask's."""
 
@@ -104,7 +112,7 @@ def flip_sign(_context: Any, _x: Any, _mask: Any) -> Any:
     return types.float64(types.float64, types.int64), generate
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@intrinsic
 def wide_vectors(_context: Any) -> Any:
     """Let the function it is called in use vectors of 512 bits (LLVM alone stops at 256; measured gain 1.1 to 1.5).
 
@@ -122,7 +130,7 @@ def wide_vectors(_context: Any) -> Any:
 def _prefetcher(*, to_write: int, nearness: int) -> Any:
     """Ask for the memory at the array's index-th number, counted through all axes; harmless beyond its ends."""
 
-    @intrinsic  # type: ignore[untyped-decorator]
+    @intrinsic
     def prefetch(_context: Any, array: Any, _index: Any) -> Any:
         def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
             data = context.make_array(signature.args[0])(context, builder, args[0]).data

@@ -15,10 +15,9 @@ from typing import Any
 import numpy as np
 from llvmlite import ir
 from numba import types
-from numba.extending import intrinsic
 
 from ..limits import LARGEST_ANGLE, LARGEST_RATE
-from .compiling import LINE, inlined, prefetch_near, prefetch_next, prefetch_own
+from .compiling import LINE, inlined, intrinsic, prefetch_near, prefetch_next, prefetch_own
 
 INT, DOUBLE = ir.IntType(32), ir.DoubleType()
 EVEN, ODD = [0, 2, 4, 6, 8, 10, 12, 14], [1, 3, 5, 7, 9, 11, 13, 15]  # of two vectors one after the other
@@ -125,7 +124,7 @@ def any_suspicious(sizes: Any) -> int:
 def _reader(most: int) -> Any:
     """Eight rows, ``count`` ≤ ``most`` columns of each, to vectors of eight: log2(most) times even from odd."""
 
-    @intrinsic  # type: ignore[untyped-decorator]
+    @intrinsic
     def read(_context: Any, states: Any, _at: Any, _count: Any, scratch: Any, _to: Any, _stride: Any) -> Any:
         def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
             source, target = (context.make_array(signature.args[k])(context, builder, args[k]) for k in (0, 3))
@@ -149,7 +148,7 @@ def _reader(most: int) -> Any:
 def _writer(most: int) -> Any:
     """The way back: log2(most) times number by number."""
 
-    @intrinsic  # type: ignore[untyped-decorator]
+    @intrinsic
     def write(_context: Any, scratch: Any, _to: Any, _stride: Any, states: Any, _at: Any, _count: Any) -> Any:
         def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
             source, target = (context.make_array(signature.args[k])(context, builder, args[k]) for k in (0, 3))

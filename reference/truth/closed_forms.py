@@ -186,8 +186,9 @@ def _separatrix(half: Any, speed: Any) -> State:
 
 def _jacobi(m: Any, complement: Any) -> Callable[[Any], tuple[Any, Any, Any]]:
     """sn, cn, dn with parameter m = k², by theta functions; ``complement`` is 1 - m."""
-    from flint import acb
+    import flint
 
+    acb: Any = flint.acb  # its type stub calls the method modular_theta static
     quarter = acb(m).elliptic_k().real
     tau = acb(0, acb(complement).elliptic_k().real / quarter)
     _, two, three, four = (value.real for value in acb(0).modular_theta(tau))

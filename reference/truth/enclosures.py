@@ -160,11 +160,11 @@ def _rounded_precisely(enclose: Callable[[], Array]) -> tuple[Floats, Floats, Fl
     while True:
         try:
             with precision(bits):
-                high, low, radius = _rounded(enclose())
+                found = _rounded(enclose())
         except ZeroDivisionError:  # balls too wide to divide by
-            radius = None
-        if radius is not None and _narrow(high, radius):
-            return high, low, radius
+            found = None
+        if found is not None and _narrow(found[0], found[2]):
+            return found
         if bits >= MOST_BITS:
             raise ArithmeticError(
                 f"no enclosure of this state's truth with {bits} bits: its numbers differ too much in size"
@@ -193,7 +193,7 @@ def _split(ball: Any) -> tuple[float, float, float]:
     return high, low, max(float(left) * (1 + 2.0**-52), SMALLEST)  # float() rounds to nearest
 
 
-_split_each = np.frompyfunc(_split, 1, 3)
+_split_each: Any = np.frompyfunc(_split, 1, 3)
 _accuracy = np.frompyfunc(lambda ball: ball.rel_accuracy_bits(), 1, 1)
 
 

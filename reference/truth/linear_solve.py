@@ -60,7 +60,7 @@ def _inverse_by_halves(matrix: Floats) -> Floats:
     longer than they compute (n = 100 on two busy cores: five times)."""
     n = matrix.shape[-1]
     if n <= BLOCK:
-        return np.asarray(np.linalg.inv(matrix))
+        return np.asarray(np.linalg.inv(matrix), dtype=np.float64)
     h = n // 2
     b, c = matrix[:, :h, h:], matrix[:, h:, :h]
     first = _inverse_by_halves(matrix[:, :h, :h])

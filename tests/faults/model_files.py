@@ -67,7 +67,7 @@ def plant_limit(rng, style):
     style.turn_zero = False
     wanted = free(random_tree(rng))
     stops = (-float(rng.uniform(0.5, 3)), float(rng.uniform(0.5, 3)))
-    return with_hinge(wanted, int(rng.integers(wanted.n)), stops=stops), wanted
+    return with_hinge(wanted, int(rng.integers(wanted.n)), limits=stops), wanted
 
 
 def plant_mass(rng, style):
@@ -157,7 +157,7 @@ def plant_degrees(rng, style):
             wanted, i, stiffness=float(rng.uniform(0.5, 3)), rest=float(rng.choice([-1, 1]) * rng.uniform(0.3, 2))
         )
     else:
-        wanted = with_hinge(wanted, i, stops=(-float(rng.uniform(0.5, 3)), float(rng.uniform(0.5, 3))))
+        wanted = with_hinge(wanted, i, limits=(-float(rng.uniform(0.5, 3)), float(rng.uniform(0.5, 3))))
     style.compiler = "angle='degree'"
     return wanted, wanted
 

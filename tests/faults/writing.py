@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from furiko.models.spatial import Inertial, Pose, about, to_quaternion
+from furiko.models.spatial import Inertial, Pose, from_axis_angle, to_quaternion
 
 
 @dataclass
@@ -50,7 +50,7 @@ class Writer:
         self.zero = rng.uniform(-2, 2, n) if style.turn_zero else np.zeros(n)
         world = self._rotation() if style.turn_world else np.eye(3)
         if style.turn_world and style.language == "urdf":
-            world = about([0, 0, 1], rng.uniform(-3, 3))
+            world = from_axis_angle([0, 0, 1], rng.uniform(-3, 3))
         # Columns: down, across and the hinge axis of the plane, in the world.
         self.plane = world @ np.array([[0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [-1.0, 0.0, 0.0]])
         self.sense = np.where(rng.random(n) < 0.5, -1.0, 1.0) if style.flip_axes else np.ones(n)
@@ -61,7 +61,7 @@ class Writer:
                 rng.shuffle(c)
 
     def _rotation(self):
-        return about(self.rng.normal(size=3), self.rng.uniform(0, 3))
+        return from_axis_angle(self.rng.normal(size=3), self.rng.uniform(0, 3))
 
     def _frame(self, i):
         """The body's frame in the link's own (down, across, axis) frame, whose origin is the hinge."""
@@ -76,7 +76,7 @@ class Writer:
         """The link's frame in that of its parent's link (or the plane), at q = 0."""
         link = self.m.links[i]
         base = self.zero[link.parent] if link.parent >= 0 else 0.0
-        return Pose(about([0, 0, 1], self.zero[i] - base), np.array([*link.hinge, 0.0]))
+        return Pose(from_axis_angle([0, 0, 1], self.zero[i] - base), np.array([*link.hinge, 0.0]))
 
     def body_pose(self, i):
         """The body's frame in its parent body's (or the world)."""
@@ -112,11 +112,11 @@ class Writer:
             )
             rest = 0.8 * link.mass
             centre = (link.mass * whole.centre - small.mass * small.centre) / rest
-            tensor = whole.tensor - small.about(whole.centre)
+            tensor = whole.tensor - small.tensor_about(whole.centre)
             r = centre - whole.centre
             tensor = tensor - rest * (r @ r * np.eye(3) - np.outer(r, r))
             parts = [Inertial(rest, centre, tensor), small]
-        return [part.seen_from(inverse(frame)) for part in parts]
+        return [part.transformed(inverse(frame)) for part in parts]
 
     # MJCF
 
@@ -134,7 +134,7 @@ class Writer:
     def _body(self, i):
         pose, frame, hinge = self.body_pose(i), self.frames[i], self.m.hinges[i]
         into = inverse(frame)
-        axis, anchor = into.turn @ np.array([0, 0, self.sense[i]]), into.shift
+        axis, anchor = into.rotation @ np.array([0, 0, self.sense[i]]), into.translation
         rest = 0.0
         if hinge.stiffness:
             base = self.zero[self.m.links[i].parent] if self.m.links[i].parent >= 0 else 0.0
@@ -142,22 +142,22 @@ class Writer:
         attributes = {"armature": hinge.armature, "damping": hinge.damping, "frictionloss": hinge.friction,
                       "stiffness": hinge.stiffness, "springref": rest}  # fmt: skip
         text = " ".join(f"{k}='{float(v)!r}'" for k, v in attributes.items() if v)
-        if hinge.stops:
+        if hinge.limits:
             base = self.zero[self.m.links[i].parent] if self.m.links[i].parent >= 0 else 0.0
-            ends = sorted(self.sense[i] * (stop - (self.zero[i] - base)) for stop in hinge.stops)
+            ends = sorted(self.sense[i] * (stop - (self.zero[i] - base)) for stop in hinge.limits)
             text += f" range='{numbers(ends)}'"
-        quat = numbers(to_quaternion(pose.turn))
-        parts = [f"<body name='{self.m.link_names[i]}' pos='{numbers(pose.shift)}' quat='{quat}'>"]
+        quat = numbers(to_quaternion(pose.rotation))
+        parts = [f"<body name='{self.m.link_names[i]}' pos='{numbers(pose.translation)}' quat='{quat}'>"]
         parts.append(f"<joint name='{hinge.name}' axis='{numbers(axis)}' pos='{numbers(anchor)}' {text}/>")
         parts.append(self.style.geoms.get(i, ""))
         first, *others = self.inertials(i)
         parts.append(self._inertial(first))
         for k, other in enumerate(others):
             fixed = Pose(self._rotation(), self.rng.normal(size=3) * 0.1)
-            inside = other.seen_from(inverse(fixed))
+            inside = other.transformed(inverse(fixed))
             parts.append(
-                f"<body name='{self.m.link_names[i]}_fixed{k}' pos='{numbers(fixed.shift)}' "
-                f"quat='{numbers(to_quaternion(fixed.turn))}'>{self._inertial(inside)}</body>"
+                f"<body name='{self.m.link_names[i]}_fixed{k}' pos='{numbers(fixed.translation)}' "
+                f"quat='{numbers(to_quaternion(fixed.rotation))}'>{self._inertial(inside)}</body>"
             )
         parts += [self._body(c) for c in self.children[i]]
         return "".join([*parts, "</body>"])
@@ -193,7 +193,7 @@ class Writer:
         parts = [f"<link name='{name}'>{self._urdf_inertial(first)}</link>"]
         for k, other in enumerate(others):
             fixed = Pose(self._rotation(), self.rng.normal(size=3) * 0.1)
-            inside = other.seen_from(inverse(fixed))
+            inside = other.transformed(inverse(fixed))
             parts.append(f"<link name='{name}_fixed{k}'>{self._urdf_inertial(inside)}</link>")
             parts.append(
                 f"<joint name='{name}_weld{k}' type='fixed'><parent link='{name}'/><child link='{name}_fixed{k}'/>"
@@ -204,11 +204,11 @@ class Writer:
     def _joint(self, i):
         link, hinge = self.m.links[i], self.m.hinges[i]
         parent = "world" if link.parent < 0 else self.m.link_names[link.parent]
-        axis = inverse(self.frames[i]).turn @ np.array([0, 0, self.sense[i]])
+        axis = inverse(self.frames[i]).rotation @ np.array([0, 0, self.sense[i]])
         limit, kind = "", "continuous"
-        if hinge.stops:
+        if hinge.limits:
             base = self.zero[link.parent] if link.parent >= 0 else 0.0
-            low, high = sorted(self.sense[i] * (stop - (self.zero[i] - base)) for stop in hinge.stops)
+            low, high = sorted(self.sense[i] * (stop - (self.zero[i] - base)) for stop in hinge.limits)
             limit, kind = (
                 f"<limit lower='{float(low)!r}' upper='{float(high)!r}' effort='100' velocity='100'/>",
                 "revolute",
@@ -233,14 +233,14 @@ class Writer:
 
 
 def inverse(pose):
-    return Pose(pose.turn.T, -pose.turn.T @ pose.shift)
+    return Pose(pose.rotation.T, -pose.rotation.T @ pose.translation)
 
 
 def origin(pose):
-    r = pose.turn
+    r = pose.rotation
     pitch = math.atan2(-r[2, 0], math.hypot(r[0, 0], r[1, 0]))
     roll, yaw = math.atan2(r[2, 1], r[2, 2]), math.atan2(r[1, 0], r[0, 0])
-    return f"<origin xyz='{numbers(pose.shift)}' rpy='{numbers([roll, pitch, yaw])}'/>"
+    return f"<origin xyz='{numbers(pose.translation)}' rpy='{numbers([roll, pitch, yaw])}'/>"
 
 
 def written(mechanism, style, rng):

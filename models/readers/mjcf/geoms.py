@@ -1,4 +1,4 @@
-"""Mass, centre and inertia of the solid bodies that MJCF draws: how a file without inertials weighs its links."""
+"""Mass, centre of mass and inertia of MJCF's geoms, from which a body without ``<inertial>`` has its own."""
 
 from __future__ import annotations
 
@@ -6,24 +6,25 @@ import math
 
 import numpy as np
 
-from ..spatial import Inertial, Pose, from_z_axis
-from .attributes import Array, not_negative, numbers
-from .xml_file import Element
+from ...spatial import Inertial, Pose, from_z_axis
+from ..attributes import Array, not_negative, numbers
+from ..xml_file import Element
 
 DENSITY = 1000.0  # kg/m³, MJCF's default
 SOLID = {"sphere": 1, "capsule": 2, "cylinder": 2, "ellipsoid": 3, "box": 3}  # and how many sizes each has
 SMALLEST, LARGEST = 1e-30, 1e9  # m; beyond, volumes are nothing or infinite
-WEIGHTLESS = ("plane", "hfield")
+MASSLESS = ("plane", "hfield")
 ALONG = ("capsule", "cylinder", "ellipsoid", "box")  # may be given by fromto
 
 
 def geom_inertial(element: Element, frame: Pose) -> Inertial | None:
-    """What a geom weighs, in its body's frame; None where that is nothing. ``element`` has its defaults merged in.
+    """The inertial of a geom in its body's frame; None where it has no mass.
 
-    Raises :class:`InvalidInput` for a shape whose volume stands in another file.
+    ``element`` has its defaults already; ``frame`` is its pose in the body. Raises :class:`InvalidInput` for a shape
+    that is defined in another file (a mesh).
     """
     kind = element.get("type", "sphere")
-    if kind in WEIGHTLESS:
+    if kind in MASSLESS:
         return None
     given = "mass" in element.attributes
     if (given and not_negative(element, "mass") == 0) or (not given and not_negative(element, "density", DENSITY) == 0):
@@ -40,7 +41,7 @@ def geom_inertial(element: Element, frame: Pose) -> Inertial | None:
         raise element.wrong(f"size: from {SMALLEST:g} to {LARGEST:g} m are taken")
     volume, unit = _solid(kind, size)
     mass = not_negative(element, "mass") if given else not_negative(element, "density", DENSITY) * volume
-    return Inertial(mass, np.zeros(3), np.diag(mass * unit)).seen_from(pose)
+    return Inertial(mass, np.zeros(3), np.diag(mass * unit)).transformed(pose)
 
 
 def _size_and_pose(element: Element, kind: str, frame: Pose) -> tuple[Array, Pose]:
@@ -63,7 +64,7 @@ def _size_and_pose(element: Element, kind: str, frame: Pose) -> tuple[Array, Pos
 
 
 def _solid(kind: str, size: Array) -> tuple[float, Array]:
-    """Volume [m³], and principal inertias of a unit of mass [m²]."""
+    """Volume [m³], and principal moments of inertia (3,) of a unit of mass [m²]."""
     if kind == "sphere":
         r = size[0]
         return 4 / 3 * math.pi * r**3, np.full(3, 2 / 5 * r * r)
