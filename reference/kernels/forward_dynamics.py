@@ -46,7 +46,7 @@ MANY_ANGLES, MANY_CALLS = 4096, 8
 ANGLES_A_THREAD = 50_000  # about 0.2 ms of work; handing a part to a thread takes 0.05 ms
 SCRATCH_COLUMNS = 9
 
-_COMPILED = f"{__package__}.kernels_compiled"
+_COMPILED = f"{__package__}.forward_dynamics_compiled"
 _ARRAY, _FLOAT64, _empty = np.ndarray, np.dtype(np.float64), np.empty
 _kernels: dict[int, Kernel] = {}
 _calls = 0

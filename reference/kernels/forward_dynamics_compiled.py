@@ -50,7 +50,7 @@ def outside(theta: float, omega: float) -> float:
 
 @compiled(releases_gil=False)
 def rods_single(theta: Any, omega: Any, out: Any, table: Any) -> int:
-    """θ'' of a rod chain in one state, shape (n,) each; table: see :func:`.kernels.table`."""
+    """θ'' of a rod chain in one state, shape (n,) each; table: see :func:`.forward_dynamics.table`."""
     n = len(table) - 1
     if theta.size != n or omega.size != n:
         return 1
@@ -98,7 +98,7 @@ def refine_single(table: Any, n: int) -> None:
 
 @compiled(releases_gil=False)
 def legs_single(theta: Any, omega: Any, out: Any, table: Any) -> int:
-    """θ'' of an N-leg pendulum in one state, shape (n,) each; table: see :func:`.kernels.table`."""
+    """θ'' of an N-leg pendulum in one state, shape (n,) each; table: see :func:`.forward_dynamics.table`."""
     n = len(table) - 1
     if theta.size != n or omega.size != n:
         return 1
