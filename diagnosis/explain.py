@@ -318,7 +318,7 @@ def unexplained(engine: Any, measured: Measurement, m: Mechanism, p: Parameters,
     left = np.abs(forward.left_over(p, forward.scale(p)))
     if left.max() > 1:
         state, row = np.unravel_index(int(left.argmax()), left.shape)
-        rows = planar.torques(m.parents, p, forward.theta, forward.omega, forward.alpha)
+        rows = planar.inverse_dynamics(m.parents, p, forward.theta, forward.omega, forward.alpha)
         torque = float(planar.relative_rows(m.parents, rows)[state, row])
         words.append(f"accelerations leave a torque of {torque:.3g} N m at {joint(m, int(row))}")
     inverse = measured.only(~measured.forward)
@@ -338,7 +338,7 @@ def _by_term(engine: Any, inverse: Measurement, m: Mechanism, p: Parameters) -> 
         "velocity terms": (inverse.theta, inverse.omega, rest),
     }
     off = {
-        name: np.asarray(engine.inverse_dynamics(*state)) - planar.torques(m.parents, p, *state)
+        name: np.asarray(engine.inverse_dynamics(*state)) - planar.inverse_dynamics(m.parents, p, *state)
         for name, state in asked.items()
     }
     words = []

@@ -60,7 +60,7 @@ def explain_motion(
         return [Finding("unexplained", who, None, None, f"{who}: {integrator.name}: NaN after one step")]
 
     def accelerations(theta: Any, omega: Any) -> Any:
-        return planar.accelerations(mechanism.parents, p, theta, omega)
+        return planar.forward_dynamics(mechanism.parents, p, theta, omega)
 
     fitting = _fitting(runs, accelerations, integrator.order)
     if fitting is not None:
@@ -98,7 +98,7 @@ def _not_a_scheme(
 
 def _run(engine: Any, m: Mechanism, p: Parameters, integrator: Integrator) -> _Runs:
     theta, omega = (values[:LOOKED_AT] for values in probe_states(m, 8, seed=11))
-    alpha = planar.accelerations(m.parents, p, theta, omega)
+    alpha = planar.forward_dynamics(m.parents, p, theta, omega)
     fastest = max(float(np.abs(omega).max()), math.sqrt(float(np.abs(alpha).max())), 1e-3)
     step = 2.0 ** round(math.log2(STEP / fastest))
     ends = []
@@ -325,7 +325,7 @@ def _kinetic(m: Mechanism, p: Parameters, theta: Array, omega: Array) -> Array:
 def _reset(engine: Any, m: Mechanism, integrator: Integrator, who: str) -> list[Finding]:
     """With a step far too large two different starts must not end alike, at rest where the model starts."""
     theta, omega = (values[:2] for values in probe_states(m, 4, seed=17))
-    alpha = planar.accelerations(m.parents, planar.parameters(m), theta, omega)
+    alpha = planar.forward_dynamics(m.parents, planar.parameters(m), theta, omega)
     period = 1.0 / max(math.sqrt(float(np.abs(alpha).max())), 1e-3)
     for times, steps in ((20.0, 3), (20.0, 30), (1e3, 100), (1e5, 100)):
         step = times * period

@@ -1,7 +1,7 @@
 """What an engine does in many states, and how far that is from a planar mechanism's equations of motion.
 
-Accelerations are put into the equations (:func:`furiko.reference.planar.torques`): whatever torque is then left over
-is divided by what rounding explains of it. One number a state and a hinge, which is at most one where both are the same
+Accelerations are put into the equations (:func:`furiko.reference.planar_tree.inverse_dynamics`): whatever torque is
+then left over is divided by what rounding explains of it. One number a state and a hinge, which is at most one where both are the same
 mechanism; and linear in most of a mechanism's parameters, so that these can be solved for.
 """
 
@@ -62,7 +62,7 @@ class Measurement:
 
     def left_over(self, p: Parameters, scale: Array) -> Array:
         """Relative rows of (equations − torque) over ``scale``; leading axes of ``p`` come first: (…, S, n)."""
-        rows = planar.torques(self.parents, p, self.theta, self.omega, self.alpha) - self.torque
+        rows = planar.inverse_dynamics(self.parents, p, self.theta, self.omega, self.alpha) - self.torque
         return np.asarray(planar.relative_rows(self.parents, rows) / scale)
 
     def worst(self, p: Parameters) -> float:

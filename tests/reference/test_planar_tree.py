@@ -29,7 +29,7 @@ def test_the_documents_are_special_cases_in_ball_arithmetic(system):
     with precision(200):
         xp = balls()
         p = exact_parameters(system, mechanism, xp)
-        ours = planar.accelerations(mechanism.parents, p, xp.array(theta), xp.array(omega))
+        ours = planar.forward_dynamics(mechanism.parents, p, xp.array(theta), xp.array(omega))
         theirs = enclosed_accelerations(system, xp.array(theta), xp.array(omega))
         assert all(a.overlaps(b) for a, b in zip(ours.flat, theirs.flat, strict=True))
         assert max(float(a.rad()) for a in ours.flat) < 1e-40
@@ -70,8 +70,8 @@ def test_forward_dynamics_is_the_inverse_of_inverse_dynamics(seed, n):
     m = random_mechanism(seed, n)
     p = planar.parameters(m)
     theta, omega = np.random.default_rng(seed).normal(size=(2, 6, n)) * 3
-    alpha = planar.accelerations(m.parents, p, theta, omega)
-    left = planar.relative_rows(m.parents, planar.torques(m.parents, p, theta, omega, alpha))
+    alpha = planar.forward_dynamics(m.parents, p, theta, omega)
+    left = planar.relative_rows(m.parents, planar.inverse_dynamics(m.parents, p, theta, omega, alpha))
     size = planar.magnitudes(m.parents, p, theta, omega, alpha)
     # 26 roundings a link, as furiko.checks.rounding counts them.
     assert np.all(np.abs(left) <= 26 * n * 2.0**-52 * size)
@@ -94,7 +94,7 @@ def test_power_is_the_rate_of_energy(seed, n):
 
     h = 1e-4
     rate = (8 * (energy(h) - energy(-h)) - (energy(2 * h) - energy(-2 * h))) / (12 * h)  # error h⁴
-    power = float((planar.torques(m.parents, p, theta, omega, alpha) * omega).sum())
+    power = float((planar.inverse_dynamics(m.parents, p, theta, omega, alpha) * omega).sum())
     scale = float(np.abs(planar.magnitudes(m.parents, p, theta, omega, alpha)).max() * (1 + np.abs(omega).max()))
     assert rate == pytest.approx(power, abs=1e-9 * scale * n)
 
@@ -131,7 +131,7 @@ def test_mass_matrix_and_terms_add_up():
         own[:, i] += torque
         if parent >= 0:
             own[:, parent] -= torque
-    np.testing.assert_allclose(planar.torques(m.parents, p, theta, omega, alpha), together + own, atol=1e-12)
+    np.testing.assert_allclose(planar.inverse_dynamics(m.parents, p, theta, omega, alpha), together + own, atol=1e-12)
 
 
 def test_stretched_inertias_are_the_mass_matrix_of_the_straight_mechanism():

@@ -6,9 +6,9 @@ from numba import njit
 
 from furiko.models import NLegPendulum, RodChain
 from furiko.models.errors import InvalidInput
-from furiko.reference.kernels.compiling import aligned
 from furiko.reference.kernels import forward_dynamics as kernels
 from furiko.reference.kernels import lanes
+from furiko.reference.kernels.compiling import aligned
 from furiko.reference.limits import LARGEST_ANGLE, LARGEST_RATE
 
 LANES = 16
