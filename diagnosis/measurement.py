@@ -1,8 +1,8 @@
 """What an engine does in many states, and how far that is from a planar mechanism's equations of motion.
 
 Accelerations are put into the equations (:func:`furiko.reference.planar_tree.inverse_dynamics`): whatever torque is
-then left over is divided by what rounding explains of it. One number a state and a hinge, which is at most one where both are the same
-mechanism; and linear in most of a mechanism's parameters, so that these can be solved for.
+then left over is divided by what rounding explains of it. One number a state and a hinge, which is at most one where
+both are the same mechanism; and linear in most of a mechanism's parameters, so that these can be solved for.
 """
 
 from __future__ import annotations
