@@ -16,6 +16,7 @@ import numpy as np
 
 from ..engines import ModelFields
 from ..models import Link, PlanarTree
+from ..models.coordinates import forces_to_relative, to_relative
 from ..models.mechanism import Hinge, Mechanism, mechanism_of
 from ..reference import planar_tree as planar
 from ..reference.planar_tree import Parameters
@@ -25,7 +26,7 @@ from .differences import differences
 from .finding import Finding, joint
 from .hypotheses import Family, Fit, fit, groups, screened, singles
 from .joint_limits import in_some_states
-from .measurement import Array, Measurement, has_inverse_dynamics, measure, relative
+from .measurement import Array, Measurement, has_inverse_dynamics, measure
 from .wording import named
 
 TRIED = 14  # families fitted in full, out of all that were screened
@@ -285,7 +286,7 @@ def _shown_single(
 def _narrow(m: Mechanism, measured: Measurement) -> bool:
     """Whether accelerations, absolute or relative, are numbers of 24 bits."""
     forward = measured.only(measured.forward)
-    swing = relative(m.parents, forward.alpha)
+    swing = to_relative(m.parents, forward.alpha)
     largest = np.abs(forward.alpha).max(axis=1, keepdims=True)
     kept = np.abs(swing - swing.astype(np.float32)) <= 8 * EPSILON * largest
     return bool(kept.all() or (forward.alpha == forward.alpha.astype(np.float32)).all())
@@ -319,7 +320,7 @@ def unexplained(engine: Any, measured: Measurement, m: Mechanism, p: Parameters,
     if left.max() > 1:
         state, row = np.unravel_index(int(left.argmax()), left.shape)
         rows = planar.inverse_dynamics(m.parents, p, forward.theta, forward.omega, forward.alpha)
-        torque = float(planar.relative_rows(m.parents, rows)[state, row])
+        torque = float(forces_to_relative(m.parents, rows)[state, row])
         words.append(f"accelerations leave a torque of {torque:.3g} N m at {joint(m, int(row))}")
     inverse = measured.only(~measured.forward)
     if len(inverse) and inverse.worst(p) > 1:
@@ -344,7 +345,7 @@ def _by_term(engine: Any, inverse: Measurement, m: Mechanism, p: Parameters) -> 
     words = []
     for name, error in off.items():
         own = error if name == "gravity terms" else error - off["gravity terms"]
-        sizes = np.abs(planar.relative_rows(m.parents, own))
+        sizes = np.abs(forces_to_relative(m.parents, own))
         scale = Measurement(m.parents, *asked[name], rest, inverse.forward, inverse.accuracy).scale(p)
         if (sizes > scale).any():
             row = int(np.unravel_index(int((sizes / scale).argmax()), sizes.shape)[1])

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from ..engines import Integrator
+from ..models.coordinates import forces_to_relative
 from ..models.mechanism import Mechanism
 from ..reference import planar_tree as planar
 from ..reference.integration.schemes import SCHEMES, Scheme
@@ -254,7 +255,7 @@ def _hidden_damping(
             yield Finding("damping", where, rate, 0.0, says)
             return
         torque = (planar.mass_matrix(m.parents, p, theta) @ (off / runs.step)[..., None])[..., 0]
-        own = planar.relative_rows(m.parents, torque)
+        own = forces_to_relative(m.parents, torque)
         relative = omega.copy()
         for i, parent in enumerate(m.parents):
             if parent >= 0:

@@ -13,8 +13,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ..models.coordinates import forces_to_relative, to_absolute, to_relative
 from ..models.mechanism import Mechanism
-from ..models.tree import SUPPORT
 from ..reference import planar_tree as planar
 from ..reference.planar_tree import Parameters
 from ..reference.rounding.bounds import EPSILON, allowed
@@ -57,13 +57,13 @@ class Measurement:
         sizes = planar.magnitudes(self.parents, p, self.theta, self.omega, self.alpha)
         # An engine that factorises the mass matrix has its rounding there: see :mod:`furiko.reference.rounding.bounds`.
         root = np.sqrt(planar.stretched_inertias(self.parents, p))
-        felt = np.abs(relative(self.parents, self.alpha)) @ root
+        felt = np.abs(to_relative(self.parents, self.alpha)) @ root
         return np.asarray(np.maximum(bound * np.maximum(sizes, root * felt[:, None]), 1e-290))
 
     def left_over(self, p: Parameters, scale: Array) -> Array:
         """Relative rows of (equations − torque) over ``scale``; leading axes of ``p`` come first: (…, S, n)."""
         rows = planar.inverse_dynamics(self.parents, p, self.theta, self.omega, self.alpha) - self.torque
-        return np.asarray(planar.relative_rows(self.parents, rows) / scale)
+        return np.asarray(forces_to_relative(self.parents, rows) / scale)
 
     def worst(self, p: Parameters) -> float:
         """The largest of them in magnitude: at most one where the engine has these parameters."""
@@ -92,29 +92,11 @@ def probe_states(mechanism: Mechanism, count: int = STATES, seed: int = 1) -> tu
     centres = [float(np.hypot(*link.com)) for link in mechanism.links]
     natural = np.sqrt(max(float(np.hypot(*mechanism.gravity)), 1.0) / max(hinges, *centres, 1e-3))
     rates = natural * generator.uniform(0.5, 3.0, (count, n)) * generator.choice([-1.0, 1.0], (count, n))
-    return absolute(mechanism.parents, _quantised(phi)), absolute(mechanism.parents, _quantised(rates))
+    return to_absolute(mechanism.parents, _quantised(phi)), to_absolute(mechanism.parents, _quantised(rates))
 
 
 def _quantised(values: Array) -> Array:
     return np.asarray(np.round(values / QUANTUM) * QUANTUM)
-
-
-def relative(parents: tuple[int, ...], values: Array) -> Array:
-    """Each link's angle (rate, acceleration) less its parent's."""
-    found = values.copy()
-    for i, parent in enumerate(parents):
-        if parent != SUPPORT:
-            found[:, i] = values[:, i] - values[:, parent]
-    return np.asarray(found)
-
-
-def absolute(parents: tuple[int, ...], values: Array) -> Array:
-    """The inverse of :func:`relative`."""
-    found = values.copy()
-    for i, parent in enumerate(parents):
-        if parent != SUPPORT:
-            found[:, i] += found[:, parent]
-    return np.asarray(found)
 
 
 def measure(engine: Any, mechanism: Mechanism, accuracy: float = EPSILON, seed: int = 1) -> Measurement:

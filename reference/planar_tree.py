@@ -23,6 +23,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..models.coordinates import to_absolute, to_relative
 from ..models.mechanism import Mechanism
 from ..models.tree import SUPPORT
 from .arithmetic import Arithmetic, Array, arithmetic_of
@@ -242,11 +243,8 @@ def magnitudes(parents: tuple[int, ...], p: Parameters, theta: Floats, omega: Fl
     The unit of rounding errors. An engine in relative coordinates adds up an absolute rate from those of the hinges on
     the path from the support, so that their magnitudes are added here.
     """
-    rate, swing = (
-        _felt(parents, np.abs(_relative_rows(parents, omega))),
-        _felt(parents, np.abs(_relative_rows(parents, alpha))),
-    )
-    angular = swing + rate * rate
+    phi, phi_dot, phi_ddot = (np.abs(to_relative(parents, values)) for values in (theta, omega, alpha))
+    angular = to_absolute(parents, phi_ddot) + to_absolute(parents, phi_dot) ** 2
     g = np.hypot(p.gravity_along[..., 0], p.gravity_across[..., 0])
     hinge, com = np.hypot(p.hinge_along, p.hinge_across), np.hypot(p.com_along, p.com_across)
     acceleration: list[Any] = []
@@ -262,8 +260,6 @@ def magnitudes(parents: tuple[int, ...], p: Parameters, theta: Floats, omega: Fl
         if parent != SUPPORT:
             rows[parent] = rows[parent] + rows[i] + hinge[..., i] * force[i]
             force[parent] = force[parent] + force[i]
-    relative = (_relative_rows(parents, part) for part in (theta, omega, alpha))
-    phi, phi_dot, phi_ddot = map(np.abs, relative)
     own = p.armature * phi_ddot + p.damping * phi_dot + p.stiffness * phi + np.abs(p.preload) + p.friction
     return np.asarray(np.stack(np.broadcast_arrays(*rows), axis=-1) + own)
 
@@ -286,32 +282,6 @@ def stretched_inertias(parents: tuple[int, ...], p: Parameters) -> Floats:
             moment[parent] += moment[i] + mass[i] * h
             mass[parent] += mass[i]
     return np.asarray(inertia + p.armature)
-
-
-def relative_rows(parents: tuple[int, ...], absolute: Floats) -> Floats:
-    """Generalised forces of the relative angles: each link's and all that it carries, added up; shape (…, n)."""
-    rows = absolute.copy()
-    for i in range(len(parents) - 1, -1, -1):
-        if parents[i] != SUPPORT:
-            rows[..., parents[i]] += rows[..., i]
-    return rows
-
-
-def _relative_rows(parents: tuple[int, ...], values: Floats) -> Floats:
-    """φ = θ − θ of the parent."""
-    found = values.copy()
-    for i, parent in enumerate(parents):
-        if parent != SUPPORT:
-            found[..., i] = values[..., i] - values[..., parent]
-    return found
-
-
-def _felt(parents: tuple[int, ...], relative: Floats) -> Floats:
-    felt = relative.copy()
-    for i, parent in enumerate(parents):
-        if parent != SUPPORT:
-            felt[..., i] += felt[..., parent]
-    return felt
 
 
 def _relative(values: Array, i: int, parent: int) -> Any:

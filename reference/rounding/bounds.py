@@ -45,10 +45,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...models import PlanarTree
+from ...models.coordinates import absolute_from_relative
 from ...models.states import QUANTUM, quantised
 from .. import mass_matrix
 from ..documents.equations_of_motion import Mechanism
-from .lever_arms import Levers, absolute_levers, relative_levers, relative_to_absolute, tree_levers, world_errors
+from .lever_arms import Levers, absolute_levers, relative_levers, tree_levers, world_errors
 
 Array = NDArray[np.float64]
 
@@ -275,7 +276,7 @@ def amplitudes(
     links ``placed`` on the ``parent`` or in the ``world``, rows with ``interchanges`` or without.
     """
     tree = system.tree()
-    carried = relative_to_absolute(tree)
+    carried = absolute_from_relative(tree.parents)
     levers, errors = _levers(tree, coordinates, moments, placed)
     return Amplitudes(
         to_absolute=carried if coordinates == "relative" else np.eye(tree.n),

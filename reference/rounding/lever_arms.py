@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...models import PlanarTree
+from ...models.coordinates import absolute_from_relative
 from ...models.tree import SUPPORT
 
 Array = NDArray[np.float64]
@@ -36,7 +37,7 @@ def absolute_levers(tree: PlanarTree) -> Levers:
 
 def relative_levers(tree: PlanarTree) -> Levers:
     """Of hinge angles, where each link's moments are taken about its own hinge: the way there, then to the centre."""
-    carries = relative_to_absolute(tree).T
+    carries = absolute_from_relative(tree.parents).T
     to_hinge, to_centre = _parts(tree)
     return Levers(carries @ to_centre, carries @ to_hinge)
 
@@ -50,7 +51,7 @@ def tree_levers(tree: PlanarTree) -> tuple[Levers, Levers]:
     the centre of mass is so itself does no harm: moments about any point are moments.
     """
     n = tree.n
-    carries = relative_to_absolute(tree).T
+    carries = absolute_from_relative(tree.parents).T
     roots = list(tree.roots())
     together = carries[roots].T @ carries[roots]  # 1 where two links are of one tree
     weights = together * [link.mass for link in tree.links]
@@ -68,7 +69,7 @@ def world_errors(tree: PlanarTree) -> Levers:
     Each is then known to ε times the way from the support. On the way from hinge i to link k there are up to n of them,
     none further from the support than hinge k. A link's own centre of mass is not concerned.
     """
-    carries = relative_to_absolute(tree).T - np.eye(tree.n)
+    carries = absolute_from_relative(tree.parents).T - np.eye(tree.n)
     off = carries * from_support(tree)[0]
     return Levers(off, off)
 
@@ -76,7 +77,7 @@ def world_errors(tree: PlanarTree) -> Levers:
 def from_support(tree: PlanarTree) -> tuple[Array, Array]:
     """Lengths of the ways from the support to each hinge and each centre of mass, (n,) each."""
     roots = list(tree.roots())
-    held = relative_to_absolute(tree)[:, roots] @ [np.hypot(*tree.links[root].hinge) for root in roots]
+    held = absolute_from_relative(tree.parents)[:, roots] @ [np.hypot(*tree.links[root].hinge) for root in roots]
     to_hinge, to_centre = _parts(tree)
     return to_hinge.sum(axis=0) + held, to_centre.sum(axis=0) + held
 
@@ -112,12 +113,3 @@ def _parts(tree: PlanarTree) -> tuple[Array, Array]:
             to_hinge[:, k] = to_hinge[:, link.parent]
             to_hinge[link.parent, k] += np.hypot(*link.hinge)
     return to_hinge, to_hinge + np.diag([np.hypot(*link.com) for link in tree.links])
-
-
-def relative_to_absolute(tree: PlanarTree) -> Array:
-    """S of θ = S q: an absolute angle is the sum of the relative ones from the support to it, shape (n, n)."""
-    matrix = np.eye(tree.n)
-    for i, parent in enumerate(tree.parents):
-        if parent != SUPPORT:
-            matrix[i] += matrix[parent]
-    return matrix

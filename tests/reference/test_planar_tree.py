@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from furiko.models import Link, NLegPendulum, PlanarTree, RodChain
+from furiko.models.coordinates import forces_to_relative
 from furiko.models.mechanism import Hinge, Mechanism, mechanism_of
 from furiko.reference import planar_tree as planar
 from furiko.reference.arithmetic import balls
@@ -71,7 +72,7 @@ def test_forward_dynamics_is_the_inverse_of_inverse_dynamics(seed, n):
     p = planar.parameters(m)
     theta, omega = np.random.default_rng(seed).normal(size=(2, 6, n)) * 3
     alpha = planar.forward_dynamics(m.parents, p, theta, omega)
-    left = planar.relative_rows(m.parents, planar.inverse_dynamics(m.parents, p, theta, omega, alpha))
+    left = forces_to_relative(m.parents, planar.inverse_dynamics(m.parents, p, theta, omega, alpha))
     size = planar.magnitudes(m.parents, p, theta, omega, alpha)
     # 26 roundings a link, as furiko.checks.rounding counts them.
     assert np.all(np.abs(left) <= 26 * n * 2.0**-52 * size)
