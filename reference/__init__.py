@@ -3,7 +3,7 @@
 from .documents.equation import Equation, Slip
 from .documents.equations_of_motion import (
     centre_accelerations,
-    coriolis_matrix,
+    centrifugal_matrix,
     energy,
     gravity_vector,
     joint_forces,
@@ -28,7 +28,7 @@ __all__ = [
     "Equation",
     "Slip",
     "centre_accelerations",
-    "coriolis_matrix",
+    "centrifugal_matrix",
     "energy",
     "gravity_vector",
     "joint_forces",

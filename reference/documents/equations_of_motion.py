@@ -48,12 +48,15 @@ def literal_accelerations(system: Mechanism, theta: Array, omega: Array) -> Arra
 
 
 def mass_matrix(system: Mechanism, theta: Array) -> Array:
-    """M(θ) [kg m²], shape (…, n, n): Shiki (3.12) row i times l_i, Takeno (21) row j times ρ l_j."""
+    """Joint-space inertia (mass) matrix M(θ) [kg m²] of the absolute angles, shape (…, n, n).
+
+    Shiki (3.12) row i times l_i, Takeno (21) row j times ρ l_j.
+    """
     return _terms(system, theta)[0]
 
 
-def coriolis_matrix(system: Mechanism, theta: Array) -> Array:
-    """C(θ) [kg m²], shape (…, n, n): what stands before θ̇_k² in row j."""
+def centrifugal_matrix(system: Mechanism, theta: Array) -> Array:
+    """Centrifugal matrix C(θ) [kg m²], shape (…, n, n): C_jk multiplies θ̇_k² in row j. No products θ̇_j θ̇_k."""
     return _terms(system, theta)[1]
 
 
@@ -76,9 +79,9 @@ def _terms(system: Mechanism, theta: Array) -> tuple[Array, Array, Array]:
     A, B = both[..., 0, :, :], both[..., 1, :, :]
     index = np.arange(system.n)
     gravity = B[..., index, index]
-    coriolis = B.copy()
-    coriolis[..., index, index] = 0
-    return l[:, None] * A, l[:, None] * coriolis, l * gravity
+    centrifugal = B.copy()
+    centrifugal[..., index, index] = 0
+    return l[:, None] * A, l[:, None] * centrifugal, l * gravity
 
 
 def _takeno_matrices(xp: Arithmetic, l: Array, L: Array, theta: Array) -> tuple[Array, Array]:

@@ -47,17 +47,17 @@ class Variation:
 def variation(system: Mechanism, theta: Floats, omega: Floats) -> Variation:
     """The accelerations at a state and their exact derivatives; θ, ω of shape (…, n), any float type."""
     xp = arithmetic_of(theta, omega)
-    mass, coriolis, gravity = (
-        term(system, theta) for term in (motion.mass_matrix, motion.coriolis_matrix, motion.gravity_vector)
+    mass, centrifugal, gravity = (
+        term(system, theta) for term in (motion.mass_matrix, motion.centrifugal_matrix, motion.gravity_vector)
     )
     squared = omega**2
-    alpha = xp.solve(mass, -((coriolis * squared[..., None, :]).sum(-1) + gravity))
+    alpha = xp.solve(mass, -((centrifugal * squared[..., None, :]).sum(-1) + gravity))
     levers = motion.gravity_vector(system, np.full(system.n, np.pi / 2))  # g_j, each sine being one
-    by_theta = coriolis * alpha[..., None, :] - mass * squared[..., None, :]
+    by_theta = centrifugal * alpha[..., None, :] - mass * squared[..., None, :]
     index = np.arange(system.n)
     by_theta[..., index, index] = 0
     by_theta[..., index, index] = levers * np.cos(theta) - by_theta.sum(-1)
-    by_omega = 2 * coriolis * omega[..., None, :]
+    by_omega = 2 * centrifugal * omega[..., None, :]
     return Variation(alpha, _divide(xp, mass, by_theta), _divide(xp, mass, by_omega))
 
 

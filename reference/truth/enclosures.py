@@ -71,7 +71,7 @@ class Terms:
     """M [kg m²], C [kg m²] and G [N m] of M θ̈ + C θ̇² + G = 0, every entry within one rounding."""
 
     mass: Floats
-    coriolis: Floats
+    centrifugal: Floats
     gravity: Floats
 
 
@@ -100,8 +100,8 @@ def true_terms(system: Mechanism, theta: Floats) -> Terms:
     n, batch = system.n, theta.shape[:-1]
     rows = theta.reshape(-1, n)
     chunks = [_terms(system, rows[part]) for part in _chunks(len(rows), n)]
-    mass, coriolis, gravity = (np.concatenate(parts) for parts in zip(*chunks, strict=True))
-    return Terms(mass.reshape(*batch, n, n), coriolis.reshape(*batch, n, n), gravity.reshape(*batch, n))
+    mass, centrifugal, gravity = (np.concatenate(parts) for parts in zip(*chunks, strict=True))
+    return Terms(mass.reshape(*batch, n, n), centrifugal.reshape(*batch, n, n), gravity.reshape(*batch, n))
 
 
 def enclosed_accelerations(system: Mechanism, theta: Array, omega: Array) -> Array:
@@ -204,12 +204,12 @@ def _terms(system: Mechanism, theta: Floats) -> tuple[Floats, Floats, Floats]:
             angles = balls().array(theta)
             found = (
                 motion.mass_matrix(system, angles),
-                motion.coriolis_matrix(system, angles),
+                motion.centrifugal_matrix(system, angles),
                 motion.gravity_vector(system, angles),
             )
             if all(_exact_or_accurate(term) for term in found) or bits >= MOST_BITS:
-                mass, coriolis, gravity = (term.astype(np.float64) for term in found)
-                return mass, coriolis, gravity
+                mass, centrifugal, gravity = (term.astype(np.float64) for term in found)
+                return mass, centrifugal, gravity
         bits *= 2
 
 

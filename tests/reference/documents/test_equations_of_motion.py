@@ -13,7 +13,7 @@ from furiko.models import NLegPendulum, RodChain
 from furiko.models.tree import SUPPORT
 from furiko.reference import (
     centre_accelerations,
-    coriolis_matrix,
+    centrifugal_matrix,
     energy,
     gravity_vector,
     joint_forces,
@@ -119,7 +119,7 @@ def test_energy_is_that_of_the_links_and_does_not_change(system, seed):
 def test_terms_are_derivatives_of_the_energies(system, seed):
     theta, omega, _ = some_motion(system, seed, count=1)
     n = system.n
-    M, C, G = (term(system, theta)[0] for term in (mass_matrix, coriolis_matrix, gravity_vector))
+    M, C, G = (term(system, theta)[0] for term in (mass_matrix, centrifugal_matrix, gravity_vector))
     np.testing.assert_allclose(M, M.T, rtol=0, atol=1e-14 * np.abs(M).max())
     unit = np.eye(n)
     # T is quadratic: its second differences are exact but for rounding

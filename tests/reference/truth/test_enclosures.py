@@ -186,5 +186,5 @@ def test_terms():
         terms = true_terms(system, theta)
         # one cosine of a rounded difference of angles up to 2π: 4 ulp of π in the angle, a few roundings besides
         np.testing.assert_allclose(mass_matrix(system, theta), terms.mass, rtol=0, atol=1e-14)
-        np.testing.assert_allclose(motion.coriolis_matrix(system, theta), terms.coriolis, rtol=0, atol=1e-14)
+        np.testing.assert_allclose(motion.centrifugal_matrix(system, theta), terms.centrifugal, rtol=0, atol=1e-14)
         np.testing.assert_allclose(motion.gravity_vector(system, theta), terms.gravity, rtol=0, atol=1e-13)
