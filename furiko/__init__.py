@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from .diagnosis.diagnose import diagnose
     from .engines import engine_names, load_engine
     from .models import EngineMissing, InvalidInput, NLegPendulum, RodChain, to_mjcf, to_urdf
-    from .reference.energies import energy
     from .reference.integration.taylor import simulate
+    from .reference.kernels.energy import energy
     from .reference.kernels.forward_dynamics import accelerations
     from .reports import Report, read_stream
     from .run import check
@@ -34,7 +34,7 @@ _HOMES = {
     "audit": "derivations.audit.audit",
     "check": "run",
     "diagnose": "diagnosis.diagnose",
-    "energy": "reference.energies",
+    "energy": "reference.kernels.energy",
     "engine_names": "engines",
     "grade": "derivations.grading.grade",
     "load_engine": "engines",

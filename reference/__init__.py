@@ -4,7 +4,7 @@ from .documents.equation import Equation, Slip
 from .documents.equations_of_motion import (
     centre_accelerations,
     centrifugal_matrix,
-    energy,
+    energies,
     gravity_vector,
     joint_forces,
     literal_accelerations,
@@ -29,7 +29,7 @@ __all__ = [
     "Slip",
     "centre_accelerations",
     "centrifugal_matrix",
-    "energy",
+    "energies",
     "gravity_vector",
     "joint_forces",
     "literal_accelerations",

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..models import InvalidInput, RodChain
-from .documents.equations_of_motion import energy
+from .documents.equations_of_motion import energies
 from .truth.closed_forms import hanging_chain_rates
 
 Array = NDArray[np.float64]
@@ -135,14 +135,14 @@ def move(system: RodChain, theta: Any, omega: Any, times: Sequence[float] | Arra
     rate = np.stack(
         [(l * np.cos(moved.theta) * moved.omega).sum(-1), (l * np.sin(moved.theta) * moved.omega).sum(-1)], axis=-1
     )
-    _, lowest = energy(system, np.zeros(n), np.zeros(n))
+    _, lowest = energies(system, np.zeros(n), np.zeros(n))
     shown = np.unique(np.linspace(0, n - 1, min(n, MOST_POINTS)).round().astype(int))
     return Motion(
         times=np.asarray(moved.times),
         tip=np.stack([across[:, -1], up[:, -1]], axis=-1),
         speed=np.linalg.norm(rate, axis=-1),
         fastest=np.abs(moved.omega).max(axis=-1),
-        energy=np.asarray(sum(energy(system, moved.theta, moved.omega)) - lowest),
+        energy=np.asarray(sum(energies(system, moved.theta, moved.omega)) - lowest),
         curves=np.stack([across[:, shown], up[:, shown]], axis=-1),
         theta=moved.theta[-1],
         omega=moved.omega[-1],
@@ -179,8 +179,8 @@ def _keeps(n: int, step: float, duration: float, most: float) -> bool:
         return kernel(np.ascontiguousarray(angles), np.ascontiguousarray(rates))
 
     theta, omega = bow(n), np.zeros(n)
-    _, lowest = energy(system, theta * 0, omega)
-    first = float(sum(energy(system, theta, omega)))
+    _, lowest = energies(system, theta * 0, omega)
+    first = float(sum(energies(system, theta, omega)))
     count = math.ceil(duration / step)
     with np.errstate(all="ignore"):
         for k in range(count):
@@ -189,7 +189,7 @@ def _keeps(n: int, step: float, duration: float, most: float) -> bool:
             except InvalidInput:  # beyond what the kernels take
                 return False
             if k % 64 == 0 or k == count - 1:
-                now = float(sum(energy(system, theta, omega)))
+                now = float(sum(energies(system, theta, omega)))
                 if not abs(now - first) <= most * (first - lowest):
                     return False
     return True

@@ -11,7 +11,7 @@ import numpy as np
 from furiko.engines import EngineInfo, Integrator, ModelFields
 from furiko.reference import (
     centrifugal_matrix,
-    energy,
+    energies,
     gravity_vector,
     joint_forces,
     literal_accelerations,
@@ -66,7 +66,7 @@ class Right:
         return joint_forces(self.system, theta, omega, alpha)
 
     def energy(self, theta, omega):
-        return np.stack(energy(self.system, theta, omega), axis=-1)
+        return np.stack(energies(self.system, theta, omega), axis=-1)
 
     def trajectory(self, theta, omega, integrator, step, steps):
         def slope(y):

@@ -90,8 +90,8 @@ def _takeno_matrices(xp: Arithmetic, l: Array, L: Array, theta: Array) -> tuple[
     return both[..., 0, :, :], both[..., 1, :, :]
 
 
-def energy(system: Mechanism, theta: Array, omega: Array) -> tuple[Array, Array]:
-    """Kinetic and potential energy [J], shape (…); the latter zero at the support's height."""
+def energies(system: Mechanism, theta: Array, omega: Array) -> tuple[Array, Array]:
+    """Kinetic and potential energy [J], shape (…) each; the potential is zero at the support."""
     xp = arithmetic_of(theta, omega)
     l, m, g = _lengths_masses_gravity(xp, system)
     across, down = _across_and_down(system, l, theta, xp)

@@ -1,4 +1,4 @@
-"""Proven accelerations of long chains and of many legs, in O(n): Newton's and Euler's equations in ball arithmetic.
+"""Enclosed accelerations of long chains and of many legs, in O(n): Newton's and Euler's equations in ball arithmetic.
 
 :mod:`.enclosures` solves the literal equations, whose matrix is dense; that is too much for a thousand rods. Here the
 joint forces are the unknowns, as Takeno has them before he eliminates them. With Q_j = q_j q_jᵀ, (3) and (6) in the
@@ -30,26 +30,27 @@ from numpy.typing import NDArray
 
 from ...models import RodChain
 from ..documents.equations_of_motion import Mechanism
-from .enclosures import AS_GOOD_AS_ZERO, MOST_BITS, RELATIVE_RADIUS, SMALLEST, Truth, precision
+from .enclosures import AS_GOOD_AS_ZERO, MOST_BITS, RELATIVE_RADIUS, SMALLEST, Enclosure, precision
 
 Floats = NDArray[np.float64]
 
 FEWEST_BITS = 160
 
 
-def proven_accelerations(system: Mechanism, theta: Floats, omega: Floats) -> Truth:
-    """θ̈ [rad/s²] of the documents' equations of motion in states (…, n), each with a proven radius.
+def enclosed_accelerations(system: Mechanism, theta: Floats, omega: Floats) -> Enclosure:
+    """θ̈ [rad/s²] of the documents' equations of motion in states (…, n), each with a proved radius.
 
-    The same promise as :func:`.truth.true_accelerations`; raises ArithmeticError where it cannot be kept.
+    The same result as :func:`.enclosures.enclosed_accelerations`, with the same promise, for any n; raises
+    ArithmeticError where it cannot be kept.
     """
     theta, omega = np.broadcast_arrays(np.asarray(theta, dtype=np.float64), np.asarray(omega, dtype=np.float64))
     rows = [_proven(system, t, w) for t, w in zip(*(a.reshape(-1, system.n) for a in (theta, omega)), strict=True)]
     parts = (np.array([row[k] for row in rows]).reshape(theta.shape) for k in range(3))
-    return Truth(*parts)
+    return Enclosure(*parts)
 
 
 def close_accelerations(system: Mechanism, theta: Floats, omega: Floats, bits: int = FEWEST_BITS) -> list[Any]:
-    """θ̈ of one state (n,) as balls' midpoints at this precision, without a proof; for differences of neighbours."""
+    """θ̈ of one state (n,) as balls' midpoints at this precision, without a proof: for differences of close states."""
     with precision(bits):
         state = theta.tolist(), omega.tolist()
         found = _rods(system, *state) if isinstance(system, RodChain) else _legs(system, *state)
@@ -69,7 +70,7 @@ def _proven(system: Mechanism, theta: Floats, omega: Floats) -> tuple[list[float
             if max(split[2]) <= max(RELATIVE_RADIUS * largest, AS_GOOD_AS_ZERO):
                 return split
         if bits >= MOST_BITS:
-            raise ArithmeticError(f"no enclosure of this state's truth with {bits} bits")
+            raise ArithmeticError(f"no enclosure of this state with {bits} bits")
         bits *= 2
 
 

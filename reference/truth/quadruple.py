@@ -1,9 +1,9 @@
 """Trajectories in quadruple precision: the literal equations as heyoka expressions, integrated by Taylor series.
 
-Nothing here is shared with the fast kernels: a dense system of equations is eliminated symbolically, exactly as the
-document writes it. For long chains that would be millions of terms; there the document's own equations before it
-eliminates the joint forces, Takeno (3) and (6), are solved along the chain instead, O(n). Beyond fifty links the
-numbers are long doubles of 64 bits, eleven more than doubles have; the error estimate tells.
+Not an enclosure: the error is estimated by a second run. Nothing is shared with the fast kernels: a dense system of
+equations is eliminated symbolically, exactly as the document writes it. For long chains that would be millions of
+terms; there the equations with the joint forces, Takeno (3) and (6), are solved along the chain instead, O(n). Beyond
+fifty links the numbers are long doubles of 64 bits, eleven more than doubles have; the error estimate shows it.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ LARGEST_DENSE_N = 10  # beyond, the equations with the joint forces make the sma
 
 
 @dataclass(frozen=True)
-class TrueTrajectory:
+class QuadrupleTrajectory:
     """θ [rad] and ω [rad/s] at the times asked for, shape (times, n): the sums ``theta + theta_low`` and so on.
 
     ``error``: estimate of the largest error of the state at each time, shape (times,), from two runs that differ in
@@ -45,21 +45,24 @@ class TrueTrajectory:
     error: Floats
 
 
-def integrate(
-    system: Mechanism, theta: Sequence[float], omega: Sequence[float], times: Sequence[float]
-) -> TrueTrajectory:
-    """The trajectory from a state (n,) at ``times[0]``; times may run backwards. Raises EngineMissing."""
-    digits, error = decimal_states(system, theta, omega, times)
+def quadruple_trajectory(
+    system: Mechanism, theta: Sequence[float] | Floats, omega: Sequence[float] | Floats, times: Sequence[float] | Floats
+) -> QuadrupleTrajectory:
+    """The trajectory of the literal equations from a state (n,) at ``times[0]`` [s]; times may run backwards.
+
+    Its error is estimated by a second run. Raises EngineMissing without heyoka.
+    """
+    digits, error = decimal_states(system, [*map(float, theta)], [*map(float, omega)], [*map(float, times)])
     return from_decimals(digits, error, system.n)
 
 
-def from_decimals(digits: Sequence[Sequence[str]], error: Sequence[float], n: int) -> TrueTrajectory:
+def from_decimals(digits: Sequence[Sequence[str]], error: Sequence[float], n: int) -> QuadrupleTrajectory:
     """A trajectory from rows of θ and ω written as decimals."""
     high = np.array([[float(number) for number in row] for row in digits]).reshape(-1, 2 * n)
     low = np.array([[float(Decimal(number) - Decimal(float(number))) for number in row] for row in digits]).reshape(
         -1, 2 * n
     )
-    return TrueTrajectory(high[:, :n], high[:, n:], low[:, :n], low[:, n:], np.array(error, dtype=np.float64))
+    return QuadrupleTrajectory(high[:, :n], high[:, n:], low[:, :n], low[:, n:], np.array(error, dtype=np.float64))
 
 
 def decimal_states(

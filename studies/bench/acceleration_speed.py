@@ -20,7 +20,7 @@ from ...records.bench import Speed
 from ...reference import literal_accelerations
 from ...reference.documents.equations_of_motion import Mechanism
 from ...reference.kernels.forward_dynamics import accelerations, kernel_of, plain_accelerations
-from ...reference.truth.newton_euler import proven_accelerations
+from ...reference.truth.newton_euler import enclosed_accelerations
 from .methods import FURIKO
 from .timing import Subject, Times, interleaved, once
 
@@ -154,7 +154,7 @@ def _each(kernel: Callable[[Array, Array], Array], theta: Array, omega: Array) -
 def _errors(system: Mechanism, entrants: Sequence[Entrant]) -> dict[tuple[str, str], float]:
     """Norm-wise: the largest error of a state over its largest acceleration, the worst of a few states."""
     theta, omega = random_states("speed", system, CHECKED_STATES)
-    truth = proven_accelerations(system, theta, omega)
+    truth = enclosed_accelerations(system, theta, omega)
     size = np.abs(truth.high).max(-1)
     found: dict[tuple[str, str], float] = {}
     for entrant in entrants:

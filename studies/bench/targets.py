@@ -18,9 +18,9 @@ from ...models import NLegPendulum, RodChain, Scene
 from ...models.benchmark_scenes import BENCHMARKS
 from ...models.states import random_states
 from ...records.bench import Target
-from ...reference.documents.equations_of_motion import Mechanism, energy
+from ...reference.documents.equations_of_motion import Mechanism, energies
 from ...reference.kernels.forward_dynamics import accelerations, kernel_of
-from ...reference.truth.newton_euler import proven_accelerations
+from ...reference.truth.newton_euler import enclosed_accelerations
 from .cold_start import profile_targets, smoke_target
 from .methods import DOP853, TAYLOR, dop853, end_error, start, taylor
 from .timing import Subject, Times, interleaved
@@ -244,7 +244,7 @@ def _shapes(n: int, generator: np.random.Generator) -> list[Array]:
 
 
 def _normwise(system: Mechanism, theta: Array, omega: Array) -> float:
-    truth = proven_accelerations(system, theta, omega)
+    truth = enclosed_accelerations(system, theta, omega)
     found = kernel_of(system).batch(theta, omega, 1)
     return float((truth.error(found).max(-1) / np.abs(truth.high).max(-1)).max())
 
@@ -371,7 +371,7 @@ def energy_drift() -> Target:
     begun = time.perf_counter()
     motion = simulate(scene.system, *start(scene), times)
     seconds = time.perf_counter() - begun
-    total = np.sum(energy(scene.system, motion.theta, motion.omega), axis=0)
+    total = np.sum(energies(scene.system, motion.theta, motion.omega), axis=0)
     drift = float(np.abs(total / total[0] - 1).max())
     return Target(
         name=f"energy of the double pendulum of rods over {LONG_RUN:g} s",

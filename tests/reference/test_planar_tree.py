@@ -10,7 +10,7 @@ from furiko.models.coordinates import forces_to_relative
 from furiko.models.mechanism import Hinge, Mechanism, mechanism_of
 from furiko.reference import planar_tree as planar
 from furiko.reference.arithmetic import balls
-from furiko.reference.truth.enclosures import enclosed_accelerations, precision
+from furiko.reference.truth.enclosures import accelerations_in_balls, precision
 
 DOCUMENTS = [
     NLegPendulum((1.0, 0.8, 0.6, 0.5), (1.0, 0.5, 0.3, 2.0)),
@@ -31,7 +31,7 @@ def test_the_documents_are_special_cases_in_ball_arithmetic(system):
         xp = balls()
         p = exact_parameters(system, mechanism, xp)
         ours = planar.forward_dynamics(mechanism.parents, p, xp.array(theta), xp.array(omega))
-        theirs = enclosed_accelerations(system, xp.array(theta), xp.array(omega))
+        theirs = accelerations_in_balls(system, xp.array(theta), xp.array(omega))
         assert all(a.overlaps(b) for a, b in zip(ours.flat, theirs.flat, strict=True))
         assert max(float(a.rad()) for a in ours.flat) < 1e-40
 
