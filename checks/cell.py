@@ -13,9 +13,9 @@ from ..diagnosis.finding import Finding
 from ..engines import AnyShape, EngineInfo, Integrator
 from ..models import Scene
 from ..models.states import States
+from ..models.systems import DocumentSystem as Mechanism
 from ..records.check import Outcome, Result
 from ..reference import mass_matrix
-from ..reference.documents.equations_of_motion import Mechanism
 from ..reference.rounding.bounds import Amplitudes, amplitudes
 from .facts import SceneFacts
 

@@ -36,9 +36,9 @@ from numpy.typing import NDArray
 from ...engines import Integrator, engine_info, engine_names, load_engine
 from ...models import InvalidInput, Scene, find_scenes
 from ...models.states import natural_rate, states
+from ...models.systems import DocumentSystem as Mechanism
 from ...records.check import Result
 from ...reference import literal_accelerations
-from ...reference.documents.equations_of_motion import Mechanism
 from ...reference.integration.schemes import BUTCHER_6
 from ...reference.integration.variation import Growth, growth, lyapunov_time, tangent_flow
 from ...reference.rounding.bounds import EPSILON

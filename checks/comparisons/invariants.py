@@ -23,9 +23,9 @@ from numpy.typing import NDArray
 
 from ...engines import AnyShape, Integrator
 from ...models import Scene
+from ...models.systems import DocumentSystem as Mechanism
 from ...records.check import Result
 from ...reference import energies, literal_accelerations, mass_matrix
-from ...reference.documents.equations_of_motion import Mechanism
 from ...reference.integration.richardson import amplified, at_step_zero
 from ...reference.integration.variation import fastest_rate, lyapunov_time
 from ...reference.rounding.bounds import EPSILON, Amplitudes, allowed

@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 
 from ...engines import cannot
 from ...models import NLegPendulum, RodChain
+from ...models.systems import DocumentSystem as Mechanism
 from ...records.check import Result
 from ...reference import literal_accelerations, mass_matrix
-from ...reference.documents.equations_of_motion import Mechanism
 from ...reference.integration.variation import variation
 from ...reference.rounding.bounds import EPSILON, Amplitudes, allowed, amplitudes, turns
 from ..cell import Cell, Worst, quotient, worst

@@ -18,10 +18,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...models import DocumentSystem
 from ...models.states import natural_rate
 from ..arithmetic import arithmetic_of
 from ..documents import equations_of_motion as motion
-from ..documents.equations_of_motion import Mechanism
 from . import schemes
 
 Floats = NDArray[np.float64]
@@ -44,7 +44,7 @@ class Variation:
         return np.concatenate([above, np.concatenate([self.by_theta, self.by_omega], -1)], -2)
 
 
-def variation(system: Mechanism, theta: Floats, omega: Floats) -> Variation:
+def variation(system: DocumentSystem, theta: Floats, omega: Floats) -> Variation:
     """The accelerations at a state and their exact derivatives; θ, ω of shape (…, n), any float type."""
     xp = arithmetic_of(theta, omega)
     mass, centrifugal, gravity = (
@@ -69,7 +69,7 @@ def _divide(xp: object, mass: Floats, right: Floats) -> Floats:
     return np.stack(columns, axis=-1)
 
 
-def fastest_rate(system: Mechanism, theta: Floats, omega: Floats) -> Floats:
+def fastest_rate(system: DocumentSystem, theta: Floats, omega: Floats) -> Floats:
     """A bound [1/s] of how fast nearby states part at each instant; shape (…).
 
     The largest row sum of J after angles and rates are measured in one unit, the rate ν = √(largest row of ∂θ̈/∂θ).
@@ -81,7 +81,7 @@ def fastest_rate(system: Mechanism, theta: Floats, omega: Floats) -> Floats:
     return np.asarray(nu + friction)
 
 
-def tangent_flow(system: Mechanism, theta: Floats, omega: Floats, step: float) -> Floats:
+def tangent_flow(system: DocumentSystem, theta: Floats, omega: Floats, step: float) -> Floats:
     """Φ of each step along a path: δ(t + step) = Φ δ(t), δ = (δθ, δω); shape (K, 2n, 2n).
 
     ``theta``, ``omega``: the path at K + 1 times, ``step`` apart, **and at the times half-way between**: shape
@@ -140,7 +140,7 @@ def growth(flow: Floats, step: float, rate: float) -> Growth:
     return Growth(step * np.arange(len(flow) + 1, dtype=np.float64), logarithm)
 
 
-def growth_along(system: Mechanism, theta: Floats, omega: Floats, duration: float) -> Growth:
+def growth_along(system: DocumentSystem, theta: Floats, omega: Floats, duration: float) -> Growth:
     """Growth of small differences along the motion from a state (n,), over ``duration`` [s].
 
     The motion is integrated in double precision by Butcher's sixth order scheme, twice as finely until the growth no
@@ -158,7 +158,7 @@ def growth_along(system: Mechanism, theta: Floats, omega: Floats, duration: floa
         before = found
 
 
-def lyapunov_time(system: Mechanism, theta: Floats, omega: Floats, duration: float) -> float:
+def lyapunov_time(system: DocumentSystem, theta: Floats, omega: Floats, duration: float) -> float:
     """The time [s] in which the most sensitive small difference grows e-fold, on average over ``duration`` [s].
 
     Infinite where nothing grows. A motion that is not chaotic has one too, about its duration: differences then grow
@@ -167,7 +167,9 @@ def lyapunov_time(system: Mechanism, theta: Floats, omega: Floats, duration: flo
     return growth_along(system, theta, omega, duration).lyapunov_time
 
 
-def _growth_in(system: Mechanism, theta: Floats, omega: Floats, duration: float, steps: int, rate: float) -> Growth:
+def _growth_in(
+    system: DocumentSystem, theta: Floats, omega: Floats, duration: float, steps: int, rate: float
+) -> Growth:
     step = duration / steps
     states = np.empty((2 * steps + 1, 2, system.n))
     states[0] = theta, omega

@@ -44,11 +44,10 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ...models import PlanarTree
+from ...models import DocumentSystem, PlanarTree
 from ...models.coordinates import absolute_from_relative
 from ...models.states import QUANTUM, quantised
 from .. import mass_matrix
-from ..documents.equations_of_motion import Mechanism
 from .lever_arms import Levers, absolute_levers, relative_levers, tree_levers, world_errors
 
 Array = NDArray[np.float64]
@@ -263,7 +262,7 @@ def _positive_definite(matrix: Array) -> bool:
 
 @lru_cache(maxsize=32)  # a worker looks at one scene, and its images, with several engines
 def amplitudes(
-    system: Mechanism,
+    system: DocumentSystem,
     coordinates: str,
     *,
     moments: str = "hinge",
@@ -299,7 +298,7 @@ def _levers(tree: PlanarTree, coordinates: str, moments: str, placed: str) -> tu
     return relative_levers(tree), world_errors(tree) if placed == "world" else None
 
 
-def condition(system: Mechanism, theta: Array, amplitude: Amplitudes, alpha: Array, omega: Array) -> Array:
+def condition(system: DocumentSystem, theta: Array, amplitude: Amplitudes, alpha: Array, omega: Array) -> Array:
     """Relative forward error of accelerations per unit of backward error, at each state: (B,) from (B, n).
 
     A backward error η leaves accelerations off by at most η·cond of the largest one.

@@ -12,9 +12,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ...models import DocumentSystem
 from ...models.units import in_units, units_of
 from .. import mass_matrix
-from ..documents.equations_of_motion import Mechanism
 from ..maximal_coordinates import MaximalCoordinates
 from .bounds import interchanged
 
@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 ORDERS = 16
 
 
-def elimination(system: Mechanism, theta: Array, omega: Array) -> tuple[Array, Array]:
+def elimination(system: DocumentSystem, theta: Array, omega: Array) -> tuple[Array, Array]:
     """Magnitudes that meet in the equations of motion and in the joints' forces, (B, n) [N m] and (B, n) [N].
 
     Row by row of the document's equations: M times what a residual |L||U||x| of the system changes in the angles'
@@ -34,7 +34,7 @@ def elimination(system: Mechanism, theta: Array, omega: Array) -> tuple[Array, A
     return rows, forces
 
 
-def _one(system: Mechanism, theta: Array, omega: Array) -> tuple[Array, Array]:
+def _one(system: DocumentSystem, theta: Array, omega: Array) -> tuple[Array, Array]:
     tree, n = system.tree(), system.n
     units = units_of(tree).fitting(system.gravity, omega)
     bodies = MaximalCoordinates(in_units(tree, units))

@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...models import DocumentSystem
 from ..arithmetic import Array, balls
 from ..documents import equations_of_motion as motion
-from ..documents.equations_of_motion import Mechanism
 from . import linear_solve as verified
 
 Floats = NDArray[np.float64]
@@ -58,7 +58,7 @@ class Terms:
     gravity: Floats
 
 
-def enclosed_accelerations(system: Mechanism, theta: Floats, omega: Floats) -> Enclosure:
+def enclosed_accelerations(system: DocumentSystem, theta: Floats, omega: Floats) -> Enclosure:
     """θ̈ [rad/s²] of the literal equations, Shiki (3.10) or Takeno (22); shape (…, n) in and out.
 
     The radius is at most 2⁻⁸⁰ of the largest component of a state; raises ArithmeticError where that fails.
@@ -66,7 +66,7 @@ def enclosed_accelerations(system: Mechanism, theta: Floats, omega: Floats) -> E
     return _over_states(lambda t, w, a: a, system, theta, omega, (system.n,))
 
 
-def enclosed_joint_forces(system: Mechanism, theta: Floats, omega: Floats) -> Enclosure:
+def enclosed_joint_forces(system: DocumentSystem, theta: Floats, omega: Floats) -> Enclosure:
     """Joint reaction forces [N], Takeno's T_j and the star's, in the free motion; (…, n) in, (…, n, 2) out.
 
     Raises ArithmeticError as :func:`enclosed_accelerations` does.
@@ -74,7 +74,7 @@ def enclosed_joint_forces(system: Mechanism, theta: Floats, omega: Floats) -> En
     return _over_states(lambda t, w, a: motion.joint_forces(system, t, w, a), system, theta, omega, (system.n, 2))
 
 
-def enclosed_energies(system: Mechanism, theta: Floats, omega: Floats) -> Enclosure:
+def enclosed_energies(system: DocumentSystem, theta: Floats, omega: Floats) -> Enclosure:
     """Kinetic and potential energy [J], shape (…, 2)."""
 
     def both(t: Array, w: Array, a: Array) -> Array:
@@ -83,7 +83,7 @@ def enclosed_energies(system: Mechanism, theta: Floats, omega: Floats) -> Enclos
     return _over_states(both, system, theta, omega, (2,), accelerate=False)
 
 
-def enclosed_terms(system: Mechanism, theta: Floats) -> Terms:
+def enclosed_terms(system: DocumentSystem, theta: Floats) -> Terms:
     """The three terms of the equations of motion, every entry proved to one rounding; (…, n) in."""
     theta = np.asarray(theta, dtype=np.float64)
     n, batch = system.n, theta.shape[:-1]
@@ -93,7 +93,7 @@ def enclosed_terms(system: Mechanism, theta: Floats) -> Terms:
     return Terms(mass.reshape(*batch, n, n), centrifugal.reshape(*batch, n, n), gravity.reshape(*batch, n))
 
 
-def accelerations_in_balls(system: Mechanism, theta: Array, omega: Array) -> Array:
+def accelerations_in_balls(system: DocumentSystem, theta: Array, omega: Array) -> Array:
     """θ̈ as balls for states given as balls, (B, n), at the precision that is set.
 
     Raises ZeroDivisionError where that precision cannot show the matrix to be regular.
@@ -113,7 +113,7 @@ def precision(bits: int) -> Iterator[None]:
 
 def _over_states(
     quantity: Callable[[Array, Array, Array], Array],
-    system: Mechanism,
+    system: DocumentSystem,
     theta: Floats,
     omega: Floats,
     shape: tuple[int, ...],
@@ -177,7 +177,7 @@ _split_each = np.frompyfunc(_split, 1, 3)
 _accuracy = np.frompyfunc(lambda ball: ball.rel_accuracy_bits(), 1, 1)
 
 
-def _terms(system: Mechanism, theta: Floats) -> tuple[Floats, Floats, Floats]:
+def _terms(system: DocumentSystem, theta: Floats) -> tuple[Floats, Floats, Floats]:
     bits = BITS
     while True:
         with precision(bits):

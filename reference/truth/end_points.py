@@ -14,8 +14,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from ...models import RodChain, Scene
-from ..documents.equations_of_motion import Mechanism
+from ...models import DocumentSystem, RodChain, Scene
 from . import quadruple
 from .quadruple import QuadrupleTrajectory
 
@@ -24,7 +23,9 @@ BENCHMARKS_PATH = PATH.with_name("benchmarks.json")  # of the motions that are t
 PARTS = (0.125, 0.25, 0.5, 1.0)  # of the duration
 
 
-def lookup(system: Mechanism, theta: Sequence[float], omega: Sequence[float], duration: float) -> QuadrupleTrajectory:
+def lookup(
+    system: DocumentSystem, theta: Sequence[float], omega: Sequence[float], duration: float
+) -> QuadrupleTrajectory:
     """States in quadruple precision at 1/8, 1/4, 1/2 and all of ``duration`` [s], shape (4, n): kept or computed now.
 
     Computing needs heyoka: raises EngineMissing without it.
@@ -56,7 +57,9 @@ def _entry(scene: Scene) -> tuple[str, dict[str, Any]]:
     return _key(scene.system, scene.theta, scene.omega, times), {"scene": scene.name, **entry}
 
 
-def _computed(system: Mechanism, theta: Sequence[float], omega: Sequence[float], times: list[float]) -> dict[str, Any]:
+def _computed(
+    system: DocumentSystem, theta: Sequence[float], omega: Sequence[float], times: list[float]
+) -> dict[str, Any]:
     digits, error = quadruple.decimal_states(system, theta, omega, [0.0, *times])
     return {"times": times, "states": digits[1:], "error": [float(f"{e:.2e}") for e in error[1:]]}
 
@@ -65,7 +68,7 @@ def _times(duration: float) -> list[float]:
     return [duration * part for part in PARTS]
 
 
-def _key(system: Mechanism, theta: Sequence[float], omega: Sequence[float], times: Sequence[float]) -> str:
+def _key(system: DocumentSystem, theta: Sequence[float], omega: Sequence[float], times: Sequence[float]) -> str:
     density = system.density if isinstance(system, RodChain) else None
     masses = None if isinstance(system, RodChain) else system.masses
     numbers = [system.lengths, masses, density, system.gravity, theta, omega, times]

@@ -28,8 +28,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...models import RodChain
-from ..documents.equations_of_motion import Mechanism
+from ...models import DocumentSystem, RodChain
 from .enclosures import AS_GOOD_AS_ZERO, MOST_BITS, RELATIVE_RADIUS, SMALLEST, Enclosure, precision
 
 Floats = NDArray[np.float64]
@@ -37,7 +36,7 @@ Floats = NDArray[np.float64]
 FEWEST_BITS = 160
 
 
-def enclosed_accelerations(system: Mechanism, theta: Floats, omega: Floats) -> Enclosure:
+def enclosed_accelerations(system: DocumentSystem, theta: Floats, omega: Floats) -> Enclosure:
     """θ̈ [rad/s²] of the documents' equations of motion in states (…, n), each with a proved radius.
 
     The same result as :func:`.enclosures.enclosed_accelerations`, with the same promise, for any n; raises
@@ -49,7 +48,7 @@ def enclosed_accelerations(system: Mechanism, theta: Floats, omega: Floats) -> E
     return Enclosure(*parts)
 
 
-def close_accelerations(system: Mechanism, theta: Floats, omega: Floats, bits: int = FEWEST_BITS) -> list[Any]:
+def close_accelerations(system: DocumentSystem, theta: Floats, omega: Floats, bits: int = FEWEST_BITS) -> list[Any]:
     """θ̈ of one state (n,) as balls' midpoints at this precision, without a proof: for differences of close states."""
     with precision(bits):
         state = theta.tolist(), omega.tolist()
@@ -57,7 +56,7 @@ def close_accelerations(system: Mechanism, theta: Floats, omega: Floats, bits: i
         return [ball.mid() for ball in found]
 
 
-def _proven(system: Mechanism, theta: Floats, omega: Floats) -> tuple[list[float], list[float], list[float]]:
+def _proven(system: DocumentSystem, theta: Floats, omega: Floats) -> tuple[list[float], list[float], list[float]]:
     bits = FEWEST_BITS
     while True:
         with precision(bits):
@@ -74,7 +73,7 @@ def _proven(system: Mechanism, theta: Floats, omega: Floats) -> tuple[list[float
         bits *= 2
 
 
-def _enclosed(system: Mechanism, theta: list[float], omega: list[float]) -> list[Any]:
+def _enclosed(system: DocumentSystem, theta: list[float], omega: list[float]) -> list[Any]:
     if not isinstance(system, RodChain):
         return _legs(system, theta, omega)
     guess = _rods(system, theta, omega)
@@ -172,7 +171,7 @@ def _proved(system: RodChain, theta: list[float], omega: list[float], alpha: lis
     return [a + arb(0, (reach / i.sqrt()).abs_upper()) for a, i in zip(alpha, inertia, strict=True)]
 
 
-def _legs(system: Mechanism, theta: list[float], omega: list[float]) -> list[Any]:
+def _legs(system: DocumentSystem, theta: list[float], omega: list[float]) -> list[Any]:
     """Shiki (3.12): l_i θi'' = -l1 C_i θ1'' + l1 ω1² S_i - g sin θi put into row 1."""
     from flint import arb
 

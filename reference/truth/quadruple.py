@@ -16,11 +16,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...models import EngineMissing, RodChain
+from ...models import DocumentSystem, EngineMissing, RodChain
 from ..arithmetic import Arithmetic, Array, heyoka_arithmetic
 from ..documents import equations_of_motion as motion
 from ..documents import takeno
-from ..documents.equations_of_motion import Mechanism
 
 Floats = NDArray[np.float64]
 
@@ -46,7 +45,10 @@ class QuadrupleTrajectory:
 
 
 def quadruple_trajectory(
-    system: Mechanism, theta: Sequence[float] | Floats, omega: Sequence[float] | Floats, times: Sequence[float] | Floats
+    system: DocumentSystem,
+    theta: Sequence[float] | Floats,
+    omega: Sequence[float] | Floats,
+    times: Sequence[float] | Floats,
 ) -> QuadrupleTrajectory:
     """The trajectory of the literal equations from a state (n,) at ``times[0]`` [s]; times may run backwards.
 
@@ -66,7 +68,7 @@ def from_decimals(digits: Sequence[Sequence[str]], error: Sequence[float], n: in
 
 
 def decimal_states(
-    system: Mechanism, theta: Sequence[float], omega: Sequence[float], times: Sequence[float]
+    system: DocumentSystem, theta: Sequence[float], omega: Sequence[float], times: Sequence[float]
 ) -> tuple[list[list[str]], list[float]]:
     """Rows of θ and ω as decimals of quadruple precision, and the error estimate of each row."""
     extended = system.n > LARGEST_QUADRUPLE_N and np.finfo(np.longdouble).nmant >= 63
@@ -80,7 +82,7 @@ def decimal_states(
 
 
 def _run(
-    system: Mechanism,
+    system: DocumentSystem,
     theta: Sequence[float],
     omega: Sequence[float],
     times: Sequence[float],
@@ -100,7 +102,7 @@ def _run(
     return np.asarray(states)
 
 
-def _equations(system: Mechanism) -> list[tuple[Any, Any]]:
+def _equations(system: DocumentSystem) -> list[tuple[Any, Any]]:
     """dθ/dt = ω and dω/dt as heyoka wants them."""
     hy = _heyoka()
     xp = heyoka_arithmetic()
@@ -110,7 +112,7 @@ def _equations(system: Mechanism) -> list[tuple[Any, Any]]:
     return [*zip(theta, omega, strict=True), *zip(omega, alpha, strict=True)]
 
 
-def accelerations(xp: Arithmetic, system: Mechanism, theta: Array, omega: Array) -> Array:
+def accelerations(xp: Arithmetic, system: DocumentSystem, theta: Array, omega: Array) -> Array:
     """θ̈ of one state, (n,), in the form that is smallest as an expression."""
     if isinstance(system, RodChain) and system.n > LARGEST_DENSE_N:
         return chain_accelerations(xp, system, theta, omega)

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from ...engines import AnyShape, BareCall, cannot, engine_info, engine_version, load_engine
 from ...models import NLegPendulum, RodChain
 from ...models.states import random_states
+from ...models.systems import DocumentSystem as Mechanism
 from ...records.bench import Speed
 from ...reference import literal_accelerations
-from ...reference.documents.equations_of_motion import Mechanism
 from ...reference.kernels.forward_dynamics import accelerations, kernel_of, plain_accelerations
 from ...reference.truth.newton_euler import enclosed_accelerations
 from .methods import FURIKO

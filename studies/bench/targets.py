@@ -17,8 +17,9 @@ from ...engines import AnyShape, cannot, engine_info, engine_version, load_engin
 from ...models import NLegPendulum, RodChain, Scene
 from ...models.benchmark_scenes import BENCHMARKS
 from ...models.states import random_states
+from ...models.systems import DocumentSystem as Mechanism
 from ...records.bench import Target
-from ...reference.documents.equations_of_motion import Mechanism, energies
+from ...reference.documents.equations_of_motion import energies
 from ...reference.kernels.forward_dynamics import accelerations, kernel_of
 from ...reference.truth.newton_euler import enclosed_accelerations
 from .cold_start import profile_targets, smoke_target
