@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 from ..models import InvalidInput, RodChain
 from .documents.equations_of_motion import energies
+from .integration.schemes import classical_step
 from .truth.closed_forms import hanging_chain_rates
 
 Array = NDArray[np.float64]
@@ -175,36 +176,24 @@ def _keeps(n: int, step: float, duration: float, most: float) -> bool:
     system = chain(n)
     kernel = kernel_of(system)
 
-    def accelerations(angles: Array, rates: Array) -> Array:
-        return kernel(np.ascontiguousarray(angles), np.ascontiguousarray(rates))
+    def slope(_: float, state: Array) -> Array:
+        return np.stack([state[1], kernel(*state)])
 
-    theta, omega = bow(n), np.zeros(n)
-    _, lowest = energies(system, theta * 0, omega)
-    first = float(sum(energies(system, theta, omega)))
+    state = np.stack([bow(n), np.zeros(n)])
+    _, lowest = energies(system, state[0] * 0, state[1])
+    first = float(sum(energies(system, *state)))
     count = math.ceil(duration / step)
     with np.errstate(all="ignore"):
         for k in range(count):
             try:
-                theta, omega = _classical(accelerations, theta, omega, duration / count)
+                state = classical_step(slope, state, duration / count)
             except InvalidInput:  # beyond what the kernels take
                 return False
             if k % 64 == 0 or k == count - 1:
-                now = float(sum(energies(system, theta, omega)))
+                now = float(sum(energies(system, *state)))
                 if not abs(now - first) <= most * (first - lowest):
                     return False
     return True
-
-
-def _classical(a: Any, theta: Array, omega: Array, h: float) -> tuple[Array, Array]:
-    """One step in plain doubles: :data:`.schemes.CLASSICAL` carries its weights in extended precision."""
-    first = a(theta, omega)
-    w2 = omega + h / 2 * first
-    second = a(theta + h / 2 * omega, w2)
-    w3 = omega + h / 2 * second
-    third = a(theta + h / 2 * w2, w3)
-    w4 = omega + h * third
-    fourth = a(theta + h * w3, w4)
-    return theta + h / 6 * (omega + 2 * w2 + 2 * w3 + w4), omega + h / 6 * (first + 2 * second + 2 * third + fourth)
 
 
 def _full(band: Array) -> Array:

@@ -173,6 +173,19 @@ def _fixed_point(a: Acceleration, state: Callable[[Array], tuple[Array, Array]],
     raise ArithmeticError("the implicit step's equations were not solved: the step is too long")
 
 
+def classical_step(slope: Callable[[float, Array], Array], y: Array, h: Any) -> Array:
+    """y after one step of the classical Runge-Kutta scheme for ẏ = slope(part, y), in y's own number type.
+
+    ``part``: the fraction of the step, 0, ½ or 1, for slopes that depend on time. For states of any shape and slopes
+    that are no accelerations; :data:`CLASSICAL` is the same scheme for θ and ω, with weights in extended precision.
+    """
+    first = slope(0.0, y)
+    second = slope(0.5, y + h / 2 * first)
+    third = slope(0.5, y + h / 2 * second)
+    fourth = slope(1.0, y + h * third)
+    return np.asarray(y + h / 6 * (first + 2 * second + 2 * third + fourth))
+
+
 _third, _sixth = np.longdouble(1) / 3, np.longdouble(1) / 6
 _root5 = np.sqrt(np.longdouble(5))
 _half = np.longdouble(1) / 2

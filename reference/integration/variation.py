@@ -89,13 +89,8 @@ def tangent_flow(system: DocumentSystem, theta: Floats, omega: Floats, step: flo
     error is of fifth order in step × :func:`fastest_rate`.
     """
     J = variation(system, theta, omega).matrix()
-    start, middle, end = J[0:-1:2], J[1::2], J[2::2]
-    one = np.eye(J.shape[-1])
-    first = start
-    second = middle @ (one + step / 2 * first)
-    third = middle @ (one + step / 2 * second)
-    fourth = end @ (one + step * third)
-    return np.asarray(one + step / 6 * (first + 2 * second + 2 * third + fourth))
+    at = {0.0: J[0:-1:2], 0.5: J[1::2], 1.0: J[2::2]}
+    return schemes.classical_step(lambda part, flow: at[part] @ flow, np.eye(J.shape[-1]), step)
 
 
 @dataclass(frozen=True)
