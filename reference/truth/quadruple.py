@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ...models import DocumentSystem, EngineMissing, RodChain
 from ..arithmetic import Arithmetic, Array, heyoka_arithmetic
 from ..documents import equations_of_motion as motion
-from ..documents import takeno
+from .block_tridiagonal import chain_accelerations
 
 Floats = NDArray[np.float64]
 
@@ -117,40 +117,6 @@ def accelerations(xp: Arithmetic, system: DocumentSystem, theta: Array, omega: A
     if isinstance(system, RodChain) and system.n > LARGEST_DENSE_N:
         return chain_accelerations(xp, system, theta, omega)
     return motion.literal_accelerations(system, theta, omega)
-
-
-def chain_accelerations(xp: Arithmetic, system: RodChain, theta: Array, omega: Array) -> Array:
-    """θ̈ of a rod chain from Takeno (2), (3) and (6) with the joint forces kept, one state (n,).
-
-    (3) gives each centre's acceleration and (6) each θ̈ from the forces at the rod's ends; that rods meet at their
-    joints, (2), ties neighbouring forces together: a symmetric block tridiagonal system, eliminated from the free end.
-    """
-    n = system.n
-    l, g = xp.array(system.lengths), xp.array(system.gravity)
-    m = xp.array(system.density) * l
-    q, one = takeno.q(xp, theta), np.eye(2, dtype=int)
-    thrice = 3 * q[:, :, None] * q[:, None, :]
-    same, next_to = (thrice + one) / m[:, None, None], (thrice - one) / m[:, None, None]
-    swing = (l * omega**2 / 2)[:, None] * takeno.p(xp, theta)
-    block, load = same.copy(), swing.copy()
-    block[1:] += same[:-1]
-    load[1:] += swing[:-1]
-    load[0] -= g * takeno.e_y(xp)
-    for j in range(n - 1, -1, -1):
-        if j < n - 1:
-            block[j] -= next_to[j] @ block[j + 1] @ next_to[j]
-            load[j] -= next_to[j] @ (block[j + 1] @ load[j + 1])
-        block[j] = _inverse(block[j])
-    T = xp.array(np.zeros((n + 1, 2)))
-    for j in range(n):
-        T[j] = block[j] @ (load[j] - next_to[j - 1] @ T[j - 1] if j else load[j])
-    return np.asarray(6 * ((T[:-1] + T[1:]) * q).sum(-1) / (m * l))
-
-
-def _inverse(matrix: Array) -> Array:
-    """Of a symmetric 2 × 2 matrix."""
-    (a, b), (_, c) = matrix
-    return np.asarray(np.array([[c, -b], [-b, a]]) / (a * c - b * b))
 
 
 def _heyoka() -> Any:

@@ -47,7 +47,7 @@ def test_the_proof_notices_a_wrong_acceleration():
     with precision(200):
         right = newton_euler._rods(system, theta, omega)
         wrong = [right[0] + arb(1e-20), *right[1:]]
-        balls = newton_euler._proved(system, theta, omega, wrong)
+        balls = newton_euler._with_radii(system, theta, omega, wrong)
         assert all(ball.contains(a) for ball, a in zip(balls, right, strict=True))
         assert min(float(ball.rad()) for ball in balls) > 1e-21  # with the right ones it is 1e-58
 

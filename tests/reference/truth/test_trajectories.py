@@ -10,12 +10,9 @@ from furiko.reference import literal_accelerations
 from furiko.reference.arithmetic import balls, floats
 from furiko.reference.truth import end_points as endpoints
 from furiko.reference.truth import quadruple
-from furiko.reference.truth.enclosures import (
-    accelerations_in_balls,
-    enclosed_energies,
-    lookup,
-    precision,
-)
+from furiko.reference.truth.block_tridiagonal import chain_accelerations
+from furiko.reference.truth.enclosures import accelerations_in_balls, enclosed_energies, precision
+from furiko.reference.truth.end_points import lookup
 from furiko.reference.truth.quadruple import quadruple_trajectory
 
 DOUBLE = NLegPendulum((1.0, 1.0), (1.0, 1.0))
@@ -80,12 +77,12 @@ def test_equations_with_the_joint_forces_are_the_same_motion(n):
     with precision(300):
         xp = balls()
         theta_balls, omega_balls = xp.array(theta), xp.array(omega)
-        found = quadruple.chain_accelerations(xp, rods, theta_balls, omega_balls)
+        found = chain_accelerations(xp, rods, theta_balls, omega_balls)
         literal = accelerations_in_balls(rods, theta_balls[None], omega_balls[None])[0]
         # two enclosures of one number: they meet, and are narrow enough for that to say something
         assert all(a.overlaps(b) and float(a.rad()) < 1e-60 for a, b in zip(found, literal, strict=True))
     np.testing.assert_allclose(
-        quadruple.chain_accelerations(floats(), rods, theta, omega),
+        chain_accelerations(floats(), rods, theta, omega),
         literal_accelerations(rods, theta, omega),
         rtol=1e-9,
     )
