@@ -52,7 +52,7 @@ class Cell:
     def solvable(self) -> Cell:
         """This cell in those states in which a solution for accelerations has digits that are sure."""
         theta = self.states.theta
-        kept = self.amplitude.solvable(mass_matrix(self.scene.system, theta), self.info.accuracy)
+        kept = self.amplitude.regular(mass_matrix(self.scene.system, theta), self.info.accuracy)
         return self if kept.all() else replace(self, states=self.states.only(kept), facts=self.facts.only(kept))
 
     @cached_property

@@ -154,7 +154,7 @@ def _answer(
 def rounding(system: Mechanism, theta: Array, omega: Array, alpha: Array, amplitude: Amplitudes) -> Array:
     """How far accelerations are from the exact ones by a backward error of one ε [rad/s²], (B, n)."""
     mass = mass_matrix(system, theta)
-    return EPSILON * amplitude.answers(mass, amplitude.rows(alpha, omega, mass) * turns(theta)[:, None])
+    return EPSILON * amplitude.acceleration_errors(mass, amplitude.rows(alpha, omega, mass) * turns(theta)[:, None])
 
 
 def _same(alpha: Array) -> Array:

@@ -160,7 +160,7 @@ def test_the_jacobian_is_the_constraints_derivative(system):
         np.testing.assert_allclose(column.astype(float), quotient.astype(float), atol=1e-11)  # step² = 1e-12
     d = step * v
     turning = (bodies.jacobian(q + d) @ v - bodies.jacobian(q - d) @ v) / (2 * step)
-    np.testing.assert_allclose(bodies.turning(q, v).astype(float), turning.astype(float), atol=1e-10)
+    np.testing.assert_allclose(bodies.constraint_bias(q, v).astype(float), turning.astype(float), atol=1e-10)
 
 
 @pytest.mark.parametrize("system", SYSTEMS)

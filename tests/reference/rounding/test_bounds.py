@@ -95,7 +95,7 @@ def test_no_configuration_reaches_beyond_an_arm_by_way_of_the_trees_centre(syste
 
 def test_ways_along_the_links_of_a_branching_tree():
     # A leg of 3 and one of 4 at the end of one of 2, each with its centre of mass at its end.
-    way = levers.ways(NLegPendulum((2.0, 3.0, 4.0), (1.0, 1.0, 1.0)).tree())
+    way = levers.path_lengths(NLegPendulum((2.0, 3.0, 4.0), (1.0, 1.0, 1.0)).tree())
     hinges, centres = way[:3, :3], way[3:, 3:]
     np.testing.assert_array_equal(hinges, [[0, 2, 2], [2, 0, 0], [2, 0, 0]])
     np.testing.assert_array_equal(centres, [[0, 3, 4], [3, 0, 7], [4, 7, 0]])
@@ -108,7 +108,7 @@ def test_trees_that_share_nothing_but_the_support_have_their_own_centres():
     alone, together = levers.tree_levers(tree), levers.tree_levers(replace(tree, links=tree.links + beside))
     for one, both in zip(alone, together, strict=True):
         np.testing.assert_allclose(both.arm, np.kron(np.eye(2), one.arm), rtol=1e-14)
-        np.testing.assert_allclose(both.throw, np.kron(np.eye(2), one.throw), rtol=1e-14)
+        np.testing.assert_allclose(both.to_point, np.kron(np.eye(2), one.to_point), rtol=1e-14)
 
 
 def test_mujoco_takes_moments_about_the_whole_trees_centre_of_mass(make_cell):
@@ -250,7 +250,7 @@ def test_no_acceleration_is_asked_for_where_the_mass_matrix_is_singular_but_for_
 def test_the_states_in_which_it_is_not_are_compared(make_cell, monkeypatch):
     cell = make_cell("pinocchio-crba", "n-leg-3", random_states=5)
     kept = np.arange(len(cell.states)) % 2 == 0
-    monkeypatch.setattr(rounding.Amplitudes, "solvable", lambda self, mass, accuracy: kept)
+    monkeypatch.setattr(rounding.Amplitudes, "regular", lambda self, mass, accuracy: kept)
     (result,) = accelerations.compare(cell)
     assert (result.outcome, result.details["states"]) == ("agrees", int(kept.sum()))
     assert result.details["states left out"] == int((~kept).sum())
