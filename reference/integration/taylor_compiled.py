@@ -135,20 +135,20 @@ def solve_legs(order: int, factors: Any, part: Any, series: Any) -> None:
         wp[i], wq[i] = -weight * wp[i], weight * wq[i]
     along = wp[0] + (factors[0, A] if order == 0 else 0.0)
     across = wq[0] + (factors[0, B] if order == 0 else 0.0)
-    pull = r[0]
+    load = r[0]
     for i in range(1, len(factors)):
         f = factors[i]
-        pull += f[MASS] * (f[COS] * (wq[i] - r[i]) - f[SIN] * (f[COS] * along + wp[i]))
-    drag = -pull / factors[0, KAPPA]
+        load += f[MASS] * (f[COS] * (wq[i] - r[i]) - f[SIN] * (f[COS] * along + wp[i]))
+    G = -load / factors[0, KAPPA]
     force = factors[0, MASS] * along
     for i in range(1, len(factors)):
         f = factors[i]
-        fp[i] = f[COS] * along - f[SIN] * drag
-        fq[i] = f[SIN] * along + f[COS] * drag
+        fp[i] = f[COS] * along - f[SIN] * G
+        fq[i] = f[SIN] * along + f[COS] * G
         force += f[MASS] * (f[COS] * (fp[i] + wp[i]) + f[SIN] * (wq[i] - r[i]))
         extend(series, order, i, f[LENGTH], -fq[i] - r[i], wp[i], wq[i])
     fp[0], fq[0] = force, -r[0]
-    extend(series, order, 0, factors[0, LENGTH], drag - across, wp[0], wq[0])
+    extend(series, order, 0, factors[0, LENGTH], G - across, wp[0], wq[0])
 
 
 @called
