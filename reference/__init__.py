@@ -1,4 +1,7 @@
-"""The theory: both documents' equations, and the truth that is proved or computed from them. Knows no engine."""
+"""The theory: both documents' equations and the values proved or computed from them. Imports models only, no engine.
+
+Inside: arithmetic, limits → documents → truth, kernels → integration → planar_tree, maximal_coordinates → rounding.
+"""
 
 from .documents.equation import Equation, Slip
 from .documents.equations_of_motion import (

@@ -1,4 +1,4 @@
-"""The chain that Takeno was after: n rods of total length L, n → ∞ (his section 6).
+"""The limit of Takeno's section 6: a hanging chain as n rods of total length L, n → ∞.
 
 **Small swings.** Takeno (18) linearised about the hanging chain reads Σ_k α_jk l_k θ''_k + g L_j θ_j = 0, a full
 matrix. In the joints' displacements y_j, θ_j = (y_j - y_{j-1})/l_j with y_0 = 0, kinetic and potential energy are
@@ -8,8 +8,7 @@ energy m (u² + uv + v²)/6 and, under the tension g (m_j/2 + Σ_{i>j} m_i) of (
 both is Bernoulli's ω_k = (j₀,k/2) √(g/L).
 
 **Large motions.** All n start from rest in one curve, given by its slope φ(s): rod j at φ((j - ½) L/n). The motion is
-that of :mod:`.integration.taylor`; where the chain goes on to its tip and how fast is what may or may not converge with
-n.
+that of :mod:`.integration.taylor`; it shows whether place and speed of the tip converge with n.
 """
 
 from __future__ import annotations
@@ -57,7 +56,7 @@ def small_swings(n: int, links: Links, count: int, length: float = LENGTH, gravi
 
 
 def matrices(n: int, links: Links, length: float = LENGTH, gravity: float = GRAVITY) -> tuple[Array, Array]:
-    """Mass and stiffness in the joints' displacements, for ρ = 1: (2, n) each, diagonal and what stands before it."""
+    """Mass and stiffness in the joints' displacements, for ρ = 1: (2, n) each, the diagonal and the one before it."""
     l = length / n
     below = np.arange(n - 1, -1, -1.0)  # links below each
     mass, stiffness = np.zeros((2, n)), np.zeros((2, n))
@@ -100,11 +99,11 @@ def bow(n: int, amplitude: float = 1.0) -> Array:
 
 @dataclass(frozen=True)
 class Motion:
-    """A piece of a chain's motion.
+    """Part of a chain's motion.
 
-    ``times`` [s] (m,); ``tip`` (m, 2): where the free end is [m], x and z; ``speed`` (m,) [m/s] of it; ``fastest``
+    ``times`` [s] (m,); ``tip`` (m, 2): place of the free end [m], x and z; ``speed`` (m,) [m/s] of it; ``fastest``
     (m,): the largest |ω| [rad/s]; ``energy`` (m,): of the whole, above rest [J]; ``curves`` (m, points, 2): joints [m];
-    ``theta``, ``omega``: where it ends; ``steps`` taken; ``seconds`` of computing.
+    ``theta``, ``omega``: the last state, (n,); ``steps`` taken; ``seconds`` of computing.
     """
 
     times: Array
@@ -123,7 +122,7 @@ MOST_POINTS = 100  # of a curve that is drawn
 
 
 def move(system: RodChain, theta: Any, omega: Any, times: Sequence[float] | Array, tolerance: float = 1e-12) -> Motion:
-    """The motion from a state at ``times[0]``."""
+    """The motion from a state (n,) at ``times[0]`` [s]. Raises InvalidInput as :func:`.integration.taylor.simulate`."""
     from .integration.taylor import simulate
 
     n = system.n

@@ -225,18 +225,6 @@ def mass_matrix(parents: tuple[int, ...], p: Parameters, theta: Array) -> Array:
     return np.swapaxes(inverse_dynamics(parents, _one_more_axis(weightless), repeated, repeated * 0, units), -1, -2)
 
 
-def velocity_terms(parents: tuple[int, ...], p: Parameters, theta: Array, omega: Array) -> Array:
-    """The bias terms quadratic in the rates [N m], shape (…, n): centrifugal forces, no damping or friction."""
-    ideal = _without(p, "gravity_along", "gravity_across", "stiffness", "preload", "friction", "damping")
-    return inverse_dynamics(parents, ideal, theta, omega, omega * 0)
-
-
-def gravity_terms(parents: tuple[int, ...], p: Parameters, theta: Array) -> Array:
-    """G(θ) [N m], shape (…, n): the bias at rest, without springs."""
-    only = _without(p, "stiffness", "preload", "friction", "damping", "armature")
-    return inverse_dynamics(parents, only, theta, theta * 0, theta * 0)
-
-
 def magnitudes(parents: tuple[int, ...], p: Parameters, theta: Floats, omega: Floats, alpha: Floats) -> Floats:
     """Σ|terms| of each *relative* row of the equations of motion, every sine and cosine one; shape (…, n).
 

@@ -17,7 +17,7 @@ from . import shiki, takeno
 
 @dataclass(frozen=True)
 class Literal:
-    """A document's own last form, (3.10) with (3.12) or (22): matrix · θ̈ = right, and what turns a row into [N m]."""
+    """A document's last form, (3.10) with (3.12) or (22): matrix · θ̈ = right; ``lagrange_row`` makes rows [N m]."""
 
     matrix: Array
     right: Array
@@ -25,7 +25,7 @@ class Literal:
 
 
 def literal_system(xp: Arithmetic, system: DocumentSystem, theta: Array, omega: Array) -> Literal:
-    """A θ̈ = -B e of Shiki (3.10), or A θ̈ = -(B θ̇² + g L sin θ) of Takeno (22)."""
+    """A θ̈ = -B e of Shiki (3.10), or A θ̈ = -(B θ̇² + g L sin θ) of Takeno (22); matrix (…, n, n), right (…, n)."""
     l, g = xp.array(system.lengths), xp.array(system.gravity)
     if isinstance(system, RodChain):
         rho = xp.array(system.density)
@@ -39,7 +39,7 @@ def literal_system(xp: Arithmetic, system: DocumentSystem, theta: Array, omega: 
 
 
 def literal_accelerations(system: DocumentSystem, theta: Array, omega: Array) -> Array:
-    """θ̈ [rad/s²] by the document's own formula, (3.10) or (22) solved, shape (…, n)."""
+    """Forward dynamics: θ̈ [rad/s²] by the document's own formula, (3.10) or (22) solved, shape (…, n)."""
     xp = arithmetic_of(theta, omega)
     equations = literal_system(xp, system, theta, omega)
     return xp.solve(equations.matrix, equations.right)
@@ -59,7 +59,7 @@ def centrifugal_matrix(system: DocumentSystem, theta: Array) -> Array:
 
 
 def gravity_vector(system: DocumentSystem, theta: Array) -> Array:
-    """G(θ) [N m], shape (…, n)."""
+    """Gravity terms G(θ) [N m], shape (…, n)."""
     return _terms(system, theta)[2]
 
 
@@ -110,9 +110,9 @@ def centre_accelerations(system: DocumentSystem, theta: Array, omega: Array, alp
 
 
 def joint_forces(system: DocumentSystem, theta: Array, omega: Array, alpha: Array) -> Array:
-    """Force (x, up) [N] that each link exerts on what carries it, at its hinge, in this motion; shape (…, n, 2).
+    """Joint reaction force (x, up) [N] of each link on its parent in this motion, shape (…, n, 2).
 
-    Takeno (8): row j of a rod chain is T_j, j = 0 … n-1. For the star the same sum over what hangs below a hinge.
+    Takeno (8): row j of a rod chain is T_j, j = 0 … n-1. For the star the same sum over the hinge's subtree.
     """
     xp = arithmetic_of(theta, omega, alpha)
     _, m, g = _lengths_masses_gravity(xp, system)
@@ -138,7 +138,7 @@ def _across_and_down(system: DocumentSystem, l: Array, theta: Array, xp: Arithme
 
 
 def _centres(system: DocumentSystem, links: Array) -> Array:
-    """From a vector for each whole link, the vector for each centre: its carriers' sum and its own part."""
+    """From a vector for each whole link, the vector for each centre: the sum of its ancestors' and its own part."""
     if isinstance(system, RodChain):  # half of its own, all of those before
         return np.asarray(np.cumsum(links, axis=-2) - links / 2)
     centres = links.copy()

@@ -1,6 +1,6 @@
 """One Taylor step of either system in compiled form, and the run from output time to output time.
 
-The derivation stands in :mod:`.taylor`. Rows of numbers, one a link, are padded to whole vectors of EIGHT.
+The derivation is in :mod:`.taylor`. Rows of numbers, one a link, are padded to whole vectors of EIGHT.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ turn = inlined(elimination.turn)
 two_difference = inlined(elimination.difference)
 
 RODS, LEGS = 0, 1
-MOST_STEPS = 1e11  # to one output: days of work; who asks for more has mistaken a unit
+MOST_STEPS = 1e11  # to one output: days of work; more is probably a wrong unit
 DONE, MORE, BROKEN = 0, 1, 2
 TWO_PI, TWO_PI_LOW = 6.283185307179586, 2.4492935982947064e-16
 # columns of the state, one row a link: angle and rate as sums of two numbers, and whole turns taken off the angle

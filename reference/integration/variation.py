@@ -1,8 +1,8 @@
-"""How a motion answers to small changes of its state: exact derivatives, the tangent flow, and Lyapunov's exponent.
+"""Sensitivity of a motion to its state: exact derivatives of θ̈, the tangent flow, and the Lyapunov exponent.
 
 In both documents' equations of motion, M θ̈ + C θ̇² + G = 0 (Shiki (3.10) with (3.12), Takeno (22)), an entry off the
 diagonal depends on one difference of angles only, M_jk = m_jk cos(θ_j - θ_k) and C_jk = m_jk sin(θ_j - θ_k), the
-diagonal of M on nothing, and G_j = g_j sin θ_j. Hence, differentiating as it stands,
+diagonal of M is constant, and G_j = g_j sin θ_j. Hence, differentiating as it stands,
 
     ∂/∂θ_k (M θ̈ + C θ̇² + G)_j = C_jk θ̈_k - M_jk θ̇_k²                          for k ≠ j,
     ∂/∂θ_j (M θ̈ + C θ̇² + G)_j = Σ_{k≠j} (M_jk θ̇_k² - C_jk θ̈_k) + g_j cos θ_j,
@@ -70,7 +70,7 @@ def _divide(xp: object, mass: Floats, right: Floats) -> Floats:
 
 
 def fastest_rate(system: DocumentSystem, theta: Floats, omega: Floats) -> Floats:
-    """A bound [1/s] of how fast nearby states part at each instant; shape (…).
+    """A bound [1/s] of the rate at which nearby states separate, at each instant; shape (…).
 
     The largest row sum of J after angles and rates are measured in one unit, the rate ν = √(largest row of ∂θ̈/∂θ).
     """
@@ -95,7 +95,7 @@ def tangent_flow(system: DocumentSystem, theta: Floats, omega: Floats, step: flo
 
 @dataclass(frozen=True)
 class Growth:
-    """How much the most sensitive small difference has grown by each time: ``times`` [s], ``logarithm`` (natural)."""
+    """Growth of the most sensitive small difference at ``times`` [s]: ``logarithm`` (natural) of the factor."""
 
     times: Floats
     logarithm: Floats
@@ -115,8 +115,8 @@ def growth(flow: Floats, step: float, rate: float) -> Growth:
     """Growth of small differences from the first state on, from the Φ of each step (K, 2n, 2n).
 
     The size of a difference is that of (δθ, δω / ``rate``). The product of the Φ is kept from overflowing by taking
-    out its size, step by step; its largest singular value is how much the most sensitive difference has grown. Infinite
-    from where the path is no longer one.
+    out its size, step by step; its largest singular value is the growth of the most sensitive difference. Infinite from
+    where the path is not finite.
     """
     n = flow.shape[-1] // 2
     unit = np.concatenate([np.ones(n), np.full(n, rate)])

@@ -74,7 +74,7 @@ def test_forward_dynamics_is_the_inverse_of_inverse_dynamics(seed, n):
     alpha = planar.forward_dynamics(m.parents, p, theta, omega)
     left = forces_to_relative(m.parents, planar.inverse_dynamics(m.parents, p, theta, omega, alpha))
     size = planar.magnitudes(m.parents, p, theta, omega, alpha)
-    # 26 roundings a link, as furiko.checks.rounding counts them.
+    # 26 roundings a link, as furiko.reference.rounding.bounds counts them.
     assert np.all(np.abs(left) <= 26 * n * 2.0**-52 * size)
 
 
@@ -118,21 +118,30 @@ def kinetic_and_potential(m, theta, omega):
     return total
 
 
-def test_mass_matrix_and_terms_add_up():
+def test_inverse_dynamics_is_the_mass_matrix_times_the_accelerations_and_the_bias():
     m = random_mechanism(3, 6)
     p = planar.parameters(m)
     theta, omega, alpha = np.random.default_rng(5).normal(size=(3, 4, 6))
     mass = planar.mass_matrix(m.parents, p, theta)
     np.testing.assert_allclose(mass, mass.swapaxes(1, 2), atol=1e-13)
-    together = (mass @ alpha[..., None])[..., 0]
-    together += planar.velocity_terms(m.parents, p, theta, omega) + planar.gravity_terms(m.parents, p, theta)
+    bias = planar.inverse_dynamics(m.parents, p, theta, omega, alpha * 0)
+    together = (mass @ alpha[..., None])[..., 0] + bias
+    np.testing.assert_allclose(planar.inverse_dynamics(m.parents, p, theta, omega, alpha), together, atol=1e-12)
+
+
+def test_a_hinges_torque_acts_on_its_link_and_against_the_parent():
+    m = random_mechanism(3, 6)
+    p = planar.parameters(m)
+    theta, omega, alpha = np.random.default_rng(5).normal(size=(3, 4, 6))
+    ideal = planar.parameters(m.ideal())
     own = np.zeros_like(theta)
     for i, parent in enumerate(m.parents):
-        torque = planar.hinge_torque(p, i, parent, theta, omega, None)
+        torque = planar.hinge_torque(p, i, parent, theta, omega, alpha)
         own[:, i] += torque
         if parent >= 0:
             own[:, parent] -= torque
-    np.testing.assert_allclose(planar.inverse_dynamics(m.parents, p, theta, omega, alpha), together + own, atol=1e-12)
+    found, free = (planar.inverse_dynamics(m.parents, q, theta, omega, alpha) for q in (p, ideal))
+    np.testing.assert_allclose(found, free + own, atol=1e-12)
 
 
 def test_stretched_inertias_are_the_mass_matrix_of_the_straight_mechanism():
