@@ -26,10 +26,11 @@ from furiko.engines import AnyShape, cannot, engine_info, engine_version, load_e
 from furiko.models import NLegPendulum, RodChain, Scene
 from furiko.models.benchmark_scenes import BENCHMARKS
 from furiko.models.states import random_states
-from furiko.reference.documents.equations_of_motion import Mechanism, energy
+from furiko.models.systems import DocumentSystem as Mechanism
+from furiko.reference.documents.equations_of_motion import energies
 from furiko.reference.integration.taylor import simulate
 from furiko.reference.kernels.forward_dynamics import accelerations, kernel_of
-from furiko.reference.truth.newton_euler import proven_accelerations
+from furiko.reference.truth.newton_euler import enclosed_accelerations
 from furiko.studies.bench.methods import DOP853, TAYLOR, dop853, end_error, start, taylor
 from furiko.studies.bench.timing import Subject, Times, interleaved
 from furiko.studies.bench.work_precision import reach
@@ -258,7 +259,7 @@ def _shapes(n: int, generator: np.random.Generator) -> list[Array]:
 
 
 def _normwise(system: Mechanism, theta: Array, omega: Array) -> float:
-    truth = proven_accelerations(system, theta, omega)
+    truth = enclosed_accelerations(system, theta, omega)
     found = kernel_of(system).batch(theta, omega, 1)
     return float((truth.error(found).max(-1) / np.abs(truth.high).max(-1)).max())
 
@@ -381,7 +382,7 @@ def energy_drift() -> Target:
     begun = time.perf_counter()
     motion = simulate(scene.system, *start(scene), times)
     seconds = time.perf_counter() - begun
-    total = np.sum(energy(scene.system, motion.theta, motion.omega), axis=0)
+    total = np.sum(energies(scene.system, motion.theta, motion.omega), axis=0)
     drift = float(np.abs(total / total[0] - 1).max())
     return Target(
         name=f"energy of the double pendulum of rods over {LONG_RUN:g} s",

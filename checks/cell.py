@@ -13,9 +13,9 @@ from ..diagnosis.finding import Finding
 from ..engines import AnyShape, EngineInfo, Integrator
 from ..models import Scene
 from ..models.states import States
+from ..models.systems import DocumentSystem as Mechanism
 from ..records.check import Outcome, Result
 from ..reference import mass_matrix
-from ..reference.documents.equations_of_motion import Mechanism
 from ..reference.rounding.bounds import Amplitudes, amplitudes
 from .facts import SceneFacts
 
@@ -49,10 +49,10 @@ class Cell:
         )
 
     @cached_property
-    def solvable(self) -> Cell:
+    def regular(self) -> Cell:
         """This cell in those states in which a solution for accelerations has digits that are sure."""
         theta = self.states.theta
-        kept = self.amplitude.solvable(mass_matrix(self.scene.system, theta), self.info.accuracy)
+        kept = self.amplitude.regular(mass_matrix(self.scene.system, theta), self.info.accuracy)
         return self if kept.all() else replace(self, states=self.states.only(kept), facts=self.facts.only(kept))
 
     @cached_property

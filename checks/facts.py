@@ -12,7 +12,7 @@ from ..models import Scene
 from ..models.states import States
 from ..reference import literal_accelerations
 from ..reference.rounding.bounds import EPSILON, SMALLEST, amplitudes, condition
-from ..reference.truth.enclosures import true_accelerations, true_joint_forces
+from ..reference.truth.enclosures import enclosed_accelerations, enclosed_joint_forces
 
 Array = NDArray[np.float64]
 
@@ -62,13 +62,13 @@ class SceneFacts:
 def scene_facts(scene: Scene, states: States) -> SceneFacts:
     """Compute them, from the literal equations in ball arithmetic."""
     system, theta, omega = scene.system, states.theta, states.omega
-    truth = true_accelerations(system, theta, omega)
+    truth = enclosed_accelerations(system, theta, omega)
     return SceneFacts(
         high=truth.high,
         low=truth.low,
         radius=truth.radius,
         literal=literal_accelerations(system, theta, omega),
-        forces=true_joint_forces(system, theta[-FORCE_STATES:], omega[-FORCE_STATES:]).high,
+        forces=enclosed_joint_forces(system, theta[-FORCE_STATES:], omega[-FORCE_STATES:]).high,
         cond_absolute=condition(system, theta, amplitudes(system, "absolute"), truth.high, omega),
         cond_relative=condition(system, theta, amplitudes(system, "relative"), truth.high, omega),
     )

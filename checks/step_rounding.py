@@ -50,7 +50,7 @@ def _rows(cell: Cell, theta: Array, omega: Array, alpha: Array) -> Array:
 
 def _answer(cell: Cell, theta: Array, backward: Array) -> Array:
     """The largest acceleration that these torques in the engine's own coordinates may make, (B,)."""
-    return np.asarray(cell.amplitude.answers(mass_matrix(cell.scene.system, theta), backward).max(axis=-1))
+    return np.asarray(cell.amplitude.acceleration_errors(mass_matrix(cell.scene.system, theta), backward).max(axis=-1))
 
 
 def conversion(cell: Cell, absolute: Array) -> Array:
@@ -73,6 +73,6 @@ def joints_apart(cell: Cell, integrator: Integrator, theta: Array) -> Array:
     found, k = [], 3 * system.n
     for angles in theta:
         q, _ = bodies.state(angles, np.zeros_like(angles))
-        answer = np.linalg.inv(bodies.saddle(bodies.jacobian(q)))[2:k:3, k:]
+        answer = np.linalg.inv(bodies.kkt_matrix(bodies.jacobian(q)))[2:k:3, k:]
         found.append(float(np.abs(answer).sum(-1).max()) * gap)
     return np.array(found)

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from ..models.coordinates import absolute_from_relative, forces_to_relative
 from ..models.mechanism import Mechanism
 from ..models.tree import SUPPORT
 from ..reference import planar_tree as planar
@@ -66,10 +67,7 @@ def _fits(convention: _Convention, forward: Measurement, p: Parameters) -> bool:
 def _conventions(engine: Any, m: Mechanism) -> Iterator[_Convention]:
     n = m.n
     same: Array = np.eye(n)
-    to_absolute: Array = np.eye(n)
-    for i, parent in enumerate(m.parents):
-        if parent != SUPPORT:
-            to_absolute[i] += to_absolute[parent]
+    to_absolute = absolute_from_relative(m.parents)
     to_relative: Array = np.asarray(np.linalg.inv(to_absolute), dtype=np.float64)
     words = {0: "", 1: "angles", 2: "rates", 4: "accelerations"}
     if n > 1 and any(parent != SUPPORT for parent in m.parents):
@@ -132,7 +130,7 @@ def _order_in_mass_matrix(engine: Any, m: Mechanism, to_absolute: Array) -> list
         columns = np.asarray(engine.inverse_dynamics(rest, rest, to_absolute.T.copy())) - with_gravity
     except Exception:
         return None
-    shown = np.diag(planar.relative_rows(m.parents, columns))
+    shown = np.diag(forces_to_relative(m.parents, columns))
     wanted = np.diag(to_absolute.T @ planar.mass_matrix(m.parents, p, np.zeros((1, n)))[0] @ to_absolute)
     if not np.allclose(np.sort(shown), np.sort(wanted), rtol=1e-9):
         return None

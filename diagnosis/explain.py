@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from ..models.coordinates import forces_to_relative
 from ..models.mechanism import Mechanism
 from ..reference import planar_tree as planar
 from ..reference.planar_tree import Parameters
@@ -77,8 +78,8 @@ def _unexplained(engine: Any, measured: Measurement, m: Mechanism, p: Parameters
     left = np.abs(forward.residuals(p, forward.tolerances(p)))
     if left.max() > 1:
         state, row = np.unravel_index(int(left.argmax()), left.shape)
-        rows = planar.torques(m.parents, p, forward.theta, forward.omega, forward.alpha)
-        torque = float(planar.relative_rows(m.parents, rows)[state, row])
+        rows = planar.inverse_dynamics(m.parents, p, forward.theta, forward.omega, forward.alpha)
+        torque = float(forces_to_relative(m.parents, rows)[state, row])
         words.append(f"accelerations leave a residual torque of {torque:.3g} N m at {joint_label(m, int(row))}")
     inverse = measured.only(~measured.forward)
     if len(inverse) and inverse.worst(p) > 1:
@@ -97,13 +98,13 @@ def _by_term(engine: Any, inverse: Measurement, m: Mechanism, p: Parameters) -> 
         "velocity terms": (inverse.theta, inverse.omega, rest),
     }
     errors = {
-        name: np.asarray(engine.inverse_dynamics(*state)) - planar.torques(m.parents, p, *state)
+        name: np.asarray(engine.inverse_dynamics(*state)) - planar.inverse_dynamics(m.parents, p, *state)
         for name, state in states.items()
     }
     words = []
     for name, error in errors.items():
         own = error if name == "gravity terms" else error - errors["gravity terms"]
-        sizes = np.abs(planar.relative_rows(m.parents, own))
+        sizes = np.abs(forces_to_relative(m.parents, own))
         scale = Measurement(m.parents, *states[name], rest, inverse.forward, inverse.accuracy).tolerances(p)
         if (sizes > scale).any():
             row = int(np.unravel_index(int((sizes / scale).argmax()), sizes.shape)[1])

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from ..engines import Integrator
+from ..models.coordinates import forces_to_relative
 from ..models.mechanism import Mechanism
 from ..reference import planar_tree as planar
 from ..reference.integration.schemes import SCHEMES, Scheme
@@ -64,7 +65,7 @@ def explain_motion(
         return [Finding("unexplained", who, None, None, f"{who}: {integrator.name}: NaN after one step")]
 
     def accelerations(theta: Any, omega: Any) -> Any:
-        return planar.accelerations(mechanism.parents, p, theta, omega)
+        return planar.forward_dynamics(mechanism.parents, p, theta, omega)
 
     scheme = _matching_scheme(runs, accelerations, integrator.order)
     if scheme is not None:
@@ -102,7 +103,7 @@ def _not_a_scheme(
 
 def _run(engine: Any, m: Mechanism, p: Parameters, integrator: Integrator) -> _Runs:
     theta, omega = (values[:STATE_COUNT] for values in probe_states(m, 8, seed=11))
-    alpha = planar.accelerations(m.parents, p, theta, omega)
+    alpha = planar.forward_dynamics(m.parents, p, theta, omega)
     fastest = max(float(np.abs(omega).max()), math.sqrt(float(np.abs(alpha).max())), 1e-3)
     step = 2.0 ** round(math.log2(RELATIVE_STEP / fastest))
     ends = []
@@ -259,7 +260,7 @@ def _hidden_damping(
             yield Finding("damping", where, rate, 0.0, says)
             return
         torque = (planar.mass_matrix(m.parents, p, theta) @ (off / runs.step)[..., None])[..., 0]
-        own = planar.relative_rows(m.parents, torque)
+        own = forces_to_relative(m.parents, torque)
         relative = omega.copy()
         for i, parent in enumerate(m.parents):
             if parent >= 0:
@@ -330,7 +331,7 @@ def _kinetic(m: Mechanism, p: Parameters, theta: Array, omega: Array) -> Array:
 def _silent_reset(engine: Any, m: Mechanism, integrator: Integrator, who: str) -> list[Finding]:
     """A reset after an instability: with a step far too large, different starts end in the same state."""
     theta, omega = (values[:2] for values in probe_states(m, 4, seed=17))
-    alpha = planar.accelerations(m.parents, planar.parameters(m), theta, omega)
+    alpha = planar.forward_dynamics(m.parents, planar.parameters(m), theta, omega)
     period = 1.0 / max(math.sqrt(float(np.abs(alpha).max())), 1e-3)
     for times, steps in ((20.0, 3), (20.0, 30), (1e3, 100), (1e5, 100)):
         step = times * period

@@ -7,12 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from ..models.coordinates import to_absolute, to_relative
 from ..models.mechanism import Mechanism
 from ..reference import planar_tree as planar
 from ..reference.planar_tree import Parameters
 from .conventions import LARGE_RESIDUAL
 from .finding import Finding, joint_label
-from .measurement import Array, Measurement, absolute, probe_states, relative
+from .measurement import Array, Measurement, probe_states
 
 
 def limits_and_contacts(
@@ -33,9 +34,9 @@ def limits_and_contacts(
 
 def _beyond_small_angles(engine: Any, m: Mechanism, p: Parameters, who: str) -> list[Finding]:
     theta, omega = probe_states(m, 64, seed=5)
-    phi = relative(m.parents, theta)
+    phi = to_relative(m.parents, theta)
     shrunk = phi * np.linspace(0.02, 1.0, len(phi))[:, None]
-    theta = absolute(m.parents, shrunk)
+    theta = to_absolute(m.parents, shrunk)
     alpha = np.asarray(engine.accelerations(theta, omega))
     if not np.isfinite(alpha).all():
         return []
@@ -50,7 +51,7 @@ def _beyond_small_angles(engine: Any, m: Mechanism, p: Parameters, who: str) -> 
 
 
 def _limits_or_contacts(engine: Any, m: Mechanism, measured: Measurement, bad: Any, who: str) -> list[Finding]:
-    phi = relative(m.parents, measured.theta)
+    phi = to_relative(m.parents, measured.theta)
     findings, explained = [], np.zeros(len(phi), dtype=bool)
     for i in range(m.n):
         rows = bad[:, i]
@@ -99,7 +100,7 @@ def _limit_angles(engine: Any, m: Mechanism, i: int, low: float, high: float, be
             middle = (a + b) / 2
             alone = np.zeros((1, m.n))
             alone[0, i] = middle
-            theta, rest = absolute(m.parents, alone), np.zeros((1, m.n))
+            theta, rest = to_absolute(m.parents, alone), np.zeros((1, m.n))
             alpha = np.asarray(engine.accelerations(theta, rest))
             one = Measurement(m.parents, theta, rest, alpha, np.zeros_like(alpha), np.ones(1, dtype=bool))
             if not np.isfinite(alpha).all() or one.worst(p) > 1:

@@ -1,8 +1,9 @@
 """An engine's answers in many states, and their residuals in a planar mechanism's equations of motion.
 
-The engine's accelerations are put into the equations (:func:`furiko.reference.planar_tree.torques`): the residual
-torque is divided by what rounding explains of it. That gives one number for each state and hinge, at most one where
-engine and mechanism are the same, and linear in most of the mechanism's parameters, so that these can be solved for.
+The engine's accelerations are put into the equations (:func:`furiko.reference.planar_tree.inverse_dynamics`): the
+residual torque is divided by what rounding explains of it. That gives one number for each state and hinge, at most one
+where engine and mechanism are the same, and linear in most of the mechanism's parameters, so that these can be solved
+for.
 """
 
 from __future__ import annotations
@@ -13,8 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..models.coordinates import forces_to_relative, to_absolute, to_relative
 from ..models.mechanism import Mechanism
-from ..models.tree import SUPPORT
 from ..reference import planar_tree as planar
 from ..reference.planar_tree import Parameters
 from ..reference.rounding.bounds import EPSILON, allowed
@@ -53,13 +54,13 @@ class Measurement:
         sizes = planar.magnitudes(self.parents, p, self.theta, self.omega, self.alpha)
         # An engine that factorises the mass matrix has its rounding there: see :mod:`furiko.reference.rounding.bounds`.
         root = np.sqrt(planar.stretched_inertias(self.parents, p))
-        coupled = np.abs(relative(self.parents, self.alpha)) @ root
+        coupled = np.abs(to_relative(self.parents, self.alpha)) @ root
         return np.asarray(np.maximum(bound * np.maximum(sizes, root * coupled[:, None]), 1e-290))
 
     def residuals(self, p: Parameters, tolerances: Array) -> Array:
         """Residual torque of each hinge over ``tolerances``; leading axes of ``p`` come first: (…, S, n)."""
-        rows = planar.torques(self.parents, p, self.theta, self.omega, self.alpha) - self.torque
-        return np.asarray(planar.relative_rows(self.parents, rows) / tolerances)
+        rows = planar.inverse_dynamics(self.parents, p, self.theta, self.omega, self.alpha) - self.torque
+        return np.asarray(forces_to_relative(self.parents, rows) / tolerances)
 
     def worst(self, p: Parameters) -> float:
         """The largest residual over its tolerance: at most one where the engine has these parameters."""
@@ -89,29 +90,11 @@ def probe_states(mechanism: Mechanism, count: int = LEAST_STATES, seed: int = 1)
     centres = [float(np.hypot(*link.com)) for link in mechanism.links]
     natural = np.sqrt(max(float(np.hypot(*mechanism.gravity)), 1.0) / max(hinges, *centres, 1e-3))
     rates = natural * generator.uniform(0.5, 3.0, (count, n)) * generator.choice([-1.0, 1.0], (count, n))
-    return absolute(mechanism.parents, _quantised(phi)), absolute(mechanism.parents, _quantised(rates))
+    return to_absolute(mechanism.parents, _quantised(phi)), to_absolute(mechanism.parents, _quantised(rates))
 
 
 def _quantised(values: Array) -> Array:
     return np.asarray(np.round(values / ANGLE_QUANTUM) * ANGLE_QUANTUM)
-
-
-def relative(parents: tuple[int, ...], values: Array) -> Array:
-    """Each link's angle (rate, acceleration) minus its parent's: (S, n) from (S, n)."""
-    found = values.copy()
-    for i, parent in enumerate(parents):
-        if parent != SUPPORT:
-            found[:, i] = values[:, i] - values[:, parent]
-    return np.asarray(found)
-
-
-def absolute(parents: tuple[int, ...], values: Array) -> Array:
-    """The inverse of :func:`relative`."""
-    found = values.copy()
-    for i, parent in enumerate(parents):
-        if parent != SUPPORT:
-            found[:, i] += found[:, parent]
-    return np.asarray(found)
 
 
 def measure(engine: Any, mechanism: Mechanism, accuracy: float = EPSILON, seed: int = 1) -> Measurement:

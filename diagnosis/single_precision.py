@@ -6,11 +6,12 @@ from typing import Any
 
 import numpy as np
 
+from ..models.coordinates import to_relative
 from ..models.mechanism import Mechanism
 from ..reference.planar_tree import Parameters
 from ..reference.rounding.bounds import EPSILON
 from .finding import Finding
-from .measurement import Measurement, relative
+from .measurement import Measurement
 
 SINGLE_OVER_DOUBLE = 2.0**-23 / EPSILON  # machine epsilon of single precision over that of double
 LEAST_SHARE = 1e-4  # of that: a smaller residual is not single precision's
@@ -38,7 +39,7 @@ def single_precision(
 def _has_24_bits(m: Mechanism, measured: Measurement) -> bool:
     """Whether accelerations, absolute or relative, are numbers of 24 bits."""
     forward = measured.only(measured.forward)
-    own = relative(m.parents, forward.alpha)
+    own = to_relative(m.parents, forward.alpha)
     largest = np.abs(forward.alpha).max(axis=1, keepdims=True)
     kept = np.abs(own - own.astype(np.float32)) <= 8 * EPSILON * largest
     return bool(kept.all() or (forward.alpha == forward.alpha.astype(np.float32)).all())

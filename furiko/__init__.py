@@ -1,6 +1,7 @@
 """furiko: cross-checks hand-derived equations of motion and physics engines, and names the cause where they differ.
 
 A name is imported when it is first used: ``import furiko`` alone imports neither an engine nor numpy.
+May import everything else of the package; nothing else imports it.
 """
 
 from __future__ import annotations
@@ -16,8 +17,8 @@ if TYPE_CHECKING:
     from .diagnosis.model_files.result import Diagnosis
     from .engines import engine_names, load_engine
     from .models import EngineMissing, InvalidInput, NLegPendulum, RodChain, to_mjcf, to_urdf
-    from .reference.energies import energy
     from .reference.integration.taylor import simulate
+    from .reference.kernels.energy import energy
     from .reference.kernels.forward_dynamics import accelerations
     from .reports import Report, read_stream
     from .run import check
@@ -36,7 +37,7 @@ _HOMES = {
     "audit": "derivations.audit.audit",
     "check": "run",
     "diagnose": "diagnosis.model_files.diagnose",
-    "energy": "reference.energies",
+    "energy": "reference.kernels.energy",
     "engine_names": "engines",
     "grade": "derivations.grading.grade",
     "grade_text": "derivations.grading.grade",

@@ -5,12 +5,13 @@ May import nothing else of furiko: everything else rests on it.
 
 from .errors import EngineMissing, InvalidInput
 from .scene import Scene, catalogue, find_scene, find_scenes
-from .systems import NLegPendulum, RodChain, System
+from .systems import DocumentSystem, NLegPendulum, RodChain, System
 from .tree import Link, PlanarTree
 from .writers.mjcf import to_mjcf
 from .writers.urdf import to_urdf
 
 __all__ = [
+    "DocumentSystem",
     "EngineMissing",
     "InvalidInput",
     "Link",

@@ -141,6 +141,9 @@ class RodChain:
         return PlanarTree(links, self.gravity)
 
 
+DocumentSystem = NLegPendulum | RodChain  # the mechanisms of the two documents
+
+
 def number(field: str, value: object) -> float:
     """``value`` as a float. Raises :class:`InvalidInput` naming ``field`` where it is not a number."""
     if isinstance(value, bool) or not isinstance(value, Real):

@@ -1,10 +1,13 @@
-"""The theory: both documents' equations, and the truth that is proved or computed from them. Knows no engine."""
+"""The theory: both documents' equations and the values proved or computed from them. Imports models only, no engine.
+
+Inside: arithmetic, limits → documents → truth, kernels → integration → planar_tree, maximal_coordinates → rounding.
+"""
 
 from .documents.equation import Equation, Slip
 from .documents.equations_of_motion import (
     centre_accelerations,
-    coriolis_matrix,
-    energy,
+    centrifugal_matrix,
+    energies,
     gravity_vector,
     joint_forces,
     literal_accelerations,
@@ -28,8 +31,8 @@ __all__ = [
     "Equation",
     "Slip",
     "centre_accelerations",
-    "coriolis_matrix",
-    "energy",
+    "centrifugal_matrix",
+    "energies",
     "gravity_vector",
     "joint_forces",
     "literal_accelerations",

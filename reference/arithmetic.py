@@ -1,10 +1,9 @@
 """The four arithmetics in which the one text of each equation runs.
 
-Equations are written with numpy arrays whose last axis (for matrices: the last two) counts components. What the
-elements are decides the arithmetic: floats (batched over leading axes), balls of python-flint (every result encloses
-the true value), sympy expressions, or heyoka expressions (compiled, integrated in quadruple precision). What numpy's
-operators do not give stands in a small namespace, called ``xp`` wherever it is an argument. flint, sympy and heyoka
-are imported by those who make such numbers, never from here before one is seen.
+Equations are written with numpy arrays whose last axis (for matrices: the last two) counts components. The elements
+decide the arithmetic: floats (batched over leading axes), balls of python-flint (every result encloses the true value),
+sympy expressions, or heyoka expressions (compiled, integrated in quadruple precision). Functions that numpy's operators
+lack are in a small namespace, the argument ``xp``. flint, sympy and heyoka are imported only for such a number.
 """
 
 from __future__ import annotations
@@ -20,14 +19,14 @@ Array = NDArray[Any]
 
 
 class Arithmetic(ABC):
-    """What equations need besides operators. Arrays go in and come out; ``dtype`` is that of their elements."""
+    """The functions that equations need besides operators, on arrays with elements of ``dtype``."""
 
     name: str
     dtype: np.dtype[Any]
 
     @abstractmethod
     def array(self, values: ArrayLike | Iterable[Any]) -> Array:
-        """``values`` in this arithmetic. A float or an integer is taken for exactly what it is."""
+        """``values`` in this arithmetic. A float or an integer is taken as exact."""
 
     @abstractmethod
     def cos(self, x: Any) -> Any:
@@ -46,7 +45,7 @@ class Arithmetic(ABC):
         """
 
     def cos_sin(self, x: Any) -> tuple[Any, Any]:
-        """Both at once, for those arithmetics that share work between them."""
+        """Cosine and sine of each element [rad] at once, where an arithmetic can share work."""
         return self.cos(x), self.sin(x)
 
     def cos_sin_differences(self, angles: Array) -> tuple[Array, Array]:
@@ -197,7 +196,7 @@ _OF_MODULE: dict[str, Callable[[], Arithmetic]] = {
 
 
 def arithmetic_of(*values: Array) -> Arithmetic:
-    """The arithmetic that these arrays' elements belong to."""
+    """The arithmetic of these arrays' elements. Raises TypeError for elements of none of the four."""
     for value in values:
         if value.dtype == object:
             for element in value.flat:

@@ -1,4 +1,4 @@
-"""The chain that Takeno was after: n rods of total length L, n → ∞ (his section 6).
+"""The limit of Takeno's section 6: a hanging chain as n rods of total length L, n → ∞.
 
 **Small swings.** Takeno (18) linearised about the hanging chain reads Σ_k α_jk l_k θ''_k + g L_j θ_j = 0, a full
 matrix. In the joints' displacements y_j, θ_j = (y_j - y_{j-1})/l_j with y_0 = 0, kinetic and potential energy are
@@ -8,8 +8,7 @@ energy m (u² + uv + v²)/6 and, under the tension g (m_j/2 + Σ_{i>j} m_i) of (
 both is Bernoulli's ω_k = (j₀,k/2) √(g/L).
 
 **Large motions.** All n start from rest in one curve, given by its slope φ(s): rod j at φ((j - ½) L/n). The motion is
-that of :mod:`.integration.taylor`; where the chain goes on to its tip and how fast is what may or may not converge with
-n.
+that of :mod:`.integration.taylor`; it shows whether place and speed of the tip converge with n.
 """
 
 from __future__ import annotations
@@ -24,7 +23,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..models import InvalidInput, RodChain
-from .documents.equations_of_motion import energy
+from .documents.equations_of_motion import energies
+from .integration.schemes import classical_step
 from .truth.closed_forms import hanging_chain_rates
 
 Array = NDArray[np.float64]
@@ -58,7 +58,7 @@ def small_swings(n: int, links: Links, count: int, length: float = LENGTH, gravi
 
 
 def matrices(n: int, links: Links, length: float = LENGTH, gravity: float = GRAVITY) -> tuple[Array, Array]:
-    """Mass and stiffness in the joints' displacements, for ρ = 1: (2, n) each, diagonal and what stands before it."""
+    """Mass and stiffness in the joints' displacements, for ρ = 1: (2, n) each, the diagonal and the one before it."""
     l = length / n
     below = np.arange(n - 1, -1, -1.0)  # links below each
     mass, stiffness = np.zeros((2, n)), np.zeros((2, n))
@@ -101,11 +101,11 @@ def bow(n: int, amplitude: float = 1.0) -> Array:
 
 @dataclass(frozen=True)
 class Motion:
-    """A piece of a chain's motion.
+    """Part of a chain's motion.
 
-    ``times`` [s] (m,); ``tip`` (m, 2): where the free end is [m], x and z; ``speed`` (m,) [m/s] of it; ``fastest``
+    ``times`` [s] (m,); ``tip`` (m, 2): place of the free end [m], x and z; ``speed`` (m,) [m/s] of it; ``fastest``
     (m,): the largest |ω| [rad/s]; ``energy`` (m,): of the whole, above rest [J]; ``curves`` (m, points, 2): joints [m];
-    ``theta``, ``omega``: where it ends; ``steps`` taken; ``seconds`` of computing.
+    ``theta``, ``omega``: the last state, (n,); ``steps`` taken; ``seconds`` of computing.
     """
 
     times: Array
@@ -124,7 +124,7 @@ MOST_POINTS = 100  # of a curve that is drawn
 
 
 def move(system: RodChain, theta: Any, omega: Any, times: Sequence[float] | Array, tolerance: float = 1e-12) -> Motion:
-    """The motion from a state at ``times[0]``."""
+    """The motion from a state (n,) at ``times[0]`` [s]. Raises InvalidInput as :func:`.integration.taylor.simulate`."""
     from .integration.taylor import simulate
 
     n = system.n
@@ -137,14 +137,14 @@ def move(system: RodChain, theta: Any, omega: Any, times: Sequence[float] | Arra
     rate = np.stack(
         [(l * np.cos(moved.theta) * moved.omega).sum(-1), (l * np.sin(moved.theta) * moved.omega).sum(-1)], axis=-1
     )
-    _, lowest = energy(system, np.zeros(n), np.zeros(n))
+    _, lowest = energies(system, np.zeros(n), np.zeros(n))
     shown = np.unique(np.linspace(0, n - 1, min(n, MOST_POINTS)).round().astype(int))
     return Motion(
         times=np.asarray(moved.times),
         tip=np.stack([across[:, -1], up[:, -1]], axis=-1),
         speed=np.linalg.norm(rate, axis=-1),
         fastest=np.abs(moved.omega).max(axis=-1),
-        energy=np.asarray(sum(energy(system, moved.theta, moved.omega)) - lowest),
+        energy=np.asarray(sum(energies(system, moved.theta, moved.omega)) - lowest),
         curves=np.stack([across[:, shown], up[:, shown]], axis=-1),
         theta=moved.theta[-1],
         omega=moved.omega[-1],
@@ -177,36 +177,24 @@ def _keeps(n: int, step: float, duration: float, most: float) -> bool:
     system = chain(n)
     kernel = kernel_of(system)
 
-    def accelerations(angles: Array, rates: Array) -> Array:
-        return kernel(np.ascontiguousarray(angles), np.ascontiguousarray(rates))
+    def slope(_: float, state: Array) -> Array:
+        return np.stack([state[1], kernel(*state)])
 
-    theta, omega = bow(n), np.zeros(n)
-    _, lowest = energy(system, theta * 0, omega)
-    first = float(sum(energy(system, theta, omega)))
+    state = np.stack([bow(n), np.zeros(n)])
+    _, lowest = energies(system, state[0] * 0, state[1])
+    first = float(sum(energies(system, *state)))
     count = math.ceil(duration / step)
     with np.errstate(all="ignore"):
         for k in range(count):
             try:
-                theta, omega = _classical(accelerations, theta, omega, duration / count)
+                state = classical_step(slope, state, duration / count)
             except InvalidInput:  # beyond what the kernels take
                 return False
             if k % 64 == 0 or k == count - 1:
-                now = float(sum(energy(system, theta, omega)))
+                now = float(sum(energies(system, *state)))
                 if not abs(now - first) <= most * (first - lowest):
                     return False
     return True
-
-
-def _classical(a: Any, theta: Array, omega: Array, h: float) -> tuple[Array, Array]:
-    """One step in plain doubles: :data:`.schemes.CLASSICAL` carries its weights in extended precision."""
-    first = a(theta, omega)
-    w2 = omega + h / 2 * first
-    second = a(theta + h / 2 * omega, w2)
-    w3 = omega + h / 2 * second
-    third = a(theta + h / 2 * w2, w3)
-    w4 = omega + h * third
-    fourth = a(theta + h * w3, w4)
-    return theta + h / 6 * (omega + 2 * w2 + 2 * w3 + w4), omega + h / 6 * (first + 2 * second + 2 * third + fourth)
 
 
 def _full(band: Array) -> Array:

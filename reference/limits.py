@@ -1,4 +1,4 @@
-"""The states that furiko's own kernels accept, and the one place where a state is refused."""
+"""The states that furiko's own kernels accept; every other state is refused here."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ LARGEST_RATE = 1e100  # rad/s: squares and products with masses and lengths stay
 
 
 def checked_state(system: System, theta: Any, omega: Any) -> tuple[Array, Array]:
-    """``theta`` and ``omega`` as contiguous float64 of one shape (..., n) and within range, or InvalidInput."""
+    """``theta`` and ``omega`` as contiguous float64 of one shape (..., n) and within range. Raises InvalidInput."""
     angles, rates = shaped_state(system, theta, omega)
     refuse_outside(angles, rates)
     return angles, rates
 
 
 def shaped_state(system: System, theta: Any, omega: Any) -> tuple[Array, Array]:
-    """:func:`checked_state` for those who look at the numbers themselves."""
+    """:func:`checked_state` without the check of the range."""
     angles, rates = _numbers("theta", theta), _numbers("omega", omega)
     for name, values in (("theta", angles), ("omega", rates)):
         if values.ndim == 0 or values.shape[-1] != system.n:

@@ -1,8 +1,8 @@
-"""Maximal coordinates: x, y and angle of every link as if it were free, held together by forces at the hinges.
+"""Maximal coordinates: x, y and angle of every link, with joint reaction forces as Lagrange multipliers.
 
-Free bodies M q̈ + Gᵀ λ = f with the constraints C(q) = 0 that each link's hinge stays on its carrier, G = ∂C/∂q. The
-motion is the documents' own; a scheme that is applied to these coordinates gives other steps, though, since the change
-to angles is not linear. Plane x-y, y up, as in the documents. One state at a time; longdouble.
+Free bodies M q̈ + Gᵀ λ = f with the constraints C(q) = 0 that each link's hinge stays on its parent, G = ∂C/∂q. The
+motion is the documents' own, but a scheme applied to these coordinates makes other steps, since the change to angles is
+not linear. Plane x-y, y up, as in the documents. One state at a time; longdouble.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from .integration.schemes import alpha_parameters
 
 Array = NDArray[Any]
 Wide, WideComplex = np.longdouble, np.clongdouble
-ITERATIONS = 20  # of Newton's method, each of which takes away at least ten of nineteen digits
+ITERATIONS = 20  # of Newton's method, each of which gains some ten of nineteen digits
 
 
 class MaximalCoordinates:
@@ -52,7 +52,7 @@ class MaximalCoordinates:
         return _rows(centre, theta), _rows(rate, omega)
 
     def constraint(self, q: Array) -> Array:
-        """C(q), (2n,) [m]: how far each link's hinge is from where its carrier has it."""
+        """C(q), (2n,) [m]: the distance of each link's hinge from its place on the parent."""
         centre, turn = self._complex_state(q)
         gap = centre - self._centre * turn
         for i, parent in enumerate(self.parents):
@@ -69,8 +69,8 @@ class MaximalCoordinates:
                 _entry(G[i, :, parent], -1, -1j * self._hinge[i] * turn[parent])
         return G.reshape(2 * self.n, 3 * self.n)
 
-    def turning(self, q: Array, v: Array) -> Array:
-        """Ġ q̇, (2n,) [m/s²]: what of C̈ is there without accelerations."""
+    def constraint_bias(self, q: Array, v: Array) -> Array:
+        """Ġ q̇, (2n,) [m/s²]: C̈ without accelerations."""
         _, turn = self._complex_state(q)
         squared = v[2::3] ** 2
         found = squared * self._centre * turn
@@ -79,8 +79,8 @@ class MaximalCoordinates:
                 found[i] += squared[parent] * self._hinge[i] * turn[parent]
         return _pairs(found)
 
-    def saddle(self, G: Array) -> NDArray[np.float64]:
-        """(M, Gᵀ; G, 0) in double precision, (5n, 5n): good enough a derivative for Newton's method."""
+    def kkt_matrix(self, G: Array) -> NDArray[np.float64]:
+        """(M, Gᵀ; G, 0) in double precision, (5n, 5n): accurate enough as the derivative in Newton's method."""
         k = 3 * self.n
         matrix = np.zeros((5 * self.n, 5 * self.n))
         matrix[range(k), range(k)] = self.mass
@@ -88,13 +88,13 @@ class MaximalCoordinates:
         return matrix
 
     def accelerations(self, q: Array, v: Array) -> Array:
-        """q̈, (3n,), with C̈ = 0."""
-        G, turning, k = self.jacobian(q), self.turning(q, v), 3 * self.n
+        """Forward dynamics: q̈, (3n,), with C̈ = 0."""
+        G, bias, k = self.jacobian(q), self.constraint_bias(q, v), 3 * self.n
 
         def residual(x: Array) -> Array:
-            return np.concatenate([self.mass * x[:k] + G.T @ x[k:] - self.force, G @ x[:k] + turning])
+            return np.concatenate([self.mass * x[:k] + G.T @ x[k:] - self.force, G @ x[:k] + bias])
 
-        return _newton(residual, lambda x: self.saddle(G), np.zeros(5 * self.n, Wide))[:k]
+        return _newton(residual, lambda x: self.kkt_matrix(G), np.zeros(5 * self.n, Wide))[:k]
 
     def _complex_state(self, q: Array) -> tuple[Array, Array]:
         return q[0::3] + 1j * q[1::3], np.exp(1j * q[2::3].astype(WideComplex))
@@ -103,12 +103,18 @@ class MaximalCoordinates:
 def generalized_alpha_index_3(
     system: MaximalCoordinates, theta: Array, omega: Array, h: Any, radius: Any
 ) -> tuple[Array, Array]:
-    """One step of the generalized-α scheme, C(q₁) = 0 asked of the positions; θ₁ and ω₁, (n,) each."""
+    """θ₁ and ω₁, (n,) each, after one step of the generalized-α scheme that solves C(q₁) = 0.
+
+    ``h``: the step [s]; ``radius``: ρ∞. Raises ArithmeticError where the step is too long to be solved.
+    """
     return _step(system, theta, omega, h, alpha_parameters(radius), velocities=False)
 
 
 def trapezoidal_index_2(system: MaximalCoordinates, theta: Array, omega: Array, h: Any) -> tuple[Array, Array]:
-    """One step of the trapezoidal rule, G(q₁) q̇₁ = 0 asked of the rates, so that positions drift; θ₁ and ω₁."""
+    """θ₁ and ω₁, (n,) each, after one step of the trapezoidal rule that solves G(q₁) q̇₁ = 0; positions drift.
+
+    Raises ArithmeticError where the step is too long to be solved.
+    """
     return _step(system, theta, omega, h, (Wide(1) / 4, Wide(1) / 2, 0, 0), velocities=True)
 
 
@@ -138,7 +144,7 @@ def _step(
         return np.concatenate([system.mass * x[:k] + G.T @ x[k:] - system.force, held])
 
     def derivative(x: Array) -> NDArray[np.float64]:
-        return system.saddle(system.jacobian(state(x[:k])[0]))
+        return system.kkt_matrix(system.jacobian(state(x[:k])[0]))
 
     guess = np.concatenate([a, np.zeros(2 * system.n, Wide)])
     least = 1e-16 * float(np.abs(q).max() / (h * h))  # moves positions by a part of 1e-16, far less than engines' do
@@ -152,9 +158,9 @@ def _newton(
     guess: Array,
     least: float = 0.0,
 ) -> Array:
-    """Where the residual vanishes: simplified Newton iterations until they gain nothing.
+    """The root of the residual, by simplified Newton iterations until the changes no longer shrink.
 
-    Raises ArithmeticError where that is with changes of more than nine digits, and of more than ``least``.
+    Raises ArithmeticError where the last change is above 1e-9 of the root and above ``least``.
     """
     x: Array = guess
     before = np.inf
@@ -169,18 +175,18 @@ def _newton(
     raise ArithmeticError("the implicit step's equations were not solved: the step is too long")
 
 
-def _solve(saddle: NDArray[np.float64], right: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Solved with masses, and inertias about a joint, scaled to one, and rows of the Jacobian then to length one.
+def _solve(matrix: NDArray[np.float64], right: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The solution of a KKT system, scaled: masses and inertias about a joint to one, then Jacobian rows to length one.
 
-    Or links of very unlike masses and lengths leave no digits to a change, and Newton's method no end.
+    Without scaling, links of very unlike masses and lengths leave no correct digits, and Newton's method does not end.
     """
-    k = 3 * len(saddle) // 5
-    inertia, jacobian = np.diag(saddle)[:k].copy(), saddle[k:, :k]
+    k = 3 * len(matrix) // 5
+    inertia, jacobian = np.diag(matrix)[:k].copy(), matrix[k:, :k]
     inertia[2::3] += inertia[::3] * np.abs(jacobian[:, 2::3]).max(axis=0) ** 2
-    scale = np.empty(len(saddle))
+    scale = np.empty(len(matrix))
     scale[:k] = inertia**-0.5
     scale[k:] = 1 / np.linalg.norm(jacobian * scale[:k], axis=1)
-    return np.asarray(scale * np.linalg.solve(scale[:, None] * saddle * scale, scale * right))
+    return np.asarray(scale * np.linalg.solve(scale[:, None] * matrix * scale, scale * right))
 
 
 def _entry(block: Array, sign: int, lever: Any) -> None:

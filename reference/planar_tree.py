@@ -1,16 +1,18 @@
-"""Equations of motion of any planar tree of hinged links, O(n), in absolute angles; both documents' are special cases.
+"""Inverse and forward dynamics of any planar tree of hinged links, O(n), in absolute angles.
 
-Derived here from Newton and Euler for each link. With R(θ) the rotation, h_i the hinge of link i in its parent's frame,
+Inverse dynamics is the recursive Newton-Euler algorithm (RNEA), forward dynamics the articulated-body algorithm (ABA);
+Featherstone, *Rigid Body Dynamics Algorithms*, chapters 5 and 7. Both documents' mechanisms are special cases. The
+equations of each link are Newton's and Euler's. With R(θ) the rotation, h_i the hinge of link i in its parent's frame,
 s_i its centre of mass, u_i the acceleration of its hinge, × the plane's cross product and J a quarter turn:
 
     u_i = u_p + θ̈_p J R(θ_p) h_i − θ̇_p² R(θ_p) h_i            (1)  acceleration of hinge i, on its parent p
     f_i = m_i (u_i + θ̈_i J R(θ_i) s_i − θ̇_i² R(θ_i) s_i − g)   (2)  force that moves link i
-    F_i = f_i + Σ_c F_c                                         (3)  force through hinge i: all that it carries
+    F_i = f_i + Σ_c F_c                                         (3)  joint reaction force at hinge i, over its subtree
     τ_i = I_i θ̈_i + R(θ_i) s_i × f_i + Σ_c R(θ_i) h_c × F_c      (4)  row of the equations of motion
     t_i = a_i φ̈_i + d_i φ̇_i + k_i φ_i − κ_i + r_i sign φ̇_i       (5)  hinge i's own torque, φ_i = θ_i − θ_p,
 
-t_i being added to row i and taken from row p. Equations are written with arrays whose last axis counts links, so that
-they run in floats, any batch of parameters against any batch of states, and in balls alike.
+t_i being added to row i and subtracted from row p; the sums run over the children c of link i. Everything is written
+with arrays whose last axis counts links, so that it runs in floats and balls, for any batch of parameters and states.
 """
 
 from __future__ import annotations
@@ -21,6 +23,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..models.coordinates import to_absolute, to_relative
 from ..models.mechanism import Mechanism
 from ..models.tree import SUPPORT
 from .arithmetic import Arithmetic, Array, arithmetic_of
@@ -81,27 +84,31 @@ def parameters(mechanism: Mechanism, xp: Arithmetic | None = None) -> Parameters
     return Parameters(**{name: make(values) for name, values in numbers.items()})
 
 
-def torques(parents: tuple[int, ...], p: Parameters, theta: Array, omega: Array, alpha: Array) -> Array:
-    """Generalised forces [N m] of the absolute angles that the motion needs, (1) to (5); shape (…, n)."""
+def inverse_dynamics(parents: tuple[int, ...], p: Parameters, theta: Array, omega: Array, alpha: Array) -> Array:
+    """Inverse dynamics: the generalised forces τ [N m] of the absolute angles for this motion; shape (…, n).
+
+    The recursive Newton-Euler algorithm (RNEA), (1) to (5): accelerations from the support to the tips, forces back.
+    ``theta`` [rad], ``omega`` [rad/s], ``alpha`` [rad/s²]: absolute, (…, n).
+    """
     xp = arithmetic_of(theta, omega, alpha)
     cos, sin = xp.cos_sin(theta)
-    swirl, pull = alpha, omega * omega
+    squared = omega * omega
     n = len(parents)
     u: list[tuple[Any, Any]] = []
     f: list[tuple[Any, Any]] = []
     rows: list[Any] = []
     for i, parent in enumerate(parents):
         if parent == SUPPORT:
-            ux, uy = -p.gravity_along[..., 0], -p.gravity_across[..., 0]  # the support, falling up
+            ux, uy = -p.gravity_along[..., 0], -p.gravity_across[..., 0]  # in place of weights
         else:
             ux, uy = _arm(p.hinge_along[..., i], p.hinge_across[..., i], cos, sin, parent)
-            ux, uy = _accelerated(u[parent], (ux, uy), swirl[..., parent], pull[..., parent])
+            ux, uy = _accelerated(u[parent], (ux, uy), alpha[..., parent], squared[..., parent])
         u.append((ux, uy))
         arm = _arm(p.com_along[..., i], p.com_across[..., i], cos, sin, i)
-        cx, cy = _accelerated(u[i], arm, swirl[..., i], pull[..., i])
+        cx, cy = _accelerated(u[i], arm, alpha[..., i], squared[..., i])
         force = (p.mass[..., i] * cx, p.mass[..., i] * cy)
         f.append(force)
-        rows.append(p.inertia[..., i] * swirl[..., i] + _cross(arm, force))
+        rows.append(p.inertia[..., i] * alpha[..., i] + _cross(arm, force))
     for i in range(n - 1, -1, -1):
         own = hinge_torque(p, i, parents[i], theta, omega, alpha)
         if own is not None:
@@ -118,7 +125,7 @@ def torques(parents: tuple[int, ...], p: Parameters, theta: Array, omega: Array,
 
 
 def hinge_torque(p: Parameters, i: int, parent: int, theta: Array, omega: Array, alpha: Array | None) -> Any | None:
-    """(5), or None where hinge i is ideal; without ``alpha`` the armature's part is left out."""
+    """(5), the torque [N m] of hinge i, shape (…); None where it is ideal. No armature term without ``alpha``."""
     held = (p.armature[..., i], p.damping[..., i], p.stiffness[..., i], p.preload[..., i], p.friction[..., i])
     a, d, k, preload, friction = held
     if not any(_anything(part) for part in held):
@@ -132,18 +139,19 @@ def hinge_torque(p: Parameters, i: int, parent: int, theta: Array, omega: Array,
     return torque
 
 
-def accelerations(parents: tuple[int, ...], p: Parameters, theta: Array, omega: Array) -> Array:
-    """θ̈ [rad/s²] with nothing driving the mechanism, by eliminating link after link from the tips; shape (…, n).
+def forward_dynamics(parents: tuple[int, ...], p: Parameters, theta: Array, omega: Array) -> Array:
+    """Forward dynamics: θ̈ [rad/s²] with no applied forces, shape (…, n); ``theta``, ``omega`` absolute, (…, n).
 
-    With u the acceleration of its hinge, what link i and all it carries do there is a force F = q θ̈_i + W u + b and a
-    torque about the hinge N = j θ̈_i + q·u + c. The hinge passes on N = −t_i of (5), so that θ̈_i follows from u_i and,
-    through the armature alone, from θ̈_p.
+    The articulated-body algorithm (ABA). With u the acceleration of hinge i, its subtree needs there the force
+    F = q θ̈_i + W u + b and the torque about the hinge N = j θ̈_i + q·u + c: j, q and W are the articulated-body
+    inertia, b and c the bias force. The hinge transmits N = −t_i of (5), so that θ̈_i follows from u_i and, through the
+    armature alone, from θ̈_p.
     """
     xp = arithmetic_of(theta, omega)
     cos, sin = xp.cos_sin(theta)
-    pull = omega * omega
+    squared = omega * omega
     n = len(parents)
-    j, q, w, b, c = _links_alone(p, n, cos, sin, pull)
+    j, q, w, b, c = _rigid_body_inertias(p, n, cos, sin, squared)
     for i in range(n - 1, -1, -1):
         parent = parents[i]
         if parent == SUPPORT:
@@ -151,7 +159,7 @@ def accelerations(parents: tuple[int, ...], p: Parameters, theta: Array, omega: 
         a, own = p.armature[..., i], hinge_torque(p, i, parent, theta, omega, None)
         own = 0 if own is None else own
         held = j[i] + a
-        # Eliminated: θ̈_i = (a θ̈_p − q·u − c − own)/held. Left over: a force and a torque on the parent.
+        # Eliminated: θ̈_i = (a θ̈_p − q·u − c − own)/held. What remains acts on the parent as a force and a torque.
         qx, qy = q[i]
         wxx, wxy, wyy = w[i]
         kx, ky = qx / held, qy / held
@@ -160,18 +168,18 @@ def accelerations(parents: tuple[int, ...], p: Parameters, theta: Array, omega: 
         fx, fy = b[i][0] - qx * free, b[i][1] - qy * free
         sx, sy = kx * a, ky * a  # force for each θ̈_p, and torque on the parent for each u
         back = a - a * a / held
-        reaction = own - a * free  # torque that the hinge takes from the parent, less what depends on u and θ̈_p
+        reaction = own - a * free  # torque of the hinge on the parent, without the terms in u and θ̈_p
         hx, hy = _arm(p.hinge_along[..., i], p.hinge_across[..., i], cos, sin, parent)
         ex, ey = -hy, hx  # u_i = u_p + θ̈_p e − θ̇_p² h
-        still_x, still_y = -pull[..., parent] * hx, -pull[..., parent] * hy
+        bias_x, bias_y = -squared[..., parent] * hx, -squared[..., parent] * hy
         # Force on the parent's hinge and torque about it, in terms of u_p and θ̈_p.
         gx, gy = wxx * ex + wxy * ey + sx, wxy * ex + wyy * ey + sy
-        ox, oy = fx + wxx * still_x + wxy * still_y, fy + wxy * still_x + wyy * still_y
+        ox, oy = fx + wxx * bias_x + wxy * bias_y, fy + wxy * bias_x + wyy * bias_y
         j[parent] = j[parent] + ex * gx + ey * gy + back + (sx * ex + sy * ey)
         q[parent] = (q[parent][0] + gx, q[parent][1] + gy)
         w[parent] = (w[parent][0] + wxx, w[parent][1] + wxy, w[parent][2] + wyy)
         b[parent] = (b[parent][0] + ox, b[parent][1] + oy)
-        c[parent] = c[parent] + ex * ox + ey * oy - reaction + (sx * still_x + sy * still_y)
+        c[parent] = c[parent] + ex * ox + ey * oy - reaction + (sx * bias_x + sy * bias_y)
     found: list[Any] = []
     u: list[tuple[Any, Any]] = []
     for i, parent in enumerate(parents):
@@ -179,19 +187,19 @@ def accelerations(parents: tuple[int, ...], p: Parameters, theta: Array, omega: 
         own = hinge_torque(p, i, parent, theta, omega, None)
         if parent == SUPPORT:
             ux, uy = -p.gravity_along[..., 0], -p.gravity_across[..., 0]
-            carried = 0
+            coupled = 0
         else:
             arm = _arm(p.hinge_along[..., i], p.hinge_across[..., i], cos, sin, parent)
-            ux, uy = _accelerated(u[parent], arm, found[parent], pull[..., parent])
-            carried = a * found[parent]
+            ux, uy = _accelerated(u[parent], arm, found[parent], squared[..., parent])
+            coupled = a * found[parent]
         u.append((ux, uy))
-        driven = carried - (q[i][0] * ux + q[i][1] * uy) - c[i] - (0 if own is None else own)
-        found.append(driven / (j[i] + a))
+        torque = coupled - (q[i][0] * ux + q[i][1] * uy) - c[i] - (0 if own is None else own)
+        found.append(torque / (j[i] + a))
     return np.stack(np.broadcast_arrays(*found), axis=-1)
 
 
-def _links_alone(p: Parameters, n: int, cos: Array, sin: Array, pull: Array) -> tuple[list[Any], ...]:
-    """j, q, W, b and c of each link by itself, about its own hinge."""
+def _rigid_body_inertias(p: Parameters, n: int, cos: Array, sin: Array, squared: Array) -> tuple[list[Any], ...]:
+    """j, q, W, b and c of each link alone, about its own hinge."""
     j, q, w, b, c = [], [], [], [], []
     for i in range(n):
         sx, sy = _arm(p.com_along[..., i], p.com_across[..., i], cos, sin, i)
@@ -200,70 +208,56 @@ def _links_alone(p: Parameters, n: int, cos: Array, sin: Array, pull: Array) -> 
         j.append(p.inertia[..., i] + m * s)
         q.append((-m * sy, m * sx))
         w.append((m, m * 0, m))
-        b.append((-m * pull[..., i] * sx, -m * pull[..., i] * sy))
+        b.append((-m * squared[..., i] * sx, -m * squared[..., i] * sy))
         c.append(m * 0)  # R s × (−θ̇² R s) = 0
     return j, q, w, b, c
 
 
 def mass_matrix(parents: tuple[int, ...], p: Parameters, theta: Array) -> Array:
-    """M(θ) [kg m²] of the absolute angles, shape (…, n, n): column k is (4) and (5) for θ̈ = e_k alone."""
+    """Joint-space inertia matrix M(θ) [kg m²] of the absolute angles, shape (…, n, n), with the armatures.
+
+    Column k is the inverse dynamics of θ̈ = e_k, at rest and without weight, springs, damping or friction.
+    """
     rest = theta * 0
     weightless = _without(p, "gravity_along", "gravity_across", "stiffness", "preload", "friction", "damping")
     units = rest[..., None, :] + arithmetic_of(theta).array(np.eye(len(parents)))
     repeated = theta[..., None, :] + units * 0
-    return np.swapaxes(torques(parents, _one_more_axis(weightless), repeated, repeated * 0, units), -1, -2)
-
-
-def velocity_terms(parents: tuple[int, ...], p: Parameters, theta: Array, omega: Array) -> Array:
-    """What is quadratic in the rates [N m], (…, n)."""
-    still = _without(p, "gravity_along", "gravity_across", "stiffness", "preload", "friction", "damping")
-    return torques(parents, still, theta, omega, omega * 0)
-
-
-def gravity_terms(parents: tuple[int, ...], p: Parameters, theta: Array) -> Array:
-    """G(θ) [N m], (…, n)."""
-    only = _without(p, "stiffness", "preload", "friction", "damping", "armature")
-    return torques(parents, only, theta, theta * 0, theta * 0)
+    return np.swapaxes(inverse_dynamics(parents, _one_more_axis(weightless), repeated, repeated * 0, units), -1, -2)
 
 
 def magnitudes(parents: tuple[int, ...], p: Parameters, theta: Floats, omega: Floats, alpha: Floats) -> Floats:
     """Σ|terms| of each *relative* row of the equations of motion, every sine and cosine one; shape (…, n).
 
-    An engine in relative coordinates adds up an absolute rate from those of the hinges on the way, whose magnitudes are
-    added here. The measure of rounding, not of motion.
+    The unit of rounding errors. An engine in relative coordinates adds up an absolute rate from those of the hinges on
+    the path from the support, so that their magnitudes are added here.
     """
-    rate, swing = (
-        _felt(parents, np.abs(_relative_rows(parents, omega))),
-        _felt(parents, np.abs(_relative_rows(parents, alpha))),
-    )
-    swirl = swing + rate * rate
+    phi, phi_dot, phi_ddot = (np.abs(to_relative(parents, values)) for values in (theta, omega, alpha))
+    angular = to_absolute(parents, phi_ddot) + to_absolute(parents, phi_dot) ** 2
     g = np.hypot(p.gravity_along[..., 0], p.gravity_across[..., 0])
     hinge, com = np.hypot(p.hinge_along, p.hinge_across), np.hypot(p.com_along, p.com_across)
-    carried: list[Any] = []
+    acceleration: list[Any] = []
     force: list[Any] = []
     rows: list[Any] = []
     for i, parent in enumerate(parents):
-        at = g if parent == SUPPORT else carried[parent] + hinge[..., i] * swirl[..., parent]
-        carried.append(at)
-        force.append(p.mass[..., i] * (at + com[..., i] * swirl[..., i]))
-        rows.append(p.inertia[..., i] * swirl[..., i] + com[..., i] * force[i])
+        at = g if parent == SUPPORT else acceleration[parent] + hinge[..., i] * angular[..., parent]
+        acceleration.append(at)
+        force.append(p.mass[..., i] * (at + com[..., i] * angular[..., i]))
+        rows.append(p.inertia[..., i] * angular[..., i] + com[..., i] * force[i])
     for i in range(len(parents) - 1, -1, -1):
         parent = parents[i]
         if parent != SUPPORT:
             rows[parent] = rows[parent] + rows[i] + hinge[..., i] * force[i]
             force[parent] = force[parent] + force[i]
-    relative = (_relative_rows(parents, part) for part in (theta, omega, alpha))
-    phi, phi_dot, phi_ddot = map(np.abs, relative)
     own = p.armature * phi_ddot + p.damping * phi_dot + p.stiffness * phi + np.abs(p.preload) + p.friction
     return np.asarray(np.stack(np.broadcast_arrays(*rows), axis=-1) + own)
 
 
 def stretched_inertias(parents: tuple[int, ...], p: Parameters) -> Floats:
-    """Inertia about each hinge of all that it carries, stretched out straight away from it [kg m²]; shape (n,).
+    """Inertia [kg m²] of each hinge's subtree about the hinge, stretched out in a straight line; shape (n,).
 
     The diagonal of the mass matrix of relative angles with every cosine one. With μ, σ and J the mass, first moment
-    and inertia about hinge i of all that it carries, moving it out by the distance h to the parent's hinge gives the
-    parent μ, σ + μ h and J + 2 h σ + μ h².
+    and inertia of hinge i's subtree about it, the distance h to the parent's hinge adds to the parent's μ, σ + μ h and
+    J + 2 h σ + μ h².
     """
     reach = np.hypot(p.com_along, p.com_across)
     hinge = np.hypot(p.hinge_along, p.hinge_across)
@@ -278,32 +272,6 @@ def stretched_inertias(parents: tuple[int, ...], p: Parameters) -> Floats:
     return np.asarray(inertia + p.armature)
 
 
-def relative_rows(parents: tuple[int, ...], absolute: Floats) -> Floats:
-    """Generalised forces of the relative angles: each link's and all that it carries, added up; shape (…, n)."""
-    rows = absolute.copy()
-    for i in range(len(parents) - 1, -1, -1):
-        if parents[i] != SUPPORT:
-            rows[..., parents[i]] += rows[..., i]
-    return rows
-
-
-def _relative_rows(parents: tuple[int, ...], values: Floats) -> Floats:
-    """φ = θ − θ of the parent."""
-    found = values.copy()
-    for i, parent in enumerate(parents):
-        if parent != SUPPORT:
-            found[..., i] = values[..., i] - values[..., parent]
-    return found
-
-
-def _felt(parents: tuple[int, ...], relative: Floats) -> Floats:
-    felt = relative.copy()
-    for i, parent in enumerate(parents):
-        if parent != SUPPORT:
-            felt[..., i] += felt[..., parent]
-    return felt
-
-
 def _relative(values: Array, i: int, parent: int) -> Any:
     return values[..., i] if parent == SUPPORT else values[..., i] - values[..., parent]
 
@@ -313,10 +281,10 @@ def _arm(along: Any, across: Any, cos: Array, sin: Array, i: int) -> tuple[Any, 
     return along * cos[..., i] - across * sin[..., i], along * sin[..., i] + across * cos[..., i]
 
 
-def _accelerated(at: tuple[Any, Any], arm: tuple[Any, Any], swirl: Any, pull: Any) -> tuple[Any, Any]:
-    """The acceleration at the end of an arm, (1)."""
+def _accelerated(at: tuple[Any, Any], arm: tuple[Any, Any], alpha: Any, squared: Any) -> tuple[Any, Any]:
+    """The acceleration at the end of an arm, (1); ``squared``: the rate's square."""
     x, y = arm
-    return at[0] - swirl * y - pull * x, at[1] + swirl * x - pull * y
+    return at[0] - alpha * y - squared * x, at[1] + alpha * x - squared * y
 
 
 def _cross(arm: tuple[Any, Any], force: tuple[Any, Any]) -> Any:

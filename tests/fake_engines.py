@@ -9,7 +9,14 @@ import time
 import numpy as np
 
 from furiko.engines import EngineInfo, Integrator, ModelFields
-from furiko.reference import coriolis_matrix, energy, gravity_vector, joint_forces, literal_accelerations, mass_matrix
+from furiko.reference import (
+    centrifugal_matrix,
+    energies,
+    gravity_vector,
+    joint_forces,
+    literal_accelerations,
+    mass_matrix,
+)
 
 
 def about(name, **changes):
@@ -51,15 +58,15 @@ class Right:
         return literal_accelerations(self.system, theta, omega)
 
     def inverse_dynamics(self, theta, omega, alpha, *, gravity=True):
-        mass, coriolis = mass_matrix(self.system, theta), coriolis_matrix(self.system, theta)
-        torque = (mass @ alpha[..., None] + coriolis @ (omega**2)[..., None])[..., 0]
+        mass, centrifugal = mass_matrix(self.system, theta), centrifugal_matrix(self.system, theta)
+        torque = (mass @ alpha[..., None] + centrifugal @ (omega**2)[..., None])[..., 0]
         return torque + gravity_vector(self.system, theta) if gravity else torque
 
     def joint_forces(self, theta, omega, alpha):
         return joint_forces(self.system, theta, omega, alpha)
 
     def energy(self, theta, omega):
-        return np.stack(energy(self.system, theta, omega), axis=-1)
+        return np.stack(energies(self.system, theta, omega), axis=-1)
 
     def trajectory(self, theta, omega, integrator, step, steps):
         def slope(y):

@@ -97,10 +97,10 @@ class Accelerations:
 
     def track_enclosed(self, _mechanism: str, n: int) -> float:
         """One state, proved in ball arithmetic."""
-        from furiko.reference.truth.newton_euler import proven_accelerations
+        from furiko.reference.truth.newton_euler import enclosed_accelerations
 
         theta, omega = states(n, 1)
-        return ratio(lambda: proven_accelerations(self.system, theta, omega), dense(n))
+        return ratio(lambda: enclosed_accelerations(self.system, theta, omega), dense(n))
 
 
 class Growth:

@@ -28,7 +28,7 @@ def compare(cell: Cell) -> Iterator[Result]:
     The true M applied to (engine's acceleration less the true one) is the residual of the engine's in the true
     equations, without the cancellation that computing it term by term would suffer.
     """
-    cell, asked = cell.solvable, len(cell.states)
+    cell, asked = cell.regular, len(cell.states)
     facts, system = cell.facts, cell.scene.system
     if not len(cell.states):
         yield cell.result(NAME, "skipped", reason=f"in every state {SINGULAR}")

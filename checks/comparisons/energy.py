@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ...models.tree import SUPPORT, PlanarTree
 from ...records.check import Result
-from ...reference import energy
+from ...reference import energies
 from ...reference.rounding.bounds import EPSILON, Amplitudes, allowed, turns
 from ..cell import Cell, quotient, worst
 
@@ -24,7 +24,7 @@ def compare(cell: Cell) -> Iterator[Result]:
     """Both parts, over the sum of the magnitudes of their terms."""
     states, system = cell.states, cell.scene.system
     got = cell.answer("energy", cell.engine.energy(states.theta, states.omega), (len(states), 2))
-    expected = np.stack(energy(system, states.theta, states.omega), axis=-1)
+    expected = np.stack(energies(system, states.theta, states.omega), axis=-1)
     scale = energy_amplitudes(system.tree(), cell.amplitude, states.omega) * turns(states.theta)[:, None]
     found = worst(quotient(got - expected, EPSILON * scale))
     bound = allowed(system.n)

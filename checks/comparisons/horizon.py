@@ -36,13 +36,13 @@ from numpy.typing import NDArray
 from ...engines import Integrator, engine_info, engine_names, load_engine
 from ...models import InvalidInput, Scene, find_scenes
 from ...models.states import natural_rate, states
+from ...models.systems import DocumentSystem as Mechanism
 from ...records.check import Result
 from ...reference import literal_accelerations
-from ...reference.documents.equations_of_motion import Mechanism
 from ...reference.integration.schemes import BUTCHER_6
 from ...reference.integration.variation import Growth, growth, lyapunov_time, tangent_flow
 from ...reference.rounding.bounds import EPSILON
-from ...reference.truth.enclosures import true_trajectory
+from ...reference.truth.quadruple import quadruple_trajectory
 from ..cell import Cell, EngineFault
 from ..facts import scene_facts
 
@@ -180,7 +180,7 @@ def _divides(small: float, large: float) -> bool:
 def _integrated(
     system: Mechanism, theta: tuple[float, ...], omega: tuple[float, ...], spacing: float, points: int
 ) -> tuple[Array, Array]:
-    found = true_trajectory(system, theta, omega, spacing * np.arange(points + 1, dtype=np.float64))
+    found = quadruple_trajectory(system, theta, omega, spacing * np.arange(points + 1, dtype=np.float64))
     return np.hstack([found.theta, found.omega]), np.hstack([found.theta_low, found.omega_low])
 
 

@@ -23,9 +23,9 @@ from numpy.typing import NDArray
 
 from ...engines import AnyShape, Integrator
 from ...models import Scene
+from ...models.systems import DocumentSystem as Mechanism
 from ...records.check import Result
-from ...reference import energy, literal_accelerations, mass_matrix
-from ...reference.documents.equations_of_motion import Mechanism
+from ...reference import energies, literal_accelerations, mass_matrix
 from ...reference.integration.richardson import amplified, at_step_zero
 from ...reference.integration.variation import fastest_rate, lyapunov_time
 from ...reference.rounding.bounds import EPSILON, Amplitudes, allowed
@@ -154,7 +154,7 @@ def energy_left(start: Start, integrator: Integrator, steps: int) -> Array:
 
 def _energy(start: Start, theta: Array, omega: Array) -> float:
     if "energy" in start.engine.info.missing:
-        return float(sum(energy(start.system, theta, omega)))
+        return float(sum(energies(start.system, theta, omega)))
     return float(start.engine.energy(theta, omega).sum())
 
 

@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 
 from ...engines import cannot
 from ...models import NLegPendulum, RodChain
+from ...models.systems import DocumentSystem as Mechanism
 from ...records.check import Result
 from ...reference import literal_accelerations, mass_matrix
-from ...reference.documents.equations_of_motion import Mechanism
 from ...reference.integration.variation import variation
 from ...reference.rounding.bounds import EPSILON, Amplitudes, allowed, amplitudes, turns
 from ..cell import Cell, Worst, quotient, worst
@@ -65,7 +65,7 @@ class Symmetry:
 
 def compare(cell: Cell) -> Iterator[Result]:
     """One result for each symmetry that the mechanism has."""
-    cell = cell.solvable
+    cell = cell.regular
     system = cell.scene.system
     theta, omega = cell.states.theta[-STATES:], cell.states.omega[-STATES:]
     if not len(theta):
@@ -154,7 +154,7 @@ def _answer(
 def rounding(system: Mechanism, theta: Array, omega: Array, alpha: Array, amplitude: Amplitudes) -> Array:
     """How far accelerations are from the exact ones by a backward error of one ε [rad/s²], (B, n)."""
     mass = mass_matrix(system, theta)
-    return EPSILON * amplitude.answers(mass, amplitude.rows(alpha, omega, mass) * turns(theta)[:, None])
+    return EPSILON * amplitude.acceleration_errors(mass, amplitude.rows(alpha, omega, mass) * turns(theta)[:, None])
 
 
 def _same(alpha: Array) -> Array:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ...models.states import States
 from ...records.check import Result
-from ...reference import coriolis_matrix, gravity_vector, mass_matrix
+from ...reference import centrifugal_matrix, gravity_vector, mass_matrix
 from ...reference.rounding.bounds import EPSILON, allowed, turns
 from ..cell import Cell, quotient, worst
 
@@ -42,11 +42,11 @@ def compare(cell: Cell) -> Iterator[Result]:
     else:
         yield cell.result(f"{NAME} G", "skipped", reason="the scene has no gravity")
     if cell.states.omega.any():
-        coriolis = coriolis_matrix(cell.scene.system, theta)
+        centrifugal = centrifugal_matrix(cell.scene.system, theta)
         entries = cell.amplitude.absolute_rows(cell.amplitude.velocity_terms(np.eye(cell.scene.system.n))).T
-        yield _result(cell, "C", columns(cell, theta, "omega") - coriolis, entries, states)
+        yield _result(cell, "C", columns(cell, theta, "omega") - centrifugal, entries, states)
         error = cell.torques(theta, omega, np.zeros_like(theta), gravity=False)
-        error -= (coriolis @ (omega**2)[..., None])[..., 0]
+        error -= (centrifugal @ (omega**2)[..., None])[..., 0]
         scale = cell.amplitude.absolute_rows(cell.amplitude.velocity_terms(omega))
         yield _result(cell, "velocity", error, scale, states)
     else:

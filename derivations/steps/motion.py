@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...reference.integration.schemes import classical_step
 from ..algebra.symbols import Symbols
 from ..algebra.trig import COS, digits
 from .derivation import Row
@@ -76,13 +77,9 @@ class RowMotion:
 
     def step(self, y: Array, h: float) -> Array:
         """One step of classical Runge-Kutta; ``y``: angles and rates, shape (B, 2n)."""
-        k1 = self._slope(y)
-        k2 = self._slope(y + h / 2 * k1)
-        k3 = self._slope(y + h / 2 * k2)
-        k4 = self._slope(y + h * k3)
-        return np.asarray(y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4))
+        return classical_step(self._slope, y, h)
 
-    def _slope(self, y: Array) -> Array:
+    def _slope(self, _: float, y: Array) -> Array:
         theta, omega = y[:, : self.n], y[:, self.n :]
         return np.concatenate([omega, self.accelerations(theta, omega)], axis=1)
 

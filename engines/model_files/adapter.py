@@ -13,6 +13,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from ...models.coordinates import forces_to_absolute, to_absolute, to_relative
 from ...models.mechanism import Mechanism
 from ...models.readers.model_file import ModelFile
 from ...models.tree import SUPPORT
@@ -113,35 +114,19 @@ class FileCoordinates:
 
     def positions(self, theta: Array) -> Array:
         """q, (B, n)."""
-        return self._placed(self._sense * self._relative(theta) + self._zero)
+        return self._placed(self._sense * to_relative(self._parents, theta) + self._zero)
 
     def rates(self, omega: Array) -> Array:
         """q̇ or q̈, (B, n)."""
-        return self._placed(self._sense * self._relative(omega))
+        return self._placed(self._sense * to_relative(self._parents, omega))
 
     def absolute(self, rates: Array) -> Array:
         """θ̇ or θ̈ from q̇ or q̈."""
-        found = self._sense * rates[:, self._columns]
-        for i, parent in enumerate(self._parents):
-            if parent != SUPPORT:
-                found[:, i] += found[:, parent]
-        return np.asarray(found)
+        return to_absolute(self._parents, np.asarray(self._sense * rates[:, self._columns]))
 
     def absolute_forces(self, forces: Array) -> Array:
         """Generalised forces of θ from those of q."""
-        own = self._sense * forces[:, self._columns]
-        found = own.copy()
-        for i, parent in enumerate(self._parents):
-            if parent != SUPPORT:
-                found[:, parent] -= own[:, i]
-        return np.asarray(found)
-
-    def _relative(self, values: Array) -> Array:
-        found = values.copy()
-        for i, parent in enumerate(self._parents):
-            if parent != SUPPORT:
-                found[:, i] = values[:, i] - values[:, parent]
-        return found
+        return forces_to_absolute(self._parents, np.asarray(self._sense * forces[:, self._columns]))
 
     def _placed(self, values: Array) -> Array:
         placed = np.empty_like(values)

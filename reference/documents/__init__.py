@@ -1,1 +1,4 @@
-"""Both documents' equations, symbol by symbol, and their final form put together for a mechanism."""
+"""Both documents' equations, symbol by symbol, and their final form put together for a mechanism.
+
+Imports models and the arithmetic.
+"""

@@ -1,4 +1,4 @@
-"""What an entry of the index of equations is, and what a slip of a document is."""
+"""The records of the index: an equation of a document, and a slip in its text."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..arithmetic import Array
 
 Document = Literal["shiki", "takeno"]
 Stage = Literal["position", "velocity", "energy", "lagrange", "force", "motion", "matrix"]
-Members = tuple[Array, ...]  # what stands between the equals signs, in printed order
+Members = tuple[Array, ...]  # the expressions between the equals signs, in printed order
 
 
 @dataclass(frozen=True)
@@ -20,8 +20,8 @@ class Equation:
 
     ``function`` returns its members: the expressions between its equals signs, in printed order, each as an array; a
     name that the equation only introduces (x₁ = …) is left out. ``formula``: the equation to read. Where the document
-    has a misprint, ``function`` and ``formula`` are the corrected equation, ``printed`` and ``printed_formula`` what
-    stands there. ``condition``: what must hold for it and the document leaves unsaid.
+    has a misprint, ``function`` and ``formula`` are the corrected equation, ``printed`` and ``printed_formula`` the
+    equation as printed. ``condition``: a condition that the equation needs and the document does not state.
     """
 
     document: Document
@@ -37,16 +37,16 @@ class Equation:
 
     @property
     def label(self) -> str:
-        """How a person refers to it: ``Shiki (3.4)``."""
+        """The equation's name for readers: ``Shiki (3.4)``."""
         return f"{self.document.title()} ({self.number})"
 
     @property
     def symbols(self) -> tuple[str, ...]:
-        """Names of the function's arguments: the symbols that stand in the equation."""
+        """Names of the function's arguments: the symbols in the equation."""
         return tuple(inspect.signature(self.function).parameters)
 
     def members(self, values: Mapping[str, Any]) -> Members:
-        """The members for these values of its symbols (others are passed over)."""
+        """The members for these values of its symbols (other values are ignored). Raises KeyError for a missing one."""
         return _call(self.function, values)
 
     def printed_members(self, values: Mapping[str, Any]) -> Members:
@@ -56,7 +56,7 @@ class Equation:
 
 @dataclass(frozen=True)
 class Slip:
-    """A slip outside the numbered formulas: the place, what stands there, and what should."""
+    """A slip outside the numbered formulas: the place, the text as printed, and the right one."""
 
     document: Document
     where: str

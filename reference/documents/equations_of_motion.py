@@ -10,24 +10,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...models import NLegPendulum, RodChain
+from ...models import DocumentSystem, RodChain
 from ..arithmetic import Arithmetic, Array, arithmetic_of, times
 from . import shiki, takeno
-
-Mechanism = NLegPendulum | RodChain
 
 
 @dataclass(frozen=True)
 class Literal:
-    """A document's own last form, (3.10) with (3.12) or (22): matrix · θ̈ = right, and what turns a row into [N m]."""
+    """A document's last form, (3.10) with (3.12) or (22): matrix · θ̈ = right; ``lagrange_row`` makes rows [N m]."""
 
     matrix: Array
     right: Array
     lagrange_row: Array
 
 
-def literal_system(xp: Arithmetic, system: Mechanism, theta: Array, omega: Array) -> Literal:
-    """A θ̈ = -B e of Shiki (3.10), or A θ̈ = -(B θ̇² + g L sin θ) of Takeno (22)."""
+def literal_system(xp: Arithmetic, system: DocumentSystem, theta: Array, omega: Array) -> Literal:
+    """A θ̈ = -B e of Shiki (3.10), or A θ̈ = -(B θ̇² + g L sin θ) of Takeno (22); matrix (…, n, n), right (…, n)."""
     l, g = xp.array(system.lengths), xp.array(system.gravity)
     if isinstance(system, RodChain):
         rho = xp.array(system.density)
@@ -40,29 +38,32 @@ def literal_system(xp: Arithmetic, system: Mechanism, theta: Array, omega: Array
     return Literal(both[..., 0, :, :], -times(both[..., 1, :, :], e), l)
 
 
-def literal_accelerations(system: Mechanism, theta: Array, omega: Array) -> Array:
-    """θ̈ [rad/s²] by the document's own formula, (3.10) or (22) solved, shape (…, n)."""
+def literal_accelerations(system: DocumentSystem, theta: Array, omega: Array) -> Array:
+    """Forward dynamics: θ̈ [rad/s²] by the document's own formula, (3.10) or (22) solved, shape (…, n)."""
     xp = arithmetic_of(theta, omega)
     equations = literal_system(xp, system, theta, omega)
     return xp.solve(equations.matrix, equations.right)
 
 
-def mass_matrix(system: Mechanism, theta: Array) -> Array:
-    """M(θ) [kg m²], shape (…, n, n): Shiki (3.12) row i times l_i, Takeno (21) row j times ρ l_j."""
+def mass_matrix(system: DocumentSystem, theta: Array) -> Array:
+    """Joint-space inertia (mass) matrix M(θ) [kg m²] of the absolute angles, shape (…, n, n).
+
+    Shiki (3.12) row i times l_i, Takeno (21) row j times ρ l_j.
+    """
     return _terms(system, theta)[0]
 
 
-def coriolis_matrix(system: Mechanism, theta: Array) -> Array:
-    """C(θ) [kg m²], shape (…, n, n): what stands before θ̇_k² in row j."""
+def centrifugal_matrix(system: DocumentSystem, theta: Array) -> Array:
+    """Centrifugal matrix C(θ) [kg m²], shape (…, n, n): C_jk multiplies θ̇_k² in row j. No products θ̇_j θ̇_k."""
     return _terms(system, theta)[1]
 
 
-def gravity_vector(system: Mechanism, theta: Array) -> Array:
-    """G(θ) [N m], shape (…, n)."""
+def gravity_vector(system: DocumentSystem, theta: Array) -> Array:
+    """Gravity terms G(θ) [N m], shape (…, n)."""
     return _terms(system, theta)[2]
 
 
-def _terms(system: Mechanism, theta: Array) -> tuple[Array, Array, Array]:
+def _terms(system: DocumentSystem, theta: Array) -> tuple[Array, Array, Array]:
     xp = arithmetic_of(theta)
     l, g = xp.array(system.lengths), xp.array(system.gravity)
     if isinstance(system, RodChain):
@@ -76,9 +77,9 @@ def _terms(system: Mechanism, theta: Array) -> tuple[Array, Array, Array]:
     A, B = both[..., 0, :, :], both[..., 1, :, :]
     index = np.arange(system.n)
     gravity = B[..., index, index]
-    coriolis = B.copy()
-    coriolis[..., index, index] = 0
-    return l[:, None] * A, l[:, None] * coriolis, l * gravity
+    centrifugal = B.copy()
+    centrifugal[..., index, index] = 0
+    return l[:, None] * A, l[:, None] * centrifugal, l * gravity
 
 
 def _takeno_matrices(xp: Arithmetic, l: Array, L: Array, theta: Array) -> tuple[Array, Array]:
@@ -87,8 +88,8 @@ def _takeno_matrices(xp: Arithmetic, l: Array, L: Array, theta: Array) -> tuple[
     return both[..., 0, :, :], both[..., 1, :, :]
 
 
-def energy(system: Mechanism, theta: Array, omega: Array) -> tuple[Array, Array]:
-    """Kinetic and potential energy [J], shape (…); the latter zero at the support's height."""
+def energies(system: DocumentSystem, theta: Array, omega: Array) -> tuple[Array, Array]:
+    """Kinetic and potential energy [J], shape (…) each; the potential is zero at the support."""
     xp = arithmetic_of(theta, omega)
     l, m, g = _lengths_masses_gravity(xp, system)
     across, down = _across_and_down(system, l, theta, xp)
@@ -101,17 +102,17 @@ def energy(system: Mechanism, theta: Array, omega: Array) -> tuple[Array, Array]
     return np.asarray(kinetic), np.asarray((m * g * height).sum(-1))
 
 
-def centre_accelerations(system: Mechanism, theta: Array, omega: Array, alpha: Array) -> Array:
+def centre_accelerations(system: DocumentSystem, theta: Array, omega: Array, alpha: Array) -> Array:
     """Acceleration (x, up) of each link's centre of mass [m/s²], shape (…, n, 2)."""
     xp = arithmetic_of(theta, omega, alpha)
     across, down = _across_and_down(system, xp.array(system.lengths), theta, xp)
     return _centres(system, across * alpha[..., None] - down * (omega**2)[..., None])
 
 
-def joint_forces(system: Mechanism, theta: Array, omega: Array, alpha: Array) -> Array:
-    """Force (x, up) [N] that each link exerts on what carries it, at its hinge, in this motion; shape (…, n, 2).
+def joint_forces(system: DocumentSystem, theta: Array, omega: Array, alpha: Array) -> Array:
+    """Joint reaction force (x, up) [N] of each link on its parent in this motion, shape (…, n, 2).
 
-    Takeno (8): row j of a rod chain is T_j, j = 0 … n-1. For the star the same sum over what hangs below a hinge.
+    Takeno (8): row j of a rod chain is T_j, j = 0 … n-1. For the star the same sum over the hinge's subtree.
     """
     xp = arithmetic_of(theta, omega, alpha)
     _, m, g = _lengths_masses_gravity(xp, system)
@@ -124,20 +125,20 @@ def joint_forces(system: Mechanism, theta: Array, omega: Array, alpha: Array) ->
     return forces
 
 
-def _lengths_masses_gravity(xp: Arithmetic, system: Mechanism) -> tuple[Array, Array, Array]:
+def _lengths_masses_gravity(xp: Arithmetic, system: DocumentSystem) -> tuple[Array, Array, Array]:
     l, g = xp.array(system.lengths), xp.array(system.gravity)
     m = xp.array(system.density) * l if isinstance(system, RodChain) else xp.array(system.masses)
     return l, m, g
 
 
-def _across_and_down(system: Mechanism, l: Array, theta: Array, xp: Arithmetic) -> tuple[Array, Array]:
+def _across_and_down(system: DocumentSystem, l: Array, theta: Array, xp: Arithmetic) -> tuple[Array, Array]:
     """l q(θ) and l p(θ) of each link [m], shape (…, n, 2)."""
     cos, sin = xp.cos_sin(theta)
     return np.stack([l * cos, l * sin], axis=-1), np.stack([l * sin, -l * cos], axis=-1)
 
 
-def _centres(system: Mechanism, links: Array) -> Array:
-    """From a vector for each whole link, the vector for each centre: its carriers' sum and its own part."""
+def _centres(system: DocumentSystem, links: Array) -> Array:
+    """From a vector for each whole link, the vector for each centre: the sum of its ancestors' and its own part."""
     if isinstance(system, RodChain):  # half of its own, all of those before
         return np.asarray(np.cumsum(links, axis=-2) - links / 2)
     centres = links.copy()

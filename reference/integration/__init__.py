@@ -1,1 +1,4 @@
-"""Trajectories: Taylor series, textbook schemes, their tangent flow, and extrapolation."""
+"""Trajectories: Taylor series, textbook schemes, their tangent flow, and extrapolation.
+
+Imports models, documents and kernels.
+"""

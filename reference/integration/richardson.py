@@ -1,6 +1,6 @@
-"""Richardson's extrapolation to step zero, and how sure it is.
+"""Richardson's extrapolation to step zero, and its error estimate.
 
-A scheme of order p leaves C h^p + β h^(p+1) + γ h^(p+2) + … after a fixed time. Two runs, at 2h and h, rid of the first
+A scheme of order p leaves C h^p + β h^(p+1) + γ h^(p+2) + … after a fixed time. Two runs, 2h and h, eliminate the first
 term: E = y(h) + (y(h) - y(2h)) / (2^p - 1). Of four runs come three such values, E₁, E₂, E₃ from coarse to fine. Two of
 them differ by the next terms; but where these cancel at one step a single difference tells nothing, so both are used.
 """
@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 
 def at_step_zero(runs: Sequence[Array], order: int) -> tuple[Array, float]:
-    """E₃ of four runs at h, h/2, h/4 and h/8, and how far off its worst entry may be.
+    """E₃ of four runs at h, h/2, h/4 and h/8, any shape, and an estimate of the error of its worst entry.
 
     With A = 2^(p+1) and x = h/8, E₃ = βx^(p+1) + γx^(p+2), β and γ not those of y, and so
 
@@ -36,15 +36,15 @@ def at_step_zero(runs: Sequence[Array], order: int) -> tuple[Array, float]:
 def follows(runs: Sequence[Array], order: int) -> bool:
     """Whether E₁, E₂, E₃ near each other as the next terms make them: D₂ / D₁ is 2^(p+1), 2^(p+2), 2^(p+3) of each.
 
-    It is more where terms cancel in D₁, or where later ones rule in the coarsest run: E₃ is then less sure than it will
-    be at half the step.
+    It is more where terms cancel in D₁, or where later ones dominate in the coarsest run: E₃ is then less
+    certain than at half the step.
     """
     coarser, finer = _differences(_extrapolated(runs, order))
     return coarser <= 2.0 ** (order + 4) * finer
 
 
 def amplified(order: int) -> float:
-    """How often E₃ has in it what is in each of its two runs, rounding above all, at worst."""
+    """The largest factor by which E₃ multiplies an error of its two runs, such as rounding."""
     return (2.0**order + 1) / (2.0**order - 1)
 
 

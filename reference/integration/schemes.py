@@ -1,12 +1,12 @@
 """Textbook schemes that carry a state over one step of time, for whatever gives accelerations.
 
 A step takes θ and ω of shape (…, n) in any float type and gives both after ``h`` seconds. All of these schemes commute
-with a linear change of coordinates: applied to relative angles q = S⁻¹ θ they give the same θ = S q. In which angles an
-engine applies one can therefore not be seen in its results; whether in maximal coordinates can
+with a linear change of coordinates: applied to relative angles q = S⁻¹ θ they give the same θ = S q. Results
+therefore do not show in which angles an engine applies a scheme; they do show maximal coordinates
 (:mod:`furiko.reference.maximal_coordinates`).
 
 Sources: Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations I* (tableaux; II.1, II.5); Butcher 1964, "On
-Runge-Kutta processes of high order" (six stages and order six cannot be had together: seven); Hairer, Lubich, Wanner,
+Runge-Kutta processes of high order" (order six needs seven stages); Hairer, Lubich, Wanner,
 *Geometric Numerical Integration* (I.1, VI.3); Chung, Hulbert 1993 and Arnold, Brüls 2007 (generalized-α).
 """
 
@@ -23,7 +23,7 @@ Array = NDArray[Any]
 Acceleration = Callable[[Array, Array], Array]
 Step = Callable[[Acceleration, Array, Array, Any], tuple[Array, Array]]
 
-ITERATIONS = 200  # an implicit step's; each takes away at least half of what is left of the error
+ITERATIONS = 200  # of an implicit step; each at least halves the error
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Scheme:
 
 @dataclass(frozen=True)
 class Tableau:
-    """Butcher's: stage i is reached with the slopes of those before it, weighed by ``rows[i]``; ``weights`` end it.
+    """A Butcher tableau: stage i uses the slopes before it with the weights ``rows[i]``; ``weights`` end the step.
 
     Raises ValueError where a step would not be exact for constant slopes: weights that do not sum to one.
     """
@@ -68,7 +68,7 @@ class Tableau:
         return end[0], end[1]
 
     def scheme(self, name: str, order: int) -> Scheme:
-        """As a scheme."""
+        """The tableau as a scheme of this name and order."""
         return Scheme(name, order, self.step, float(sum(map(abs, self.weights))), len(self.weights))
 
 
@@ -171,6 +171,19 @@ def _fixed_point(a: Acceleration, state: Callable[[Array], tuple[Array, Array]],
             break
         smallest = min(smallest, change)
     raise ArithmeticError("the implicit step's equations were not solved: the step is too long")
+
+
+def classical_step(slope: Callable[[float, Array], Array], y: Array, h: Any) -> Array:
+    """y after one step of the classical Runge-Kutta scheme for ẏ = slope(part, y), in y's own number type.
+
+    ``part``: the fraction of the step, 0, ½ or 1, for slopes that depend on time. For states of any shape and slopes
+    that are no accelerations; :data:`CLASSICAL` is the same scheme for θ and ω, with weights in extended precision.
+    """
+    first = slope(0.0, y)
+    second = slope(0.5, y + h / 2 * first)
+    third = slope(0.5, y + h / 2 * second)
+    fourth = slope(1.0, y + h * third)
+    return np.asarray(y + h / 6 * (first + 2 * second + 2 * third + fourth))
 
 
 _third, _sixth = np.longdouble(1) / 3, np.longdouble(1) / 6

@@ -52,13 +52,13 @@ from ..limits import checked_state
 Array = NDArray[np.float64]
 
 FINEST = 1e-14  # a tolerance below this asks for more than doubles hold
-SAFETY = 1e-2  # what a step may add, of the tolerance: errors add up, and grow with the motion
+SAFETY = 1e-2  # the error of a step over the tolerance: errors add up, and grow with the motion
 STEPS_A_CALL = 20_000  # after so many, Python is given a chance to see an interrupt
 
 
 @dataclass(frozen=True)
 class Trajectory:
-    """A motion at the times asked for.
+    """A motion at the times that were asked for.
 
     ``times`` [s], shape (m,); ``theta`` [rad] and ``omega`` [rad/s], shape (..., m, n), angles continuous in time;
     ``steps``: how many Taylor steps each trajectory took, shape (...).
@@ -76,7 +76,7 @@ class Trajectory:
         """Estimated error at each time, shape (..., m): rad for angles, rates relative to the largest |ω|.
 
         From a second run of higher order and smaller steps, made when first asked for: twice the difference, and not
-        less than the rounding of the result. An estimate, not a bound; where it nears 1 the motion is lost.
+        less than the rounding of the result. An estimate, not a bound; near 1 no digit is correct.
         """
         theta, omega = self._finer()
         fastest = np.abs(self.omega).max(axis=(-2, -1), keepdims=True)

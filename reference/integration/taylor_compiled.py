@@ -1,6 +1,6 @@
 """One Taylor step of either system in compiled form, and the run from output time to output time.
 
-The derivation stands in :mod:`.taylor`. Rows of numbers, one a link, are padded to whole vectors of EIGHT.
+The derivation is in :mod:`.taylor`. Rows of numbers, one a link, are padded to whole vectors of EIGHT.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ turn = inlined(elimination.turn)
 two_difference = inlined(elimination.difference)
 
 RODS, LEGS = 0, 1
-MOST_STEPS = 1e11  # to one output: days of work; who asks for more has mistaken a unit
+MOST_STEPS = 1e11  # to one output: days of work; more is probably a wrong unit
 DONE, MORE, BROKEN = 0, 1, 2
 TWO_PI, TWO_PI_LOW = 6.283185307179586, 2.4492935982947064e-16
 # columns of the state, one row a link: angle and rate as sums of two numbers, and whole turns taken off the angle
@@ -135,20 +135,20 @@ def solve_legs(order: int, factors: Any, part: Any, series: Any) -> None:
         wp[i], wq[i] = -weight * wp[i], weight * wq[i]
     along = wp[0] + (factors[0, A] if order == 0 else 0.0)
     across = wq[0] + (factors[0, B] if order == 0 else 0.0)
-    pull = r[0]
+    load = r[0]
     for i in range(1, len(factors)):
         f = factors[i]
-        pull += f[MASS] * (f[COS] * (wq[i] - r[i]) - f[SIN] * (f[COS] * along + wp[i]))
-    drag = -pull / factors[0, KAPPA]
+        load += f[MASS] * (f[COS] * (wq[i] - r[i]) - f[SIN] * (f[COS] * along + wp[i]))
+    G = -load / factors[0, KAPPA]
     force = factors[0, MASS] * along
     for i in range(1, len(factors)):
         f = factors[i]
-        fp[i] = f[COS] * along - f[SIN] * drag
-        fq[i] = f[SIN] * along + f[COS] * drag
+        fp[i] = f[COS] * along - f[SIN] * G
+        fq[i] = f[SIN] * along + f[COS] * G
         force += f[MASS] * (f[COS] * (fp[i] + wp[i]) + f[SIN] * (wq[i] - r[i]))
         extend(series, order, i, f[LENGTH], -fq[i] - r[i], wp[i], wq[i])
     fp[0], fq[0] = force, -r[0]
-    extend(series, order, 0, factors[0, LENGTH], drag - across, wp[0], wq[0])
+    extend(series, order, 0, factors[0, LENGTH], G - across, wp[0], wq[0])
 
 
 @called

@@ -1,8 +1,8 @@
-"""How a motion answers to small changes of its state: exact derivatives, the tangent flow, and Lyapunov's exponent.
+"""Sensitivity of a motion to its state: exact derivatives of θ̈, the tangent flow, and the Lyapunov exponent.
 
 In both documents' equations of motion, M θ̈ + C θ̇² + G = 0 (Shiki (3.10) with (3.12), Takeno (22)), an entry off the
 diagonal depends on one difference of angles only, M_jk = m_jk cos(θ_j - θ_k) and C_jk = m_jk sin(θ_j - θ_k), the
-diagonal of M on nothing, and G_j = g_j sin θ_j. Hence, differentiating as it stands,
+diagonal of M is constant, and G_j = g_j sin θ_j. Hence, differentiating as it stands,
 
     ∂/∂θ_k (M θ̈ + C θ̇² + G)_j = C_jk θ̈_k - M_jk θ̇_k²                          for k ≠ j,
     ∂/∂θ_j (M θ̈ + C θ̇² + G)_j = Σ_{k≠j} (M_jk θ̇_k² - C_jk θ̈_k) + g_j cos θ_j,
@@ -18,10 +18,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...models import DocumentSystem
 from ...models.states import natural_rate
 from ..arithmetic import arithmetic_of
 from ..documents import equations_of_motion as motion
-from ..documents.equations_of_motion import Mechanism
 from . import schemes
 
 Floats = NDArray[np.float64]
@@ -44,20 +44,20 @@ class Variation:
         return np.concatenate([above, np.concatenate([self.by_theta, self.by_omega], -1)], -2)
 
 
-def variation(system: Mechanism, theta: Floats, omega: Floats) -> Variation:
+def variation(system: DocumentSystem, theta: Floats, omega: Floats) -> Variation:
     """The accelerations at a state and their exact derivatives; θ, ω of shape (…, n), any float type."""
     xp = arithmetic_of(theta, omega)
-    mass, coriolis, gravity = (
-        term(system, theta) for term in (motion.mass_matrix, motion.coriolis_matrix, motion.gravity_vector)
+    mass, centrifugal, gravity = (
+        term(system, theta) for term in (motion.mass_matrix, motion.centrifugal_matrix, motion.gravity_vector)
     )
     squared = omega**2
-    alpha = xp.solve(mass, -((coriolis * squared[..., None, :]).sum(-1) + gravity))
+    alpha = xp.solve(mass, -((centrifugal * squared[..., None, :]).sum(-1) + gravity))
     levers = motion.gravity_vector(system, np.full(system.n, np.pi / 2))  # g_j, each sine being one
-    by_theta = coriolis * alpha[..., None, :] - mass * squared[..., None, :]
+    by_theta = centrifugal * alpha[..., None, :] - mass * squared[..., None, :]
     index = np.arange(system.n)
     by_theta[..., index, index] = 0
     by_theta[..., index, index] = levers * np.cos(theta) - by_theta.sum(-1)
-    by_omega = 2 * coriolis * omega[..., None, :]
+    by_omega = 2 * centrifugal * omega[..., None, :]
     return Variation(alpha, _divide(xp, mass, by_theta), _divide(xp, mass, by_omega))
 
 
@@ -69,8 +69,8 @@ def _divide(xp: object, mass: Floats, right: Floats) -> Floats:
     return np.stack(columns, axis=-1)
 
 
-def fastest_rate(system: Mechanism, theta: Floats, omega: Floats) -> Floats:
-    """A bound [1/s] of how fast nearby states part at each instant; shape (…).
+def fastest_rate(system: DocumentSystem, theta: Floats, omega: Floats) -> Floats:
+    """A bound [1/s] of the rate at which nearby states separate, at each instant; shape (…).
 
     The largest row sum of J after angles and rates are measured in one unit, the rate ν = √(largest row of ∂θ̈/∂θ).
     """
@@ -81,7 +81,7 @@ def fastest_rate(system: Mechanism, theta: Floats, omega: Floats) -> Floats:
     return np.asarray(nu + friction)
 
 
-def tangent_flow(system: Mechanism, theta: Floats, omega: Floats, step: float) -> Floats:
+def tangent_flow(system: DocumentSystem, theta: Floats, omega: Floats, step: float) -> Floats:
     """Φ of each step along a path: δ(t + step) = Φ δ(t), δ = (δθ, δω); shape (K, 2n, 2n).
 
     ``theta``, ``omega``: the path at K + 1 times, ``step`` apart, **and at the times half-way between**: shape
@@ -89,18 +89,13 @@ def tangent_flow(system: Mechanism, theta: Floats, omega: Floats, step: float) -
     error is of fifth order in step × :func:`fastest_rate`.
     """
     J = variation(system, theta, omega).matrix()
-    start, middle, end = J[0:-1:2], J[1::2], J[2::2]
-    one = np.eye(J.shape[-1])
-    first = start
-    second = middle @ (one + step / 2 * first)
-    third = middle @ (one + step / 2 * second)
-    fourth = end @ (one + step * third)
-    return np.asarray(one + step / 6 * (first + 2 * second + 2 * third + fourth))
+    at = {0.0: J[0:-1:2], 0.5: J[1::2], 1.0: J[2::2]}
+    return schemes.classical_step(lambda part, flow: at[part] @ flow, np.eye(J.shape[-1]), step)
 
 
 @dataclass(frozen=True)
 class Growth:
-    """How much the most sensitive small difference has grown by each time: ``times`` [s], ``logarithm`` (natural)."""
+    """Growth of the most sensitive small difference at ``times`` [s]: ``logarithm`` (natural) of the factor."""
 
     times: Floats
     logarithm: Floats
@@ -120,8 +115,8 @@ def growth(flow: Floats, step: float, rate: float) -> Growth:
     """Growth of small differences from the first state on, from the Φ of each step (K, 2n, 2n).
 
     The size of a difference is that of (δθ, δω / ``rate``). The product of the Φ is kept from overflowing by taking
-    out its size, step by step; its largest singular value is how much the most sensitive difference has grown. Infinite
-    from where the path is no longer one.
+    out its size, step by step; its largest singular value is the growth of the most sensitive difference. Infinite from
+    where the path is not finite.
     """
     n = flow.shape[-1] // 2
     unit = np.concatenate([np.ones(n), np.full(n, rate)])
@@ -140,7 +135,7 @@ def growth(flow: Floats, step: float, rate: float) -> Growth:
     return Growth(step * np.arange(len(flow) + 1, dtype=np.float64), logarithm)
 
 
-def growth_along(system: Mechanism, theta: Floats, omega: Floats, duration: float) -> Growth:
+def growth_along(system: DocumentSystem, theta: Floats, omega: Floats, duration: float) -> Growth:
     """Growth of small differences along the motion from a state (n,), over ``duration`` [s].
 
     The motion is integrated in double precision by Butcher's sixth order scheme, twice as finely until the growth no
@@ -158,7 +153,7 @@ def growth_along(system: Mechanism, theta: Floats, omega: Floats, duration: floa
         before = found
 
 
-def lyapunov_time(system: Mechanism, theta: Floats, omega: Floats, duration: float) -> float:
+def lyapunov_time(system: DocumentSystem, theta: Floats, omega: Floats, duration: float) -> float:
     """The time [s] in which the most sensitive small difference grows e-fold, on average over ``duration`` [s].
 
     Infinite where nothing grows. A motion that is not chaotic has one too, about its duration: differences then grow
@@ -167,7 +162,9 @@ def lyapunov_time(system: Mechanism, theta: Floats, omega: Floats, duration: flo
     return growth_along(system, theta, omega, duration).lyapunov_time
 
 
-def _growth_in(system: Mechanism, theta: Floats, omega: Floats, duration: float, steps: int, rate: float) -> Growth:
+def _growth_in(
+    system: DocumentSystem, theta: Floats, omega: Floats, duration: float, steps: int, rate: float
+) -> Growth:
     step = duration / steps
     states = np.empty((2 * steps + 1, 2, system.n))
     states[0] = theta, omega

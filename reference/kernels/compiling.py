@@ -1,6 +1,6 @@
-"""How numba compiles furiko's kernels: the options, and what Python has no word for, memory and instructions.
+"""The options with which numba compiles furiko's kernels, and access to memory and instructions that Python lacks.
 
-Nothing imports this module before compiled code is wanted: importing numba takes a quarter of a second.
+Imported only when compiled code is needed: importing numba takes a quarter of a second.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ def source_stamp() -> str:
 
 @inlined
 def aligned(count: int) -> Any:
-    """So many numbers, not set, from the start of a line of the cache on: a vector across two lines takes twice."""
+    """``count`` uninitialised numbers, aligned to a cache line: a vector across two lines takes twice as long."""
     numbers = np.empty(count + LINE)
     start = (-(numbers.ctypes.data // 8)) % LINE
     return numbers[start : start + count]

@@ -1,10 +1,10 @@
 """Accelerations in O(n): ``furiko.accelerations``, as plain numpy and as compiled code.
 
-The formulas and their derivation stand in :mod:`.elimination`. Plain numpy runs them in any float type and needs no
-start-up; compiled code (:mod:`.forward_dynamics_compiled`) is 20 to 200 times faster once numba is imported (0.3 s) and
-the kernels are loaded from numba's cache (0.1 s) or, once in the life of an installation, compiled (some seconds).
-Both are deterministic and a state's result does not depend on the other states of the call; between plain, single
-and batch form it may differ by rounding, 1e-15 of the largest acceleration.
+The formulas and their derivation are in :mod:`.elimination`: for rods an articulated-body algorithm (ABA). Plain numpy
+runs them in any float type and needs no start-up; compiled code (:mod:`.forward_dynamics_compiled`) is 20 to 200 times
+faster once numba is imported (0.3 s) and the kernels are loaded from numba's cache (0.1 s) or, once in the life of an
+installation, compiled (some seconds). Both are deterministic and a state's result does not depend on the other states
+of the call; between plain, single and batch form it may differ by rounding, 1e-15 of the largest acceleration.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ from ...models.systems import System
 from ..limits import checked_state, refuse_outside, shaped_state
 from .elimination import (
     UNEQUAL,
-    absorb_missing,
+    absorb_residual,
     absorb_rod,
     difference,
     force_above,
-    missing,
-    pull_of_leg,
-    swing_rod,
+    leg_terms,
+    moment_residual,
+    rod_acceleration,
     turn,
     turn_down,
     turn_up,
@@ -41,12 +41,12 @@ Array = NDArray[np.float64]
 FloatArray = NDArray[np.floating[Any]]
 
 # The compiled kernels are loaded at the first call with so many angles, or after so many calls: a program that has
-# asked eight times will ask again, one that asks a few times (a quick check) never pays for numba.
+# asked eight times will ask again, one that asks a few times (a quick check) does not load numba.
 MANY_ANGLES, MANY_CALLS = 4096, 8
 ANGLES_A_THREAD = 50_000  # about 0.2 ms of work; handing a part to a thread takes 0.05 ms
 SCRATCH_COLUMNS = 9
 
-_COMPILED = f"{__package__}.kernels_compiled"
+_COMPILED = f"{__package__}.forward_dynamics_compiled"
 _ARRAY, _FLOAT64, _empty = np.ndarray, np.dtype(np.float64), np.empty
 _kernels: dict[int, Kernel] = {}
 _calls = 0
@@ -171,7 +171,7 @@ def kernel_of(system: System) -> Kernel:
 
 
 def table(masses: Array, lengths: Array, gravity: float, refined: bool) -> Array:
-    """What the single-state kernels read and write, in one array: they take 50 ns to unpack each.
+    """All that the single-state kernels read and write, in one array: each array more would take 50 ns to unpack.
 
     Shape (n + 1, 11): mass, length and nine places of scratch a link; last row: gravity, and 1 where to refine.
     """
@@ -205,7 +205,10 @@ def _worth_compiling(angles: int) -> bool:
 
 
 def processors(threads: int | None) -> int:
-    """How many threads may run: those asked for, and no more than there are processors for this process."""
+    """The number of threads that may run: at most those asked for and the processors of this process.
+
+    Raises InvalidInput below one thread.
+    """
     if threads is not None and threads < 1:
         raise InvalidInput(f"threads: at least 1 is needed, got {threads}")
     if threads == 1:
@@ -225,7 +228,7 @@ if hasattr(os, "register_at_fork"):
 
 
 def _parts(angles: int, threads: int | None) -> int:
-    """How many threads are worth their start."""
+    """The number of threads for so many angles: each must have work that is worth its start."""
     worth = angles // ANGLES_A_THREAD
     if worth > 1 or threads is not None:
         worth = min(worth, processors(threads))
@@ -242,35 +245,35 @@ def _plain_rods(
     A = B = C = D = P = Q = np.zeros_like(theta[0])
     terms: list[Any] = [None] * n
     for j in reversed(range(n)):
-        A, B, C, P, Q, *swing = absorb_rod(masses[j], w[j], A, B, C, D, P, Q)
+        A, B, C, P, Q, *kept = absorb_rod(masses[j], w[j], A, B, C, D, P, Q)
         A, B, C, D, P, Q = turn(sines[j], cosines[j], A, B, C, P, Q)
-        terms[j] = (sines[j], cosines[j], w[j], *swing)
+        terms[j] = (sines[j], cosines[j], w[j], *kept)
     moved = np.empty_like(theta)
     above = np.empty((2, *theta.shape), theta.dtype)
     along, across = np.full_like(theta[0], -gravity), np.zeros_like(theta[0])
     for j in range(n):
         above[:, j] = turn_down(sines[j], cosines[j], along, across)
         s, c, wj, tau, kappa_B, kappa_m6 = terms[j]
-        moved[j], along, across = swing_rod(s, c, wj, tau, kappa_B, kappa_m6, along, across)
+        moved[j], along, across = rod_acceleration(s, c, wj, tau, kappa_B, kappa_m6, along, across)
     if unequal(lengths):
         moved += _plain_correction(masses, terms, above, moved)
     return np.ascontiguousarray(np.moveaxis(moved, 0, -1)) / lengths
 
 
 def _plain_correction(masses: FloatArray, terms: list[Any], above: FloatArray, moved: FloatArray) -> FloatArray:
-    """What one step of refinement adds to lθ''; above: a_{j-1} in each rod's frame, (2, n, ...)."""
+    """The correction of lθ'' by one step of refinement; above: a_{j-1} in each rod's frame, (2, n, ...)."""
     along = across = P = Q = np.zeros_like(moved[0])
     taus: list[Any] = [None] * len(terms)
     for j, (s, c, w, _, kappa_B, kappa_m6) in reversed([*enumerate(terms)]):
-        delta = missing(masses[j], above[1, j], moved[j], across)
-        P, Q, taus[j] = absorb_missing(masses[j], delta, kappa_B, kappa_m6, P, Q)
+        delta = moment_residual(masses[j], above[1, j], moved[j], across)
+        P, Q, taus[j] = absorb_residual(masses[j], delta, kappa_B, kappa_m6, P, Q)
         P, Q = turn_up(s, c, P, Q)
         along, across = force_above(masses[j], w, above[0, j], above[1, j], moved[j], along, across)
         along, across = turn_up(s, c, along, across)
     more = np.empty_like(moved)
     along = across = np.zeros_like(moved[0])
     for j, (s, c, _, _, kappa_B, kappa_m6) in enumerate(terms):
-        more[j], along, across = swing_rod(s, c, 0, taus[j], kappa_B, kappa_m6, along, across)
+        more[j], along, across = rod_acceleration(s, c, 0, taus[j], kappa_B, kappa_m6, along, across)
     return more
 
 
@@ -282,9 +285,9 @@ def _plain_legs(
     l, m = lengths.reshape(column), masses.reshape(column)
     h = gravity * np.cos(theta[0]) + lengths[0] * omega[0] ** 2
     s, c = _sincos_of_differences(theta[:1], theta[1:])
-    pull, inertia = pull_of_leg(m[1:], l[1:] * omega[1:] ** 2, h, s, c)
-    drag = -pull.sum(axis=0) / (masses[0] + inertia.sum(axis=0))
-    out = np.concatenate([(drag - gravity * np.sin(theta[0]))[np.newaxis], h * s - c * drag]) / l
+    load, inertia = leg_terms(m[1:], l[1:] * omega[1:] ** 2, h, s, c)
+    G = -load.sum(axis=0) / (masses[0] + inertia.sum(axis=0))
+    out = np.concatenate([(G - gravity * np.sin(theta[0]))[np.newaxis], h * s - c * G]) / l
     return np.ascontiguousarray(np.moveaxis(out, 0, -1))
 
 

@@ -33,13 +33,13 @@ from .sincos import sincos
 difference = inlined(elimination.difference)
 absorb_rod = inlined(elimination.absorb_rod)
 turn = inlined(elimination.turn)
-swing_rod = inlined(elimination.swing_rod)
+rod_acceleration = inlined(elimination.rod_acceleration)
 turn_up = inlined(elimination.turn_up)
 turn_down = inlined(elimination.turn_down)
 force_above = inlined(elimination.force_above)
-missing = inlined(elimination.missing)
-absorb_missing = inlined(elimination.absorb_missing)
-pull_of_leg = inlined(elimination.pull_of_leg)
+moment_residual = inlined(elimination.moment_residual)
+absorb_residual = inlined(elimination.absorb_residual)
+leg_terms = inlined(elimination.leg_terms)
 
 
 @inlined
@@ -50,7 +50,7 @@ def outside(theta: float, omega: float) -> float:
 
 @compiled(releases_gil=False)
 def rods_single(theta: Any, omega: Any, out: Any, table: Any) -> int:
-    """θ'' of a rod chain in one state, shape (n,) each; table: see :func:`.kernels.table`."""
+    """θ'' of a rod chain in one state, shape (n,) each; table: see :func:`.forward_dynamics.table`."""
     n = len(table) - 1
     if theta.size != n or omega.size != n:
         return 1
@@ -70,7 +70,7 @@ def rods_single(theta: Any, omega: Any, out: Any, table: Any) -> int:
     for j in range(n):
         row = table[j]
         row[8], row[9] = turn_down(row[2], row[3], along, across)
-        row[10], along, across = swing_rod(row[2], row[3], row[4], row[5], row[6], row[7], along, across)
+        row[10], along, across = rod_acceleration(row[2], row[3], row[4], row[5], row[6], row[7], along, across)
     if table[n, 1] > 0.0:
         refine_single(table, n)
     for j in range(n):
@@ -84,21 +84,21 @@ def refine_single(table: Any, n: int) -> None:
     along = across = p = q = 0.0
     for j in range(n - 1, -1, -1):
         row = table[j]
-        delta = missing(row[0], row[9], row[10], across)
-        p, q, row[5] = absorb_missing(row[0], delta, row[6], row[7], p, q)
+        delta = moment_residual(row[0], row[9], row[10], across)
+        p, q, row[5] = absorb_residual(row[0], delta, row[6], row[7], p, q)
         p, q = turn_up(row[2], row[3], p, q)
         along, across = force_above(row[0], row[4], row[8], row[9], row[10], along, across)
         along, across = turn_up(row[2], row[3], along, across)
     along = across = 0.0
     for j in range(n):
         row = table[j]
-        more, along, across = swing_rod(row[2], row[3], 0.0, row[5], row[6], row[7], along, across)
+        more, along, across = rod_acceleration(row[2], row[3], 0.0, row[5], row[6], row[7], along, across)
         row[10] += more
 
 
 @compiled(releases_gil=False)
 def legs_single(theta: Any, omega: Any, out: Any, table: Any) -> int:
-    """θ'' of an N-leg pendulum in one state, shape (n,) each; table: see :func:`.kernels.table`."""
+    """θ'' of an N-leg pendulum in one state, shape (n,) each; table: see :func:`.forward_dynamics.table`."""
     n = len(table) - 1
     if theta.size != n or omega.size != n:
         return 1
@@ -106,21 +106,21 @@ def legs_single(theta: Any, omega: Any, out: Any, table: Any) -> int:
     bad = outside(theta[0], omega[0])
     s1, c1 = sincos(theta[0], 0.0)
     h = gravity * c1 + table[0, 1] * omega[0] * omega[0]
-    pull, inertia = 0.0, table[0, 0]
+    load, inertia = 0.0, table[0, 0]
     for i in range(1, n):
         bad += outside(theta[i], omega[i])
         row = table[i]
         high, low = difference(theta[0], theta[i])
         s, c = sincos(high, low)
-        more_pull, more_inertia = pull_of_leg(row[0], row[1] * omega[i] * omega[i], h, s, c)
-        pull += more_pull
+        more_load, more_inertia = leg_terms(row[0], row[1] * omega[i] * omega[i], h, s, c)
+        load += more_load
         inertia += more_inertia
         row[2], row[3] = s, c
-    drag = -pull / inertia
-    out[0] = (drag - gravity * s1) / table[0, 1]
+    G = -load / inertia
+    out[0] = (G - gravity * s1) / table[0, 1]
     for i in range(1, n):
         row = table[i]
-        out[i] = (h * row[2] - row[3] * drag) / row[1]
+        out[i] = (h * row[2] - row[3] * G) / row[1]
     return 1 if bad > 0.0 else 0
 
 
@@ -137,7 +137,7 @@ AHEAD = 18  # rods: so far ahead scratch is fetched, three pages of memory
 SHORT = 1024  # links: the next block is fetched meanwhile; more would push this one's scratch out of the cache
 
 LEG_LANES = 32  # states of N-leg pendulums at a time: their scratch is small
-FIRST, H, PULL, INERTIA, SIN1, LEG_SIZE = (k * LEG_LANES for k in range(6))  # of each lane
+FIRST, H, LOAD, INERTIA, SIN1, LEG_SIZE = (k * LEG_LANES for k in range(6))  # of each lane
 FIRST_STATE = 6 * LEG_LANES
 LEG_ANGLE, LEG_RATE = 0, LEG_LANES  # of each lane and leg
 LEG_SIN, LEG_COS = LEG_ANGLE, LEG_RATE  # take their places
@@ -288,7 +288,7 @@ def accelerate_rod(lane: Any, rod: Any, inverse_length: float) -> None:
     """The downward step of one rod in every lane; θ'' is left in ANGLE."""
     wide_vectors()
     for i in range(LANES):
-        moved, along, across = swing_rod(
+        moved, along, across = rod_acceleration(
             rod[SIN + i],
             rod[COS + i],
             rod[RATE + i],
@@ -304,13 +304,13 @@ def accelerate_rod(lane: Any, rod: Any, inverse_length: float) -> None:
 
 @inlined
 def refine(lane: Any, rods: Any, motion: Any, masses: Any) -> None:
-    """From the motion to what is missing in every lane and rod; leaves P, Q ready for :func:`correct_rod`."""
+    """From the motion to the residuals of every lane and rod; leaves P, Q ready for :func:`correct_rod`."""
     for j in range(masses.size):
         keep_motion(lane, rods[(j + 1) * ROW : (j + 2) * ROW], motion[j * KEPT : (j + 1) * KEPT])
     for i in range(LANES):
         lane[ALONG_T + i], lane[ACROSS_T + i], lane[P + i], lane[Q + i] = 0.0, 0.0, 0.0, 0.0
     for j in range(masses.size - 1, -1, -1):
-        eliminate_missing(lane, rods[(j + 1) * ROW : (j + 2) * ROW], motion[j * KEPT : (j + 1) * KEPT], masses[j])
+        eliminate_residual(lane, rods[(j + 1) * ROW : (j + 2) * ROW], motion[j * KEPT : (j + 1) * KEPT], masses[j])
     for i in range(LANES):
         lane[P + i], lane[Q + i] = 0.0, 0.0
 
@@ -321,7 +321,7 @@ def keep_motion(lane: Any, rod: Any, kept: Any) -> None:
     wide_vectors()
     for i in range(LANES):
         kept[ALONG + i], kept[ACROSS + i] = turn_down(rod[SIN + i], rod[COS + i], lane[P + i], lane[Q + i])
-        kept[MOVED + i], lane[P + i], lane[Q + i] = swing_rod(
+        kept[MOVED + i], lane[P + i], lane[Q + i] = rod_acceleration(
             rod[SIN + i],
             rod[COS + i],
             rod[RATE + i],
@@ -334,13 +334,13 @@ def keep_motion(lane: Any, rod: Any, kept: Any) -> None:
 
 
 @inlined
-def eliminate_missing(lane: Any, rod: Any, kept: Any, mass: float) -> None:
+def eliminate_residual(lane: Any, rod: Any, kept: Any, mass: float) -> None:
     """The upward step of the correction of one rod in every lane."""
     wide_vectors()
     for i in range(LANES):
         s, co, a, b, x = rod[SIN + i], rod[COS + i], kept[ALONG + i], kept[ACROSS + i], kept[MOVED + i]
-        delta = missing(mass, b, x, lane[ACROSS_T + i])
-        p, q, rod[TAU + i] = absorb_missing(mass, delta, rod[KB + i], rod[KM + i], lane[P + i], lane[Q + i])
+        delta = moment_residual(mass, b, x, lane[ACROSS_T + i])
+        p, q, rod[TAU + i] = absorb_residual(mass, delta, rod[KB + i], rod[KM + i], lane[P + i], lane[Q + i])
         lane[P + i], lane[Q + i] = turn_up(s, co, p, q)
         along, across = force_above(mass, rod[RATE + i], a, b, x, lane[ALONG_T + i], lane[ACROSS_T + i])
         lane[ALONG_T + i], lane[ACROSS_T + i] = turn_up(s, co, along, across)
@@ -351,7 +351,7 @@ def correct_rod(lane: Any, rod: Any, kept: Any, inverse_length: float) -> None:
     """The downward step of the correction of one rod in every lane; θ'' is left in ANGLE."""
     wide_vectors()
     for i in range(LANES):
-        more, along, across = swing_rod(
+        more, along, across = rod_acceleration(
             rod[SIN + i], rod[COS + i], 0.0, rod[TAU + i], rod[KB + i], rod[KM + i], lane[P + i], lane[Q + i]
         )
         rod[ANGLE + i] = (kept[MOVED + i] + more) * inverse_length
@@ -375,7 +375,7 @@ def legs_block(
                 fetch_block(theta, omega, out, first + LEG_LANES, j, LEG_LANES)
             leg = legs[j * LEG : (j + 1) * LEG]
             if j == 0:
-                hang_first(lane, leg, masses[0], lengths[0], gravity)
+                begin_sums(lane, leg, masses[0], lengths[0], gravity)
             else:
                 add_leg(lane, leg, masses[j], lengths[j])
     accelerate_first(lane, legs[:LEG], lengths[0], gravity)
@@ -388,7 +388,7 @@ def legs_block(
 
 
 @inlined
-def hang_first(lane: Any, link: Any, mass: float, length: float, gravity: float) -> None:
+def begin_sums(lane: Any, link: Any, mass: float, length: float, gravity: float) -> None:
     """h, sin θ1 and the first terms of both sums in every lane."""
     wide_vectors()
     for i in range(LEG_LANES):
@@ -396,7 +396,7 @@ def hang_first(lane: Any, link: Any, mass: float, length: float, gravity: float)
         rate_squared = rate * rate
         s, c = sincos(angle, 0.0)
         lane[FIRST + i], lane[SIN1 + i], lane[H + i] = angle, s, gravity * c + length * rate_squared
-        lane[PULL + i], lane[INERTIA + i], lane[LEG_SIZE + i] = 0.0, mass, size(angle, rate_squared)
+        lane[LOAD + i], lane[INERTIA + i], lane[LEG_SIZE + i] = 0.0, mass, size(angle, rate_squared)
 
 
 @inlined
@@ -409,18 +409,18 @@ def add_leg(lane: Any, leg: Any, mass: float, length: float) -> None:
         lane[LEG_SIZE + i] += size(angle, rate_squared)
         high, low = difference(lane[FIRST + i], angle)
         s, c = sincos(high, low)
-        pull, inertia = pull_of_leg(mass, length * rate_squared, lane[H + i], s, c)
-        lane[PULL + i] += pull
+        load, inertia = leg_terms(mass, length * rate_squared, lane[H + i], s, c)
+        lane[LOAD + i] += load
         lane[INERTIA + i] += inertia
         leg[LEG_SIN + i], leg[LEG_COS + i] = s, c
 
 
 @inlined
 def accelerate_first(lane: Any, link: Any, length: float, gravity: float) -> None:
-    """G, left in PULL, and θ1'', left in LEG_ANGLE, in every lane."""
+    """G, left in LOAD, and θ1'', left in LEG_ANGLE, in every lane."""
     for i in range(LEG_LANES):
-        lane[PULL + i] = -lane[PULL + i] / lane[INERTIA + i]
-        link[LEG_ANGLE + i] = (lane[PULL + i] - gravity * lane[SIN1 + i]) / length
+        lane[LOAD + i] = -lane[LOAD + i] / lane[INERTIA + i]
+        link[LEG_ANGLE + i] = (lane[LOAD + i] - gravity * lane[SIN1 + i]) / length
 
 
 @inlined
@@ -428,4 +428,4 @@ def accelerate_leg(lane: Any, leg: Any, inverse_length: float) -> None:
     """θi'', left in LEG_ANGLE, in every lane."""
     wide_vectors()
     for i in range(LEG_LANES):
-        leg[LEG_ANGLE + i] = (lane[H + i] * leg[LEG_SIN + i] - leg[LEG_COS + i] * lane[PULL + i]) * inverse_length
+        leg[LEG_ANGLE + i] = (lane[H + i] * leg[LEG_SIN + i] - leg[LEG_COS + i] * lane[LOAD + i]) * inverse_length

@@ -108,7 +108,7 @@ SUSPICIOUS = 0.99 * LARGEST_ANGLE**2  # rounding takes no hundredth
 
 @inlined
 def size(angle: float, rate_squared: float) -> float:
-    """What :func:`any_suspicious` wants summed over the links: cheaper than to compare every angle and rate."""
+    """A link's term in the sum that :func:`any_suspicious` tests: cheaper than to compare every angle and rate."""
     return angle * angle + RATE_WEIGHT * rate_squared
 
 

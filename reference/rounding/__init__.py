@@ -1,1 +1,4 @@
-"""How far rounding may carry an algorithm's result: bounds derived from its arithmetic."""
+"""Bounds of an algorithm's rounding errors, derived from its arithmetic.
+
+Imports models, documents and the maximal coordinates; knows no engine.
+"""

@@ -1,4 +1,4 @@
-"""How much two numbers may differ and still agree: bounds from the arithmetic, none typed in by feel.
+"""The largest difference that rounding explains: bounds derived from the arithmetic, no tolerance typed in.
 
 An engine that is right computes the exact answer of a slightly wrong problem: the mass matrix, the bias and the
 angles it effectively used are off by roundings. So the residual that its accelerations leave in the true equations of
@@ -14,15 +14,15 @@ Accuracy and Stability of Numerical Algorithms, theorem 10.3). β is the sum of 
 every sine one: an angle is known to ε, so a sine near zero is not known relatively better than that.
 
 In absolute angles the velocity terms are those of the documents, Σ_j W_ij ω_j². In relative ones an engine gets them by
-spatial algebra, where far more meets than is left. With F_k the sum of |q̇_a| over the hinges on the way to link k, with
-V_k and U_k the same sum weighted by the lengths (:mod:`.lever_arms`) from hinge a to the point about which link k's
-moments are taken and on to its centre of mass: the point's velocity is at most V_k, the momentum m_k U_k. The
-acceleration that hinge a adds is its motion times q̇_a, turned with F_a and carried along with V_a, together at most 2
-F_k V_k. The force is m_k (2 F_k V_k) and the momentum turned, m_k F_k U_k. The moment about the point is that force's,
+spatial algebra, from terms that are far larger than their sum. With F_k the sum of |q̇_a| over the hinges on the path to
+link k, with V_k and U_k the same sum weighted by the lengths (:mod:`.lever_arms`) from hinge a to the point about which
+link k's moments are taken and on to its centre of mass: the point's velocity is at most V_k, the momentum m_k U_k. The
+acceleration that hinge a adds is its motion times q̇_a, turned with F_a and moved with V_a, together at most 2 F_k V_k.
+The force is m_k (2 F_k V_k) and the momentum turned, m_k F_k U_k. The moment about the point is that force's,
 and the velocity times the momentum: in v × m(v + ω × r) the v × m v cancels but for its rounding, m_k V_k U_k. With
 A_ik the arm of the force about hinge i and inertias likewise (ω × Iω), the rows are
 
-    β_i  =  Σ_{k carried by i}  m_k (F_k (2 V_k + U_k) A_ik + V_k U_k) + I_k F_k²   + gravity.
+    β_i  =  Σ_{k in subtree i}  m_k (F_k (2 V_k + U_k) A_ik + V_k U_k) + I_k F_k²   + gravity.
 
 An engine that takes all moments about the centre of mass of the whole tree has longer arms, and lengths that are known
 less well than to their own ε: the products of two lengths, in W and in β, are then joined by those of one length and
@@ -44,11 +44,11 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ...models import PlanarTree
+from ...models import DocumentSystem, PlanarTree
+from ...models.coordinates import absolute_from_relative
 from ...models.states import QUANTUM, quantised
 from .. import mass_matrix
-from ..documents.equations_of_motion import Mechanism
-from .lever_arms import Levers, absolute_levers, relative_levers, relative_to_absolute, tree_levers, world_errors
+from .lever_arms import Levers, absolute_levers, relative_levers, tree_levers, world_errors
 
 Array = NDArray[np.float64]
 
@@ -67,9 +67,9 @@ def allowed(n: int, accuracy: float = EPSILON) -> float:
 
 
 def turns(theta: Array) -> Array:
-    """By how much rounded angles raise the backward error at each state, (B,) from (B, n).
+    """The factor by which rounded angles raise the backward error at each state, (B,) from (B, n).
 
-    An engine is given θ_i − θ_parent, to ε/2 of a difference of at most 2|θ|: n of them on the way to a link put its
+    An engine is given θ_i − θ_parent, to ε/2 of a difference of at most 2|θ|: n of them on the path to a link put its
     angle off by nε|θ|, and the cosine of two links' by twice that. Up to half a turn this is a small part of 26 n ε;
     beyond, 26 n ε |θ|/π has room for it. Multiples of one power of two, if not too large, have exact differences.
     """
@@ -99,25 +99,25 @@ class Amplitudes:
     gravity: float
 
     def rows(self, alpha: Array, omega: Array, mass: Array | None = None) -> Array:
-        """Σ|terms| of each row of the equations of motion, in these coordinates, (B, n) from (B, n).
+        """Σ|terms| of each row of the equations of motion, in these coordinates [N m], (B, n) from (B, n).
 
-        ``mass``: the absolute mass matrix at each state, (B, n, n), without which no interchange is reckoned with.
+        ``mass``: the absolute mass matrix at each state, (B, n, n); without it row interchanges are not counted.
         """
         factors = self.products if mass is None else self.factors(mass)
         solution = (factors @ np.abs(self.own(alpha))[..., None])[..., 0]
-        lost = self._growth * self.underflow(omega, alpha)
-        return np.asarray(solution + lost + self.velocity_terms(omega) + self.weights)
+        underflow = self._growth * self.underflow(omega, alpha)
+        return np.asarray(solution + underflow + self.velocity_terms(omega) + self.weights)
 
     def factors(self, mass: Array) -> Array:
-        """What meets in each entry of the mass matrix and its factors at each state, (B, n, n) or alike for all."""
+        """Σ|terms| of each entry of the mass matrix and its factors, (B, n, n), or (n, n) for all states."""
         return self.products + interchanged(self._own_matrix(mass)) if self.interchanges else self.products
 
-    def solvable(self, mass: Array, accuracy: float) -> NDArray[np.bool_]:
+    def regular(self, mass: Array, accuracy: float) -> NDArray[np.bool_]:
         """Whether each mass matrix (B, n, n) is further from singular than rounding, (B,).
 
-        Scaled by sqrt(W_ii) on both sides, so that rows of small and of large links count alike, it is off by a matrix
-        whose norm is at most its largest sum of a row. Where its own smallest eigenvalue is above that, factorisations
-        come to their end (Higham, theorem 10.7) and the bound of their backward error holds; elsewhere neither does.
+        Scaled by sqrt(W_ii) on both sides, so that rows of small and of large links count alike, its error has a norm
+        of at most the largest sum of a row. Where its own smallest eigenvalue is above that, factorisations succeed
+        (Higham, theorem 10.7) and the bound of their backward error holds; elsewhere neither is sure.
         """
         root = np.sqrt(np.diag(self.products))
         scale = np.outer(root, root)
@@ -132,63 +132,65 @@ class Amplitudes:
 
     @cached_property
     def products(self) -> Array:
-        """sqrt(W_ii W_jj), what meets in each entry of the mass matrix and its factors, (n, n)."""
+        """sqrt(W_ii W_jj), a bound of Σ|terms| of each entry of the mass matrix and its factors, (n, n)."""
         arm = self.levers.arm
         root = np.sqrt(arm**2 @ self.mass + self.inertia @ self.to_absolute**2)
-        found = np.outer(root, root) + self._lost
+        found = np.outer(root, root) + self._underflow_unit
         for one, other in self._pairs[1:]:
             found += (one.arm * self.mass) @ other.arm.T
         return found
 
     @cached_property
     def weights(self) -> Array:
-        """The gravity terms with every sine one, (n,)."""
+        """The gravity terms with every sine one [N m], (n,)."""
         arms = np.sum([levers.arm for levers in self._each], axis=0)
-        return np.asarray(arms @ (self.mass * self.gravity) + self._lost * (1 + self.gravity))
+        return np.asarray(arms @ (self.mass * self.gravity) + self._underflow_unit * (1 + self.gravity))
 
     def velocity_terms(self, omega: Array) -> Array:
-        """β without gravity, (B, n)."""
-        moment = self.felt(omega) ** 2 * self.inertia
+        """β without gravity [N m], (B, n)."""
+        moment = self.path_sums(omega) ** 2 * self.inertia
         rows = self.underflow(omega) + np.zeros_like(omega)
         for one, other in self._pairs:
-            rows += (self._rush(omega, one) * self.mass) @ other.arm.T
+            rows += (self._velocity_accelerations(omega, one) * self.mass) @ other.arm.T
             moment += self._moment(omega, one, other) * self.mass
         return np.asarray(rows + moment @ self.to_absolute)
 
     def forces(self, alpha: Array, omega: Array) -> Array:
-        """Σ|terms| of the force at each link's hinge, (B, n) [N]: mass × acceleration of all that hangs there."""
-        pull = np.abs(self.own(alpha))
-        swing = np.sum([pull @ levers.arm + self._rush(omega, levers) for levers in self._each], axis=0)
+        """Σ|terms| of each joint reaction force, (B, n) [N]: mass × acceleration over the hinge's subtree."""
+        magnitudes = np.abs(self.own(alpha))
+        swing = np.sum(
+            [magnitudes @ levers.arm + self._velocity_accelerations(omega, levers) for levers in self._each], axis=0
+        )
         return np.asarray((self.mass * (self.gravity + swing)) @ self.carried + self.underflow(omega, alpha))
 
     def underflow(self, omega: Array, alpha: Array | None = None) -> Array:
-        """What the loss of digits below the smallest normal number adds, over ε, (B, 1): to each row, force, energy."""
-        swing = self.felt(omega) ** 2 + (0 if alpha is None else self.felt(alpha))
-        return np.asarray(self._lost * (1 + self.gravity + swing.max(axis=-1, keepdims=True)))
+        """The error by underflow below the smallest normal number, over ε, (B, 1): of each row, force, energy."""
+        swing = self.path_sums(omega) ** 2 + (0 if alpha is None else self.path_sums(alpha))
+        return np.asarray(self._underflow_unit * (1 + self.gravity + swing.max(axis=-1, keepdims=True)))
 
     def own(self, absolute: Array) -> Array:
-        """Accelerations (or rates) in these coordinates."""
+        """Absolute accelerations (or rates) in these coordinates, (B, n)."""
         return np.asarray(absolute @ self._from_absolute.T)
 
-    def felt(self, absolute: Array) -> Array:
-        """Magnitudes that add up to each absolute rate or acceleration: in relative coordinates, all on the way."""
+    def path_sums(self, absolute: Array) -> Array:
+        """Magnitudes that add up to each absolute rate or acceleration, (B, n): all those on its path."""
         return np.asarray(np.abs(self.own(absolute)) @ self.to_absolute.T)
 
     def residual(self, absolute: Array) -> Array:
-        """Generalised forces of absolute angles as those of these coordinates."""
+        """Generalised forces of absolute angles as those of these coordinates, (B, n) [N m]."""
         return np.asarray(absolute @ self.to_absolute)
 
-    def answers(self, mass: Array, rows: Array) -> Array:
-        """|M⁻¹ S⁻ᵀ| times magnitudes in rows of these coordinates: accelerations that they may make, (B, n)."""
+    def acceleration_errors(self, mass: Array, rows: Array) -> Array:
+        """|M⁻¹ S⁻ᵀ| times magnitudes in rows of these coordinates: the accelerations that they may cause, (B, n)."""
         spread = np.abs(np.linalg.inv(mass) @ self._from_absolute.T)
         return np.asarray((spread @ rows[..., None])[..., 0])
 
     def entries(self) -> Array:
-        """Magnitudes that meet in each entry of the absolute mass matrix, (n, n)."""
+        """Σ|terms| of each entry of the absolute mass matrix, (n, n)."""
         return np.asarray(self.absolute_rows(self.absolute_rows(self.products).T).T)
 
     def absolute_rows(self, own: Array) -> Array:
-        """Magnitudes in rows of these coordinates as those that meet in rows of absolute ones, (..., n)."""
+        """Magnitudes in rows of these coordinates as magnitudes in rows of absolute ones, (..., n)."""
         return np.asarray(own @ np.abs(self._from_absolute))
 
     @cached_property
@@ -196,7 +198,7 @@ class Amplitudes:
         return np.asarray(np.linalg.inv(self.to_absolute), dtype=np.float64)
 
     @cached_property
-    def _lost(self) -> float:
+    def _underflow_unit(self) -> float:
         longest = max(float(levers.arm.max()) for levers in self._each)
         return SMALLEST * float(1 + self.mass.sum()) * (1 + longest) ** 2
 
@@ -212,22 +214,22 @@ class Amplitudes:
 
     @property
     def _pairs(self) -> tuple[tuple[Levers, Levers], ...]:
-        """Lengths that are multiplied: both as they are, then either as it errs."""
+        """Lengths that are multiplied: both as they are, then either one with the other's error."""
         itself = (self.levers, self.levers)
         return (itself,) if self.errors is None else (itself, (self.levers, self.errors), (self.errors, self.levers))
 
-    def _rush(self, omega: Array, levers: Levers) -> Array:
-        """The acceleration of each link's centre of mass that its rates and those on the way make, (B, n)."""
-        if levers.throw is None:
+    def _velocity_accelerations(self, omega: Array, levers: Levers) -> Array:
+        """The velocity-dependent acceleration of each link's centre of mass, in magnitude, (B, n)."""
+        if levers.to_point is None:
             return np.asarray(omega**2 @ levers.arm)
-        return np.asarray(self.felt(omega) * (np.abs(self.own(omega)) @ (2 * levers.throw + levers.arm)))
+        return np.asarray(self.path_sums(omega) * (np.abs(self.own(omega)) @ (2 * levers.to_point + levers.arm)))
 
     def _moment(self, omega: Array, one: Levers, other: Levers) -> Array:
         """V_k U_k of each link, (B, n)."""
-        if one.throw is None:
+        if one.to_point is None:
             return np.zeros_like(omega)
         rates = np.abs(self.own(omega))
-        return np.asarray((rates @ one.throw) * (rates @ other.arm))
+        return np.asarray((rates @ one.to_point) * (rates @ other.arm))
 
 
 def interchanged(matrix: Array) -> Array:
@@ -262,20 +264,21 @@ def _positive_definite(matrix: Array) -> bool:
 
 @lru_cache(maxsize=32)  # a worker looks at one scene, and its images, with several engines
 def amplitudes(
-    system: Mechanism,
+    system: DocumentSystem,
     coordinates: str,
     *,
     moments: str = "hinge",
     placed: str = "parent",
     interchanges: bool = False,
 ) -> Amplitudes:
-    """Of the system's terms in ``relative`` coordinates, or in absolute angles for any other word.
+    """The magnitudes of the system's terms in ``relative`` coordinates, or in absolute angles for any other word.
 
-    The rest as :class:`EngineInfo` has it: ``moments`` about each link's ``hinge`` or the ``tree``'s centre of mass,
-    links ``placed`` on the ``parent`` or in the ``world``, rows with ``interchanges`` or without.
+    The other arguments are those of the engines' ``EngineInfo``: ``moments`` about each link's ``hinge`` or the
+    ``tree``'s centre of mass, links ``placed`` on the ``parent`` or in the ``world``, rows with ``interchanges`` or
+    without.
     """
     tree = system.tree()
-    carried = relative_to_absolute(tree)
+    carried = absolute_from_relative(tree.parents)
     levers, errors = _levers(tree, coordinates, moments, placed)
     return Amplitudes(
         to_absolute=carried if coordinates == "relative" else np.eye(tree.n),
@@ -298,11 +301,11 @@ def _levers(tree: PlanarTree, coordinates: str, moments: str, placed: str) -> tu
     return relative_levers(tree), world_errors(tree) if placed == "world" else None
 
 
-def condition(system: Mechanism, theta: Array, amplitude: Amplitudes, alpha: Array, omega: Array) -> Array:
+def condition(system: DocumentSystem, theta: Array, amplitude: Amplitudes, alpha: Array, omega: Array) -> Array:
     """Relative forward error of accelerations per unit of backward error, at each state: (B,) from (B, n).
 
     A backward error η leaves accelerations off by at most η·cond of the largest one.
     """
-    reach = amplitude.answers(mass_matrix(system, theta), amplitude.rows(alpha, omega)).max(axis=-1)
+    reach = amplitude.acceleration_errors(mass_matrix(system, theta), amplitude.rows(alpha, omega)).max(axis=-1)
     largest = np.abs(alpha).max(axis=-1)
     return np.asarray(np.divide(reach, largest, out=np.full_like(reach, np.inf), where=largest > 0))

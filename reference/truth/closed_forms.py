@@ -7,7 +7,7 @@ k² = sin²(θ/2) + θ̇²/(4Ω²), which does not change:
     k > 1, turning:    θ/2 = ±am(Ωkt + u₀; 1/k),      θ̇ = ±2Ωk dn
     k = 1:             sin(θ/2) = tanh(u₀ ± Ωt),      θ̇ = ±2Ω / cosh
 
-All in ball arithmetic, with as many bits as it takes: also close to k = 1, where double precision would say nothing.
+All in ball arithmetic, with as many bits as needed: also close to k = 1, where double precision has no correct digit.
 """
 
 from __future__ import annotations
@@ -31,21 +31,27 @@ ACCURACY = 2.0**-60  # of a result, relative to max(1, |result|), before it is r
 
 @dataclass(frozen=True)
 class Pendulum:
-    """θ̈ = -Ω² sin θ with Ω² = ``factor`` · gravity / length, the three numbers taken for exactly what they are."""
+    """θ̈ = -Ω² sin θ with Ω² = ``factor`` · gravity / length, the three numbers taken as exact."""
 
     length: float
     gravity: float = 9.81
     factor: float = 1.0
 
     def motion(self, theta: float, omega: float, times: Sequence[float] | Floats) -> tuple[Floats, Floats]:
-        """θ [rad] and θ̇ [rad/s] at ``times`` [s] after (before, if negative) the state given; both correctly rounded
-        or next to it. θ is not wrapped: it counts turns."""
+        """θ [rad] and θ̇ [rad/s], shape (m,) each, at ``times`` [s] after (before, if negative) the state given.
+
+        Correctly rounded or next to it. θ is not wrapped: it counts turns. Raises ArithmeticError where no number of
+        bits decides whether the pendulum turns over.
+        """
         rows = _precisely(lambda: _motion(self._squared_rate(), theta, omega, [float(t) for t in np.ravel(times)]))
         result = np.array(rows).reshape(-1, 2)
         return result[:, 0], result[:, 1]
 
     def period(self, theta: float, omega: float) -> float:
-        """Time of one swing to and fro, or of one turn [s]; infinite where the motion never comes back."""
+        """Time of one swing to and fro, or of one turn [s]; infinite where the motion never returns.
+
+        Raises ArithmeticError as :meth:`motion` does.
+        """
         return _precisely(lambda: [[_period(self._squared_rate(), theta, omega)]])[0][0]
 
     def _squared_rate(self) -> Any:
@@ -55,12 +61,12 @@ class Pendulum:
 
 
 def point_pendulum(length: float, gravity: float = 9.81) -> Pendulum:
-    """A point mass on a weightless rod, Shiki's double pendulum in the limit where nothing hangs below it."""
+    """A point mass on a massless rod [m]: Shiki's double pendulum with no second mass."""
     return Pendulum(length, gravity)
 
 
 def rod_pendulum(system: RodChain) -> Pendulum:
-    """A rod chain of one rod: Takeno (18) with n = 1 reads (l²/3) θ̈ + (l/2) g sin θ = 0."""
+    """A rod chain of one rod: Takeno (18) with n = 1, (l²/3) θ̈ + (l/2) g sin θ = 0. Raises ValueError for more."""
     if system.n != 1:
         raise ValueError(f"the closed form is that of one rod, not of {system.n}")
     return Pendulum(system.lengths[0], system.gravity, 1.5)
@@ -171,7 +177,7 @@ def _turn(k: Any, half: Any, speed: Any) -> State:
 
 
 def _separatrix(half: Any, speed: Any) -> State:
-    """The same for k = 1: once up, and never there."""
+    """The same for k = 1: towards the upright position, which is never reached."""
     from flint import arb
 
     sign = 1 if speed > 0 else -1

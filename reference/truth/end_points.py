@@ -1,7 +1,8 @@
-"""True states of the catalogue's scenes, computed once in quadruple precision and kept as small data.
+"""End points of the catalogue's trajectories, computed once in quadruple precision and kept as small data.
 
-An entry is found by what it belongs to, not by its name: the key is a hash of the mechanism, the initial state and the
-times. Each holds the states as decimals of some 34 digits, and the error estimate of each.
+The key of an entry is a hash of the mechanism, the initial state and the times, not a name. An entry holds the states
+as decimals of some 34 digits, and the error estimate of each. ``python -m furiko.reference.truth.end_points`` computes
+all entries again.
 """
 
 from __future__ import annotations
@@ -13,19 +14,20 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from ...models import RodChain, Scene
+from ...models import DocumentSystem, RodChain, Scene
 from ...models.writers.whole_file import write_whole
-from ..documents.equations_of_motion import Mechanism
 from . import quadruple
-from .quadruple import TrueTrajectory
+from .quadruple import QuadrupleTrajectory
 
 PATH = Path(__file__).parent.parent / "data" / "endpoints.json"
 BENCHMARKS_PATH = PATH.with_name("benchmarks.json")  # of the motions that are timed, in the same form
 PARTS = (0.125, 0.25, 0.5, 1.0)  # of the duration
 
 
-def lookup(system: Mechanism, theta: Sequence[float], omega: Sequence[float], duration: float) -> TrueTrajectory:
-    """True states at 1/8, 1/4, 1/2 and all of ``duration`` [s], shape (4, n): kept ones, or computed now.
+def lookup(
+    system: DocumentSystem, theta: Sequence[float], omega: Sequence[float], duration: float
+) -> QuadrupleTrajectory:
+    """States in quadruple precision at 1/8, 1/4, 1/2 and all of ``duration`` [s], shape (4, n): kept or computed now.
 
     Computing needs heyoka: raises EngineMissing without it.
     """
@@ -36,7 +38,7 @@ def lookup(system: Mechanism, theta: Sequence[float], omega: Sequence[float], du
 
 
 def entries(scenes: Sequence[Scene]) -> dict[str, dict[str, Any]]:
-    """What the data holds for these scenes, computed anew."""
+    """The entries of these scenes, computed anew. Raises EngineMissing without heyoka."""
     return dict(_entry(scene) for scene in scenes if scene.theta is not None and scene.duration > 0)
 
 
@@ -56,7 +58,9 @@ def _entry(scene: Scene) -> tuple[str, dict[str, Any]]:
     return _key(scene.system, scene.theta, scene.omega, times), {"scene": scene.name, **entry}
 
 
-def _computed(system: Mechanism, theta: Sequence[float], omega: Sequence[float], times: list[float]) -> dict[str, Any]:
+def _computed(
+    system: DocumentSystem, theta: Sequence[float], omega: Sequence[float], times: list[float]
+) -> dict[str, Any]:
     digits, error = quadruple.decimal_states(system, theta, omega, [0.0, *times])
     return {"times": times, "states": digits[1:], "error": [float(f"{e:.2e}") for e in error[1:]]}
 
@@ -65,7 +69,7 @@ def _times(duration: float) -> list[float]:
     return [duration * part for part in PARTS]
 
 
-def _key(system: Mechanism, theta: Sequence[float], omega: Sequence[float], times: Sequence[float]) -> str:
+def _key(system: DocumentSystem, theta: Sequence[float], omega: Sequence[float], times: Sequence[float]) -> str:
     density = system.density if isinstance(system, RodChain) else None
     masses = None if isinstance(system, RodChain) else system.masses
     numbers = [system.lengths, masses, density, system.gravity, theta, omega, times]
@@ -85,3 +89,16 @@ def _kept() -> dict[str, dict[str, Any]]:
         if path.exists():
             found |= json.loads(path.read_text(encoding="utf-8"))
     return found
+
+
+def main() -> None:
+    """Compute the end points of the catalogue's scenes and of the benchmarks anew."""
+    from ...models import find_scenes
+    from ...models.benchmark_scenes import BENCHMARKS
+
+    for scenes, path in ((find_scenes(None), PATH), ([*BENCHMARKS.values()], BENCHMARKS_PATH)):
+        print(f"{write(scenes, path)} end points written to {path}")
+
+
+if __name__ == "__main__":
+    main()

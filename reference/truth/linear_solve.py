@@ -1,11 +1,11 @@
-"""Linear systems solved with proof: ball arithmetic does no more than it must, floating point the rest.
+"""Enclosed solutions of linear systems: floating point does most of the work, ball arithmetic proves the error.
 
 An approximate inverse R in double precision, whatever its quality, proves a bound on the error of an approximate
 solution (Rump 1999, "Fast and parallel interval arithmetic"): with |I - R M| ≤ δ < 1 in the maximum norm,
 
     |x - x̃| ≤ |R r| + δ/(1 - δ) · max |R r|,      r = right - M x̃ enclosed in balls.
 
-Every rounding error of the bound itself is bounded and added. Where R is too poor, ball arithmetic eliminates alone.
+Every rounding error of the bound itself is bounded and added. Where R is too inaccurate, balls are eliminated alone.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ def _inverse_by_halves(matrix: Floats) -> Floats:
 
 
 def _enclose(balls: Array, right: Array, approximate: Floats, inverse: Floats, scale: Floats) -> list[Any] | None:
-    """The solution's balls, or None where the inverse is too poor to prove anything.
+    """The solution's balls, or None where the inverse is too inaccurate to prove a bound.
 
     ``approximate``: the matrix with its columns times ``scale`` (powers of two, so exactly) in doubles; ``inverse``:
     that of it. Unknowns are scaled alike, y = x / scale, so that the maximum norm suits them.

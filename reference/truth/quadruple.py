@@ -1,9 +1,9 @@
 """Trajectories in quadruple precision: the literal equations as heyoka expressions, integrated by Taylor series.
 
-Nothing here is shared with the fast kernels: a dense system of equations is eliminated symbolically, exactly as the
-document writes it. For long chains that would be millions of terms; there the document's own equations before it
-eliminates the joint forces, Takeno (3) and (6), are solved along the chain instead, O(n). Beyond fifty links the
-numbers are long doubles of 64 bits, eleven more than doubles have; the error estimate tells.
+Not an enclosure: the error is estimated by a second run. Nothing is shared with the fast kernels: a dense system of
+equations is eliminated symbolically, exactly as the document writes it. For long chains that would be millions of
+terms; there the equations with the joint forces, Takeno (3) and (6), are solved along the chain instead, O(n). Beyond
+fifty links the numbers are long doubles of 64 bits, eleven more than doubles have; the error estimate shows it.
 """
 
 from __future__ import annotations
@@ -16,11 +16,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...models import EngineMissing, RodChain
+from ...models import DocumentSystem, EngineMissing, RodChain
 from ..arithmetic import Arithmetic, Array, heyoka_arithmetic
 from ..documents import equations_of_motion as motion
-from ..documents import takeno
-from ..documents.equations_of_motion import Mechanism
+from .block_tridiagonal import chain_accelerations
 
 Floats = NDArray[np.float64]
 
@@ -31,7 +30,7 @@ LARGEST_DENSE_N = 10  # beyond, the equations with the joint forces make the sma
 
 
 @dataclass(frozen=True)
-class TrueTrajectory:
+class QuadrupleTrajectory:
     """θ [rad] and ω [rad/s] at the times asked for, shape (times, n): the sums ``theta + theta_low`` and so on.
 
     ``error``: estimate of the largest error of the state at each time, shape (times,), from two runs that differ in
@@ -45,25 +44,31 @@ class TrueTrajectory:
     error: Floats
 
 
-def integrate(
-    system: Mechanism, theta: Sequence[float], omega: Sequence[float], times: Sequence[float]
-) -> TrueTrajectory:
-    """The trajectory from a state (n,) at ``times[0]``; times may run backwards. Raises EngineMissing."""
-    digits, error = decimal_states(system, theta, omega, times)
+def quadruple_trajectory(
+    system: DocumentSystem,
+    theta: Sequence[float] | Floats,
+    omega: Sequence[float] | Floats,
+    times: Sequence[float] | Floats,
+) -> QuadrupleTrajectory:
+    """The trajectory of the literal equations from a state (n,) at ``times[0]`` [s]; times may run backwards.
+
+    Its error is estimated by a second run. Raises EngineMissing without heyoka.
+    """
+    digits, error = decimal_states(system, [*map(float, theta)], [*map(float, omega)], [*map(float, times)])
     return from_decimals(digits, error, system.n)
 
 
-def from_decimals(digits: Sequence[Sequence[str]], error: Sequence[float], n: int) -> TrueTrajectory:
+def from_decimals(digits: Sequence[Sequence[str]], error: Sequence[float], n: int) -> QuadrupleTrajectory:
     """A trajectory from rows of θ and ω written as decimals."""
     high = np.array([[float(number) for number in row] for row in digits]).reshape(-1, 2 * n)
     low = np.array([[float(Decimal(number) - Decimal(float(number))) for number in row] for row in digits]).reshape(
         -1, 2 * n
     )
-    return TrueTrajectory(high[:, :n], high[:, n:], low[:, :n], low[:, n:], np.array(error, dtype=np.float64))
+    return QuadrupleTrajectory(high[:, :n], high[:, n:], low[:, :n], low[:, n:], np.array(error, dtype=np.float64))
 
 
 def decimal_states(
-    system: Mechanism, theta: Sequence[float], omega: Sequence[float], times: Sequence[float]
+    system: DocumentSystem, theta: Sequence[float], omega: Sequence[float], times: Sequence[float]
 ) -> tuple[list[list[str]], list[float]]:
     """Rows of θ and ω as decimals of quadruple precision, and the error estimate of each row."""
     extended = system.n > LARGEST_QUADRUPLE_N and np.finfo(np.longdouble).nmant >= 63
@@ -77,7 +82,7 @@ def decimal_states(
 
 
 def _run(
-    system: Mechanism,
+    system: DocumentSystem,
     theta: Sequence[float],
     omega: Sequence[float],
     times: Sequence[float],
@@ -97,7 +102,7 @@ def _run(
     return np.asarray(states)
 
 
-def _equations(system: Mechanism) -> list[tuple[Any, Any]]:
+def _equations(system: DocumentSystem) -> list[tuple[Any, Any]]:
     """dθ/dt = ω and dω/dt as heyoka wants them."""
     hy = _heyoka()
     xp = heyoka_arithmetic()
@@ -107,45 +112,11 @@ def _equations(system: Mechanism) -> list[tuple[Any, Any]]:
     return [*zip(theta, omega, strict=True), *zip(omega, alpha, strict=True)]
 
 
-def accelerations(xp: Arithmetic, system: Mechanism, theta: Array, omega: Array) -> Array:
+def accelerations(xp: Arithmetic, system: DocumentSystem, theta: Array, omega: Array) -> Array:
     """θ̈ of one state, (n,), in the form that is smallest as an expression."""
     if isinstance(system, RodChain) and system.n > LARGEST_DENSE_N:
         return chain_accelerations(xp, system, theta, omega)
     return motion.literal_accelerations(system, theta, omega)
-
-
-def chain_accelerations(xp: Arithmetic, system: RodChain, theta: Array, omega: Array) -> Array:
-    """θ̈ of a rod chain from Takeno (2), (3) and (6) with the joint forces kept, one state (n,).
-
-    (3) gives each centre's acceleration and (6) each θ̈ from the forces at the rod's ends; that rods meet at their
-    joints, (2), ties neighbouring forces together: a symmetric block tridiagonal system, eliminated from the free end.
-    """
-    n = system.n
-    l, g = xp.array(system.lengths), xp.array(system.gravity)
-    m = xp.array(system.density) * l
-    q, one = takeno.q(xp, theta), np.eye(2, dtype=int)
-    thrice = 3 * q[:, :, None] * q[:, None, :]
-    same, next_to = (thrice + one) / m[:, None, None], (thrice - one) / m[:, None, None]
-    swing = (l * omega**2 / 2)[:, None] * takeno.p(xp, theta)
-    block, load = same.copy(), swing.copy()
-    block[1:] += same[:-1]
-    load[1:] += swing[:-1]
-    load[0] -= g * takeno.e_y(xp)
-    for j in range(n - 1, -1, -1):
-        if j < n - 1:
-            block[j] -= next_to[j] @ block[j + 1] @ next_to[j]
-            load[j] -= next_to[j] @ (block[j + 1] @ load[j + 1])
-        block[j] = _inverse(block[j])
-    T = xp.array(np.zeros((n + 1, 2)))
-    for j in range(n):
-        T[j] = block[j] @ (load[j] - next_to[j - 1] @ T[j - 1] if j else load[j])
-    return np.asarray(6 * ((T[:-1] + T[1:]) * q).sum(-1) / (m * l))
-
-
-def _inverse(matrix: Array) -> Array:
-    """Of a symmetric 2 × 2 matrix."""
-    (a, b), (_, c) = matrix
-    return np.asarray(np.array([[c, -b], [-b, a]]) / (a * c - b * b))
 
 
 def _heyoka() -> Any:

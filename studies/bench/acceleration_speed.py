@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 from ...engines import AnyShape, BareCall, cannot, engine_info, engine_version, load_engine
 from ...models import NLegPendulum, RodChain
 from ...models.states import random_states
+from ...models.systems import DocumentSystem as Mechanism
 from ...records.bench import Speed
 from ...reference import literal_accelerations
-from ...reference.documents.equations_of_motion import Mechanism
 from ...reference.kernels.forward_dynamics import accelerations, kernel_of, plain_accelerations
-from ...reference.truth.newton_euler import proven_accelerations
+from ...reference.truth.newton_euler import enclosed_accelerations
 from .methods import FURIKO
 from .timing import Subject, Times, interleaved, once
 
@@ -155,7 +155,7 @@ def _each(kernel: Callable[[Array, Array], Array], theta: Array, omega: Array) -
 def _errors(system: Mechanism, entrants: Sequence[Entrant]) -> dict[tuple[str, str], float]:
     """Norm-wise errors: a state's largest error over its largest acceleration, the worst of a few states."""
     theta, omega = random_states("speed", system, CHECKED_STATES)
-    truth = proven_accelerations(system, theta, omega)
+    truth = enclosed_accelerations(system, theta, omega)
     size = np.abs(truth.high).max(-1)
     found: dict[tuple[str, str], float] = {}
     for entrant in entrants:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ...engines import AnyShape, EngineInfo, Integrator, Native, cannot, engine_info, engine_version, load_engine
 from ...models import InvalidInput, Scene
 from ...reference.truth.end_points import lookup
-from ...reference.truth.quadruple import TrueTrajectory
+from ...reference.truth.quadruple import QuadrupleTrajectory
 
 Array = NDArray[np.float64]
 End = tuple[Array, Array]
@@ -82,7 +82,7 @@ def start(scene: Scene) -> tuple[Array, Array]:
 
 
 @cache
-def truth(scene: Scene) -> TrueTrajectory:
+def truth(scene: Scene) -> QuadrupleTrajectory:
     """The scene's motion in quadruple precision; its last row is the end. Raises :class:`InvalidInput` without one."""
     if scene.theta is None or scene.omega is None or not scene.duration:
         raise InvalidInput(f"{scene.name}: a [state] with a duration is needed, or there is no motion to time")

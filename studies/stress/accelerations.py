@@ -23,8 +23,8 @@ from ...reference import literal_accelerations
 from ...reference.kernels.forward_dynamics import accelerations as kernel_accelerations
 from ...reference.kernels.forward_dynamics import kernel_of, plain_accelerations
 from ...reference.rounding.bounds import EPSILON, amplitudes, condition
-from ...reference.truth.enclosures import Truth
-from ...reference.truth.newton_euler import close_accelerations, proven_accelerations
+from ...reference.truth.enclosures import Enclosure
+from ...reference.truth.newton_euler import close_accelerations, enclosed_accelerations
 from .axes import Mechanism, find_axes
 from .failures import Failure, of_answer
 
@@ -139,7 +139,7 @@ class Problem:
 
     theta: Array
     omega: Array
-    truth: Truth
+    truth: Enclosure
     ulp: Array
 
 
@@ -152,7 +152,7 @@ def problem_on(ladder: str, rung: int, seed: int) -> Problem:
     theta, omega = recipe.draw(f"{seed} {ladder} {rung}")
     random = np.random.Generator(np.random.PCG64([seed, rung]))
     ulp = np.array([ulp_effect(system, t, w, random) for t, w in zip(theta, omega, strict=True)])
-    return Problem(theta, omega, proven_accelerations(system, theta, omega), ulp)
+    return Problem(theta, omega, enclosed_accelerations(system, theta, omega), ulp)
 
 
 def ask(subject: str, system: Mechanism, theta: Array, omega: Array) -> list[Array]:
@@ -166,7 +166,7 @@ def ask(subject: str, system: Mechanism, theta: Array, omega: Array) -> list[Arr
     return [load_engine(subject, system).accelerations(theta, omega)]
 
 
-def relative_error(truth: Truth, answer: Array) -> Array:
+def relative_error(truth: Enclosure, answer: Array) -> Array:
     """Largest error over largest acceleration, (B,); infinite where something came of nothing."""
     error = truth.error(answer).max(axis=-1)
     size = np.abs(truth.high).max(axis=-1)

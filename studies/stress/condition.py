@@ -12,9 +12,9 @@ from typing import Literal
 import numpy as np
 
 from ...models import NLegPendulum, RodChain
+from ...models.coordinates import absolute_from_relative
 from ...records.check import Result
 from ...reference import mass_matrix
-from ...reference.rounding.lever_arms import relative_to_absolute
 
 Coordinates = Literal["absolute", "relative"]
 Posture = Literal["straight chain", "random chain", "legs"]
@@ -51,7 +51,7 @@ class ConditionCase:
         states = 1 if self.posture == "straight chain" else STATES
         theta = np.zeros((1, self.n)) if states == 1 else random.uniform(-np.pi, np.pi, (states, self.n))
         M = mass_matrix(system, theta)
-        S = relative_to_absolute(system.tree())
+        S = absolute_from_relative(system.tree().parents)
         found = {
             "absolute": float(np.median([_condition(m) for m in M])),
             "relative": float(np.median([_condition(m) for m in S.T @ M @ S])),

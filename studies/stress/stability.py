@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ...engines import cannot, engine_info, load_engine
 from ...models import RodChain
 from ...records.check import Result
-from ...reference.documents.equations_of_motion import energy
+from ...reference.documents.equations_of_motion import energies
 from .failures import Failure, of_energy, of_path
 
 Array = NDArray[np.float64]
@@ -68,8 +68,8 @@ def problem(stress: Stress, value: float, seed: int) -> Problem:
     omega = np.full(n, speed)
     swing = 2 * math.pi * math.sqrt(length / system.gravity)
     duration = min(swing, 2 * math.pi / speed) if speed else swing
-    _, lowest = energy(system, np.zeros(n), np.zeros(n))
-    scale = float(sum(energy(system, theta, omega)) - lowest)
+    _, lowest = energies(system, np.zeros(n), np.zeros(n))
+    scale = float(sum(energies(system, theta, omega)) - lowest)
     return Problem(system, theta, omega, duration, scale)
 
 
@@ -155,7 +155,7 @@ def first_failure(
     """What failed first in a run's states (K + 1, n), at which of them, and the largest |E - E₀| over its scale."""
     last = len(theta) - 1
     chosen = np.unique(np.linspace(0, last, min(SAMPLES, last + 1)).round().astype(int))
-    kinetic, potential = energy(given.system, theta[chosen], omega[chosen])
+    kinetic, potential = energies(given.system, theta[chosen], omega[chosen])
     total = kinetic + potential
     drift = float(np.abs(total - total[0]).max() / given.scale)
     found: list[tuple[int, Failure]] = []
@@ -202,14 +202,14 @@ class LongRunCase:
         theta, omega = first if self.start is None else (np.array(row) for row in self.start)
         engine = load_engine(self.engine, system)
         part = max(1, self.steps // (CHUNKS * SAMPLES_A_CHUNK))
-        reference = float(sum(energy(system, *first)))
-        _, lowest = energy(system, np.zeros(2), np.zeros(2))
+        reference = float(sum(energies(system, *first)))
+        _, lowest = energies(system, np.zeros(2), np.zeros(2))
         scale = reference - float(lowest)
         drifts = []
         for _ in range(SAMPLES_A_CHUNK):
             with np.errstate(all="ignore"):
                 theta, omega = engine.trajectory(theta, omega, self.integrator, LONG_STEP, part)
-                drifts.append((float(sum(energy(system, theta, omega))) - reference) / scale)
+                drifts.append((float(sum(energies(system, theta, omega))) - reference) / scale)
             if not np.isfinite(drifts[-1]):
                 break
         finite = bool(np.isfinite(drifts).all())

@@ -217,7 +217,7 @@ def test_where_nothing_weighs_only_coupling_tells():
         p = planar.parameters(mechanism(1.0))
 
         def accelerations(self, theta, omega):
-            return planar.accelerations((-1, 0), self.p, theta, omega)
+            return planar.forward_dynamics((-1, 0), self.p, theta, omega)
 
     assert explain(Other(), still) == []
     assert same_motion(mechanism(1.0), still)

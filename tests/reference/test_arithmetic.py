@@ -21,7 +21,7 @@ from furiko.reference.arithmetic import (
     sympy_arithmetic,
 )
 from furiko.reference.documents import equations_of_motion as motion
-from furiko.reference.truth.enclosures import precision, true_accelerations
+from furiko.reference.truth.enclosures import enclosed_accelerations, precision
 
 STAR = NLegPendulum((1.0, 0.8, 0.6), (1.0, 0.5, 2.0))
 CHAIN = RodChain((1.0, 0.8, 0.6), 1.3)
@@ -35,7 +35,7 @@ def test_sympy_evaluates_to_the_truth(system):
 
     xp = sympy_arithmetic()
     found = literal_accelerations(system, xp.array(THETA), xp.array(OMEGA))
-    truth = true_accelerations(system, THETA, OMEGA)
+    truth = enclosed_accelerations(system, THETA, OMEGA)
     for value, high, low in zip(found, truth.high, truth.low, strict=True):
         exact = sympy.Rational(high) + sympy.Rational(low)
         assert abs(sympy.N(value - exact, 40)) < 1e-28  # a double-double holds 32 digits
@@ -52,7 +52,7 @@ def test_heyoka_compiles_to_the_truth(system):
     assert xp.name == "heyoka"
     function = heyoka.cfunc([*found], vars=[*theta, *omega], fp_type=heyoka.real128)
     values = function(np.array([heyoka.real128(x) for x in (*THETA, *OMEGA)]))
-    truth = true_accelerations(system, THETA, OMEGA)
+    truth = enclosed_accelerations(system, THETA, OMEGA)
     difference = np.array(
         [
             float(v - heyoka.real128(h) - heyoka.real128(l))
@@ -69,7 +69,7 @@ def test_heyoka_compiles_to_the_truth(system):
 def test_doubles_and_longdoubles_stay_near_the_truth(system, seed):
     generator = np.random.default_rng(seed)
     theta, omega = generator.uniform(-3, 3, (4, 3)), generator.normal(size=(4, 3))
-    truth = true_accelerations(system, theta, omega)
+    truth = enclosed_accelerations(system, theta, omega)
     condition = np.linalg.cond(motion.mass_matrix(system, theta))
     size = np.abs(truth.high).max(-1)
     for dtype in (np.float64, np.longdouble):

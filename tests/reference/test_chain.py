@@ -6,7 +6,7 @@ import pytest
 from furiko.models import RodChain
 from furiko.reference import gravity_vector, mass_matrix
 from furiko.reference.chain import bow, chain, largest_step, matrices, move, order, small_swings, swing_errors
-from furiko.reference.documents.equations_of_motion import energy
+from furiko.reference.documents.equations_of_motion import energies
 
 
 @pytest.mark.parametrize("n", [1, 2, 3, 12, 60])
@@ -78,7 +78,7 @@ def test_motion_tells_tip_speed_and_energy_by_first_principles():
     velocity = 0.4 * 1.0 * np.array([np.cos(0.3), np.sin(0.3)]) + 0.6 * 2.0 * np.array([np.cos(-0.2), np.sin(-0.2)])
     assert found.speed[0] == pytest.approx(np.hypot(*velocity), rel=1e-15)
     rest = -9.81 * (0.4 * 0.2 + 0.6 * 0.7)
-    assert found.energy[0] == pytest.approx(float(sum(energy(system, theta, omega))) - rest, rel=1e-14)
+    assert found.energy[0] == pytest.approx(float(sum(energies(system, theta, omega))) - rest, rel=1e-14)
     assert found.energy[1] == pytest.approx(found.energy[0], rel=1e-13)
     assert found.curves[0, -1] == pytest.approx(found.tip[0])
 

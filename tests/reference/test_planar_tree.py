@@ -6,10 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from furiko.models import Link, NLegPendulum, PlanarTree, RodChain
+from furiko.models.coordinates import forces_to_relative
 from furiko.models.mechanism import Hinge, Mechanism, mechanism_of
 from furiko.reference import planar_tree as planar
 from furiko.reference.arithmetic import balls
-from furiko.reference.truth.enclosures import enclosed_accelerations, precision
+from furiko.reference.truth.enclosures import accelerations_in_balls, precision
 
 DOCUMENTS = [
     NLegPendulum((1.0, 0.8, 0.6, 0.5), (1.0, 0.5, 0.3, 2.0)),
@@ -29,8 +30,8 @@ def test_the_documents_are_special_cases_in_ball_arithmetic(system):
     with precision(200):
         xp = balls()
         p = exact_parameters(system, mechanism, xp)
-        ours = planar.accelerations(mechanism.parents, p, xp.array(theta), xp.array(omega))
-        theirs = enclosed_accelerations(system, xp.array(theta), xp.array(omega))
+        ours = planar.forward_dynamics(mechanism.parents, p, xp.array(theta), xp.array(omega))
+        theirs = accelerations_in_balls(system, xp.array(theta), xp.array(omega))
         assert all(a.overlaps(b) for a, b in zip(ours.flat, theirs.flat, strict=True))
         assert max(float(a.rad()) for a in ours.flat) < 1e-40
 
@@ -70,10 +71,10 @@ def test_forward_dynamics_is_the_inverse_of_inverse_dynamics(seed, n):
     m = random_mechanism(seed, n)
     p = planar.parameters(m)
     theta, omega = np.random.default_rng(seed).normal(size=(2, 6, n)) * 3
-    alpha = planar.accelerations(m.parents, p, theta, omega)
-    left = planar.relative_rows(m.parents, planar.torques(m.parents, p, theta, omega, alpha))
+    alpha = planar.forward_dynamics(m.parents, p, theta, omega)
+    left = forces_to_relative(m.parents, planar.inverse_dynamics(m.parents, p, theta, omega, alpha))
     size = planar.magnitudes(m.parents, p, theta, omega, alpha)
-    # 26 roundings a link, as furiko.checks.rounding counts them.
+    # 26 roundings a link, as furiko.reference.rounding.bounds counts them.
     assert np.all(np.abs(left) <= 26 * n * 2.0**-52 * size)
 
 
@@ -94,7 +95,7 @@ def test_power_is_the_rate_of_energy(seed, n):
 
     h = 1e-4
     rate = (8 * (energy(h) - energy(-h)) - (energy(2 * h) - energy(-2 * h))) / (12 * h)  # error h⁴
-    power = float((planar.torques(m.parents, p, theta, omega, alpha) * omega).sum())
+    power = float((planar.inverse_dynamics(m.parents, p, theta, omega, alpha) * omega).sum())
     scale = float(np.abs(planar.magnitudes(m.parents, p, theta, omega, alpha)).max() * (1 + np.abs(omega).max()))
     assert rate == pytest.approx(power, abs=1e-9 * scale * n)
 
@@ -117,21 +118,30 @@ def kinetic_and_potential(m, theta, omega):
     return total
 
 
-def test_mass_matrix_and_terms_add_up():
+def test_inverse_dynamics_is_the_mass_matrix_times_the_accelerations_and_the_bias():
     m = random_mechanism(3, 6)
     p = planar.parameters(m)
     theta, omega, alpha = np.random.default_rng(5).normal(size=(3, 4, 6))
     mass = planar.mass_matrix(m.parents, p, theta)
     np.testing.assert_allclose(mass, mass.swapaxes(1, 2), atol=1e-13)
-    together = (mass @ alpha[..., None])[..., 0]
-    together += planar.velocity_terms(m.parents, p, theta, omega) + planar.gravity_terms(m.parents, p, theta)
+    bias = planar.inverse_dynamics(m.parents, p, theta, omega, alpha * 0)
+    together = (mass @ alpha[..., None])[..., 0] + bias
+    np.testing.assert_allclose(planar.inverse_dynamics(m.parents, p, theta, omega, alpha), together, atol=1e-12)
+
+
+def test_a_hinges_torque_acts_on_its_link_and_against_the_parent():
+    m = random_mechanism(3, 6)
+    p = planar.parameters(m)
+    theta, omega, alpha = np.random.default_rng(5).normal(size=(3, 4, 6))
+    ideal = planar.parameters(m.ideal())
     own = np.zeros_like(theta)
     for i, parent in enumerate(m.parents):
-        torque = planar.hinge_torque(p, i, parent, theta, omega, None)
+        torque = planar.hinge_torque(p, i, parent, theta, omega, alpha)
         own[:, i] += torque
         if parent >= 0:
             own[:, parent] -= torque
-    np.testing.assert_allclose(planar.torques(m.parents, p, theta, omega, alpha), together + own, atol=1e-12)
+    found, free = (planar.inverse_dynamics(m.parents, q, theta, omega, alpha) for q in (p, ideal))
+    np.testing.assert_allclose(found, free + own, atol=1e-12)
 
 
 def test_stretched_inertias_are_the_mass_matrix_of_the_straight_mechanism():

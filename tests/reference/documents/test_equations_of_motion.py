@@ -13,8 +13,8 @@ from furiko.models import NLegPendulum, RodChain
 from furiko.models.tree import SUPPORT
 from furiko.reference import (
     centre_accelerations,
-    coriolis_matrix,
-    energy,
+    centrifugal_matrix,
+    energies,
     gravity_vector,
     joint_forces,
     literal_accelerations,
@@ -100,7 +100,7 @@ def cross(u, v):
 @settings(max_examples=40, deadline=None)
 def test_energy_is_that_of_the_links_and_does_not_change(system, seed):
     theta, omega, alpha = some_motion(system, seed)
-    kinetic, potential = energy(system, theta, omega)
+    kinetic, potential = energies(system, theta, omega)
     velocity, _, height = tree_motion(system, theta, omega, alpha)
     mass = np.array([link.mass for link in system.tree().links])
     inertia = np.array([link.inertia for link in system.tree().links])
@@ -109,7 +109,7 @@ def test_energy_is_that_of_the_links_and_does_not_change(system, seed):
     np.testing.assert_allclose(potential, (mass * system.gravity * height).sum(-1), rtol=0, atol=1e-13 * 9.81 * 45)
     # along the motion, by central differences: off by (ωh)² and θ̈h/ω squared, 1e-6 of E's own turnover at the most
     h = 1e-6
-    ahead, behind = (sum(energy(system, theta + t * omega + t**2 * alpha / 2, omega + t * alpha)) for t in (h, -h))
+    ahead, behind = (sum(energies(system, theta + t * omega + t**2 * alpha / 2, omega + t * alpha)) for t in (h, -h))
     turnover = (kinetic + np.abs(potential)) * (np.abs(omega).max(-1) + np.abs(alpha).max(-1))
     assert np.all(np.abs(ahead - behind) / (2 * h) < 1e-6 * (1 + turnover))
 
@@ -119,7 +119,7 @@ def test_energy_is_that_of_the_links_and_does_not_change(system, seed):
 def test_terms_are_derivatives_of_the_energies(system, seed):
     theta, omega, _ = some_motion(system, seed, count=1)
     n = system.n
-    M, C, G = (term(system, theta)[0] for term in (mass_matrix, coriolis_matrix, gravity_vector))
+    M, C, G = (term(system, theta)[0] for term in (mass_matrix, centrifugal_matrix, gravity_vector))
     np.testing.assert_allclose(M, M.T, rtol=0, atol=1e-14 * np.abs(M).max())
     unit = np.eye(n)
     # T is quadratic: its second differences are exact but for rounding
@@ -138,7 +138,10 @@ def test_terms_are_derivatives_of_the_energies(system, seed):
     # central differences, step 1e-5: truncation 1e-10, rounding 1e-11
     h = 1e-5
     slope = np.array(
-        [(energy(system, theta + h * u, omega)[1] - energy(system, theta - h * u, omega)[1])[0] / (2 * h) for u in unit]
+        [
+            (energies(system, theta + h * u, omega)[1] - energies(system, theta - h * u, omega)[1])[0] / (2 * h)
+            for u in unit
+        ]
     )
     np.testing.assert_allclose(G, slope, rtol=0, atol=1e-7)
     # C_jk ω_k² from Lagrange: Σ_k ∂M_jk/∂θ_k ω_k² - ½ ∂/∂θ_j ΣM ω ω leaves ∂M_jk/∂θ_k for k ≠ j
@@ -149,7 +152,7 @@ def test_terms_are_derivatives_of_the_energies(system, seed):
 
 
 def kinetic_of(system, theta, rates):
-    return energy(system, theta, rates[None, :])[0][0]
+    return energies(system, theta, rates[None, :])[0][0]
 
 
 def test_the_documents_rows_are_lagranges_divided():

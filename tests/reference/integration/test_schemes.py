@@ -160,7 +160,7 @@ def test_the_jacobian_is_the_constraints_derivative(system):
         np.testing.assert_allclose(column.astype(float), quotient.astype(float), atol=1e-11)  # step² = 1e-12
     d = step * v
     turning = (bodies.jacobian(q + d) @ v - bodies.jacobian(q - d) @ v) / (2 * step)
-    np.testing.assert_allclose(bodies.turning(q, v).astype(float), turning.astype(float), atol=1e-10)
+    np.testing.assert_allclose(bodies.constraint_bias(q, v).astype(float), turning.astype(float), atol=1e-10)
 
 
 @pytest.mark.parametrize("system", SYSTEMS)
@@ -175,3 +175,21 @@ def test_schemes_in_maximal_coordinates_have_a_local_error_of_third_order_in_the
         return float(np.abs(step(bodies, theta, omega, WIDE(h))[0] - true[0]).max())
 
     assert np.log2(error(2**-9) / error(2**-10)) == pytest.approx(3, abs=0.2)
+
+
+def test_the_classical_step_is_the_classical_tableaus():
+    system = NLegPendulum((1.0, 0.5), (1.0, 2.0))
+    theta, omega = np.random.default_rng(4).uniform(-2, 2, (2, 2))
+
+    def slope(_, state):
+        return np.stack([state[1], literal_accelerations(system, *state)])
+
+    found = schemes.classical_step(slope, np.stack([theta, omega]), 0.01)
+    expected = CLASSICAL.step(lambda t, w: literal_accelerations(system, t, w), theta, omega, 0.01)
+    np.testing.assert_allclose(found, expected, rtol=0, atol=8 * np.finfo(float).eps * np.abs(found).max())
+
+
+def test_the_classical_step_tells_the_slope_its_place_in_the_step():
+    """ẏ = 4 t³ from t = 1 to 3: Simpson's rule is exact."""
+    found = schemes.classical_step(lambda part, y: 4 * (1 + 2 * part) ** 3 + 0 * y, np.array([1.0]), 2.0)
+    assert found == pytest.approx([81.0], rel=1e-15)

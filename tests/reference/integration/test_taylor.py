@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from furiko.models import InvalidInput, NLegPendulum, RodChain
-from furiko.reference.energies import energy
 from furiko.reference.integration.taylor import simulate
+from furiko.reference.kernels.energy import energy
 from furiko.reference.truth import closed_forms as exact
-from furiko.reference.truth import enclosures as truth
+from furiko.reference.truth.quadruple import quadruple_trajectory
 
 ROD = RodChain((0.7,), density=3.0)
 RODS = RodChain((1.0, 0.4, 1.3), density=0.5)
@@ -39,7 +39,7 @@ def test_one_rod_is_the_elliptic_pendulum(theta, omega, growth):
 def test_matches_the_literal_equations_in_quadruple_precision(system, tolerance):
     theta, omega = np.linspace(0.4, 1.6, system.n), np.linspace(-1, 1, system.n)
     times = np.linspace(0, 3, 7)
-    true = truth.true_trajectory(system, theta, omega, times)
+    true = quadruple_trajectory(system, theta, omega, times)
     assert true.error.max() < 1e-25
     found = simulate(system, theta, omega, times, tolerance)
     apart = np.abs(found.theta - true.theta).max(axis=-1)
@@ -51,7 +51,7 @@ def test_matches_the_literal_equations_in_quadruple_precision(system, tolerance)
 def test_double_pendulum_keeps_eight_digits_for_ten_seconds():
     """Its errors grow by 1e6 to 1e7 in that time: with rounding of 1e-16, 1e-9 is what doubles can give."""
     system = RodChain((1.0, 1.0))
-    true = truth.true_trajectory(system, [2.0, 2.5], [0.0, 0.0], [0.0, 10.0])
+    true = quadruple_trajectory(system, [2.0, 2.5], [0.0, 0.0], [0.0, 10.0])
     found = simulate(system, [2.0, 2.5], [0.0, 0.0], [0.0, 10.0])
     assert np.abs(found.theta[-1] - true.theta[-1]).max() <= 1e-8
     assert 1e-10 < found.error[-1] < 1e-7
@@ -61,7 +61,7 @@ def test_double_pendulum_keeps_eight_digits_for_ten_seconds():
 @pytest.mark.slow
 def test_five_rods_keep_eleven_digits_for_five_seconds():
     system, theta = RodChain((1.0,) * 5), np.linspace(1, 2, 5)
-    true = truth.true_trajectory(system, theta, np.zeros(5), [0.0, 5.0])
+    true = quadruple_trajectory(system, theta, np.zeros(5), [0.0, 5.0])
     found = simulate(system, theta, np.zeros(5), [0.0, 5.0])
     assert np.abs(found.theta[-1] - true.theta[-1]).max() <= 1e-11
 

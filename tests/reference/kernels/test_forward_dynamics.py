@@ -310,6 +310,11 @@ def test_a_few_small_calls_do_not_import_numba():
     subprocess.run([sys.executable, "-c", script], check=True)
 
 
+def test_compiled_kernels_once_loaded_serve_every_system():
+    kernels.kernel_of(RodChain((1.0, 0.5)))
+    assert kernels._COMPILED in sys.modules
+
+
 def test_compiles_where_no_cache_can_be_written(tmp_path):
     """An installation and a home that are read-only: slower to start, not broken."""
     script = (

@@ -7,7 +7,8 @@ import pytest
 
 from furiko.checks.comparisons import accelerations, energy, joint_forces, symmetries, terms
 from furiko.models import NLegPendulum, RodChain, Scene
-from furiko.reference import coriolis_matrix
+from furiko.models.coordinates import absolute_from_relative
+from furiko.reference import centrifugal_matrix
 from furiko.reference.rounding import bounds as rounding
 from furiko.reference.rounding import lever_arms as levers
 
@@ -45,7 +46,7 @@ def placed(system, theta):
 def test_no_configuration_reaches_beyond_an_arm(system):
     tree = system.tree()
     arm = levers.relative_levers(tree).arm
-    carried = levers.relative_to_absolute(tree).T
+    carried = absolute_from_relative(tree.parents).T
     rng = np.random.default_rng(1)
     apart = []
     for theta in [np.zeros(system.n), *rng.uniform(-np.pi, np.pi, (50, system.n))]:
@@ -62,7 +63,7 @@ def test_amplitudes_are_not_below_what_they_are_amplitudes_of(system, coordinate
     rng = np.random.default_rng(2)
     for _ in range(50):
         theta, omega = rng.uniform(-np.pi, np.pi, system.n), rng.normal(size=system.n)
-        true = amplitude.residual(coriolis_matrix(system, theta) @ omega**2)
+        true = amplitude.residual(centrifugal_matrix(system, theta) @ omega**2)
         assert (np.abs(true) <= amplitude.velocity_terms(omega)).all()
 
 
@@ -82,7 +83,7 @@ def test_a_short_link_on_a_fast_long_one(make_cell, engine, scene):
 def test_no_configuration_reaches_beyond_an_arm_by_way_of_the_trees_centre(system):
     tree = system.tree()
     about, _ = levers.tree_levers(tree)
-    carried = levers.relative_to_absolute(tree).T
+    carried = absolute_from_relative(tree.parents).T
     rng = np.random.default_rng(1)
     apart = []
     for theta in [np.zeros(system.n), *rng.uniform(-np.pi, np.pi, (50, system.n))]:
@@ -94,7 +95,7 @@ def test_no_configuration_reaches_beyond_an_arm_by_way_of_the_trees_centre(syste
 
 def test_ways_along_the_links_of_a_branching_tree():
     # A leg of 3 and one of 4 at the end of one of 2, each with its centre of mass at its end.
-    way = levers.ways(NLegPendulum((2.0, 3.0, 4.0), (1.0, 1.0, 1.0)).tree())
+    way = levers.path_lengths(NLegPendulum((2.0, 3.0, 4.0), (1.0, 1.0, 1.0)).tree())
     hinges, centres = way[:3, :3], way[3:, 3:]
     np.testing.assert_array_equal(hinges, [[0, 2, 2], [2, 0, 0], [2, 0, 0]])
     np.testing.assert_array_equal(centres, [[0, 3, 4], [3, 0, 7], [4, 7, 0]])
@@ -107,7 +108,7 @@ def test_trees_that_share_nothing_but_the_support_have_their_own_centres():
     alone, together = levers.tree_levers(tree), levers.tree_levers(replace(tree, links=tree.links + beside))
     for one, both in zip(alone, together, strict=True):
         np.testing.assert_allclose(both.arm, np.kron(np.eye(2), one.arm), rtol=1e-14)
-        np.testing.assert_allclose(both.throw, np.kron(np.eye(2), one.throw), rtol=1e-14)
+        np.testing.assert_allclose(both.to_point, np.kron(np.eye(2), one.to_point), rtol=1e-14)
 
 
 def test_mujoco_takes_moments_about_the_whole_trees_centre_of_mass(make_cell):
@@ -249,7 +250,7 @@ def test_no_acceleration_is_asked_for_where_the_mass_matrix_is_singular_but_for_
 def test_the_states_in_which_it_is_not_are_compared(make_cell, monkeypatch):
     cell = make_cell("pinocchio-crba", "n-leg-3", random_states=5)
     kept = np.arange(len(cell.states)) % 2 == 0
-    monkeypatch.setattr(rounding.Amplitudes, "solvable", lambda self, mass, accuracy: kept)
+    monkeypatch.setattr(rounding.Amplitudes, "regular", lambda self, mass, accuracy: kept)
     (result,) = accelerations.compare(cell)
     assert (result.outcome, result.details["states"]) == ("agrees", int(kept.sum()))
     assert result.details["states left out"] == int((~kept).sum())

@@ -1,4 +1,4 @@
-"""What elimination adds up in maximal coordinates: against elimination itself, in single precision."""
+"""The rounding bound of elimination in maximal coordinates, against elimination itself in single precision."""
 
 import numpy as np
 import pytest
@@ -20,8 +20,8 @@ def solved(system, theta, omega, order):
     """
     bodies, n = MaximalCoordinates(system.tree()), system.n
     q, v = bodies.state(theta, omega)
-    matrix = bodies.saddle(bodies.jacobian(q)).astype(np.float32)
-    right = np.concatenate([bodies.force, -bodies.turning(q, v)]).astype(np.float32)
+    matrix = bodies.kkt_matrix(bodies.jacobian(q)).astype(np.float32)
+    right = np.concatenate([bodies.force, -bodies.constraint_bias(q, v)]).astype(np.float32)
     double, single = np.linalg.solve(matrix.astype(float), right.astype(float)), np.empty(5 * n)
     single[order] = np.linalg.solve(matrix[:, order], right)
     return double[2 : 3 * n : 3], single[2 : 3 * n : 3], double[3 * n :], single[3 * n :]

@@ -11,7 +11,8 @@ from scipy.special import ellipj, ellipk
 from furiko.models import RodChain
 from furiko.reference import gravity_vector, mass_matrix
 from furiko.reference.truth.closed_forms import Pendulum, hanging_chain_rates, point_pendulum, rod_pendulum
-from furiko.reference.truth.enclosures import true_accelerations, true_trajectory
+from furiko.reference.truth.enclosures import enclosed_accelerations
+from furiko.reference.truth.quadruple import quadruple_trajectory
 
 ROD = RodChain((0.7,), 2.0)
 RATE = math.sqrt(1.5 * 9.81 / 0.7)
@@ -32,7 +33,7 @@ STATES = {
 def test_elliptic_functions_meet_quadruple_precision(state):
     times = np.linspace(0, 3, 7)
     theta, omega = rod_pendulum(ROD).motion(*state, times)
-    truth = true_trajectory(ROD, state[:1], state[1:], times)
+    truth = quadruple_trajectory(ROD, state[:1], state[1:], times)
     # both are the truth rounded to double; quadruple's own error, up to 1e-26, may turn a rounding
     np.testing.assert_allclose(theta, truth.theta[:, 0], rtol=2.0**-52, atol=1e-25)
     np.testing.assert_allclose(omega, truth.omega[:, 0], rtol=2.0**-52, atol=1e-25)
@@ -109,7 +110,7 @@ def test_second_derivative_is_the_true_acceleration():
     theta, _ = rod_pendulum(ROD).motion(1.0, 2.0, [-h, 0.0, h])
     # central difference: h²/12 times θ'''' (some thousands), and ε/h²
     assert (theta[0] - 2 * theta[1] + theta[2]) / h**2 == pytest.approx(
-        true_accelerations(ROD, np.array([1.0]), np.array([2.0])).high[0], abs=1e-5
+        enclosed_accelerations(ROD, np.array([1.0]), np.array([2.0])).high[0], abs=1e-5
     )
 
 

@@ -1,4 +1,4 @@
-"""Verified truth: against plain ball elimination, first principles, and against its own promise."""
+"""Enclosures: against plain ball elimination, first principles, and against its own promise."""
 
 import numpy as np
 import pytest
@@ -6,17 +6,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from furiko.models import NLegPendulum, RodChain
-from furiko.reference import energy, joint_forces, literal_accelerations, mass_matrix
+from furiko.reference import energies, joint_forces, literal_accelerations, mass_matrix
 from furiko.reference.arithmetic import balls
 from furiko.reference.documents import equations_of_motion as motion
 from furiko.reference.truth import linear_solve as verified
 from furiko.reference.truth.enclosures import (
     RELATIVE_RADIUS,
+    enclosed_accelerations,
+    enclosed_energies,
+    enclosed_joint_forces,
+    enclosed_terms,
     precision,
-    true_accelerations,
-    true_energy,
-    true_joint_forces,
-    true_terms,
 )
 
 STAR = NLegPendulum((1.0, 0.8, 0.6), (1.0, 0.5, 2.0))
@@ -53,7 +53,7 @@ def assert_overlap(truth, enclosures):
 def test_truth_meets_flints_own_elimination(n):
     system = random_chain(n)
     theta, omega = random_state(system, 3)
-    truth = true_accelerations(system, theta, omega)
+    truth = enclosed_accelerations(system, theta, omega)
     for i in range(3):
         # 600 bits: elimination loses a few bits a rod, so its balls stay far narrower than the truth's radius
         ball = eliminated(system, theta[i], omega[i], 600)
@@ -66,7 +66,7 @@ def test_truth_meets_flints_own_elimination(n):
 def test_a_hundred_rods():
     system = random_chain(100)
     theta, omega = random_state(system, 2)
-    truth = true_accelerations(system, theta, omega)
+    truth = enclosed_accelerations(system, theta, omega)
     assert truth.relative_radius <= RELATIVE_RADIUS
     row = type(truth)(truth.high[0], truth.low[0], truth.radius[0])
     assert_overlap(row, eliminated(system, theta[0], omega[0], 1500))
@@ -80,13 +80,13 @@ def test_the_verified_path_is_taken_and_the_poor_inverse_is_not_trusted(monkeypa
     theta, omega = random_state(system, 2)
     asked = []
     monkeypatch.setattr(verified.Balls, "solve", lambda self, a, b: asked.append(1))
-    true_accelerations(system, theta, omega)
+    enclosed_accelerations(system, theta, omega)
     assert not asked
     monkeypatch.undo()
 
     good = verified._approximate_inverse
     monkeypatch.setattr(verified, "_approximate_inverse", lambda m: good(m) * 1.7)  # |I - R M| = 0.7
-    truth = true_accelerations(system, theta, omega)
+    truth = enclosed_accelerations(system, theta, omega)
     monkeypatch.undo()
     assert truth.relative_radius <= RELATIVE_RADIUS
     for i in range(2):
@@ -128,13 +128,13 @@ def test_the_bound_is_one_even_where_it_is_sharp(monkeypatch, factor):
 @pytest.mark.parametrize("system", [STAR, CHAIN, random_chain(14)], ids=["star", "chain", "14 rods"])
 def test_states_that_are_exact(system):
     n = system.n
-    rest = true_accelerations(system, np.zeros(n), np.zeros(n))
+    rest = enclosed_accelerations(system, np.zeros(n), np.zeros(n))
     assert rest.high.shape == (n,)
     assert not rest.high.any()
     assert not rest.radius.any()
     # In a straight line turning as one body, without gravity, the rod's ends only feel centripetal forces: θ̈ = 0.
     weightless = type(system)(system.lengths, *((system.masses,) if system.kind == "n-leg" else ()), gravity=0.0)
-    spin = true_accelerations(weightless, np.full((1, n), 0.7), np.full((1, n), 2.0))
+    spin = enclosed_accelerations(weightless, np.full((1, n), 0.7), np.full((1, n), 2.0))
     assert not spin.high.any()
 
 
@@ -150,7 +150,7 @@ def test_any_system_any_state(data):
     numbers = st.floats(-100, 100)
     theta = np.array(data.draw(st.lists(numbers, min_size=n, max_size=n)))
     omega = np.array(data.draw(st.lists(numbers, min_size=n, max_size=n)))
-    truth = true_accelerations(system, theta, omega)
+    truth = enclosed_accelerations(system, theta, omega)
     # below 1e-290 a pair of doubles has no 80 bits left
     assert truth.relative_radius <= RELATIVE_RADIUS or np.abs(truth.high).max() < 1e-290
     assert_overlap(truth, eliminated(system, theta, omega, 800))
@@ -158,33 +158,33 @@ def test_any_system_any_state(data):
 
 def test_batches_keep_their_shape():
     theta, omega = random_state(STAR, 6)
-    flat = true_accelerations(STAR, theta, omega)
-    shaped = true_accelerations(STAR, theta.reshape(2, 3, 3), omega.reshape(2, 3, 3))
+    flat = enclosed_accelerations(STAR, theta, omega)
+    shaped = enclosed_accelerations(STAR, theta.reshape(2, 3, 3), omega.reshape(2, 3, 3))
     np.testing.assert_array_equal(shaped.high, flat.high.reshape(2, 3, 3))
-    assert true_accelerations(STAR, np.empty((0, 3)), np.empty((0, 3))).high.shape == (0, 3)
-    assert true_joint_forces(STAR, theta, omega).high.shape == (6, 3, 2)
+    assert enclosed_accelerations(STAR, np.empty((0, 3)), np.empty((0, 3))).high.shape == (0, 3)
+    assert enclosed_joint_forces(STAR, theta, omega).high.shape == (6, 3, 2)
 
 
 def test_energy_and_forces_of_the_truth_round_to_those_in_doubles():
     for system in (STAR, CHAIN):
         theta, omega = random_state(system, 5)
-        kinetic, potential = energy(system, theta, omega)
-        truth = true_energy(system, theta, omega)
+        kinetic, potential = energies(system, theta, omega)
+        truth = enclosed_energies(system, theta, omega)
         both = np.stack([kinetic, potential], axis=-1)
         # some twenty operations on terms no larger than their sum: 1e-13 leaves room
         assert np.max(truth.error(both) / np.abs(both).max(-1, keepdims=True)) < 1e-13
-        accelerations = true_accelerations(system, theta, omega)
+        accelerations = enclosed_accelerations(system, theta, omega)
         forces = joint_forces(system, theta, omega, accelerations.high)
-        true_forces = true_joint_forces(system, theta, omega)
-        assert np.max(true_forces.error(forces)) < 1e-13 * np.abs(forces).max()
-        assert true_forces.relative_radius < 2.0**-75
+        enclosed_forces = enclosed_joint_forces(system, theta, omega)
+        assert np.max(enclosed_forces.error(forces)) < 1e-13 * np.abs(forces).max()
+        assert enclosed_forces.relative_radius < 2.0**-75
 
 
 def test_terms():
     for system in (STAR, CHAIN):
         theta, _ = random_state(system, 4)
-        terms = true_terms(system, theta)
+        terms = enclosed_terms(system, theta)
         # one cosine of a rounded difference of angles up to 2π: 4 ulp of π in the angle, a few roundings besides
         np.testing.assert_allclose(mass_matrix(system, theta), terms.mass, rtol=0, atol=1e-14)
-        np.testing.assert_allclose(motion.coriolis_matrix(system, theta), terms.coriolis, rtol=0, atol=1e-14)
+        np.testing.assert_allclose(motion.centrifugal_matrix(system, theta), terms.centrifugal, rtol=0, atol=1e-14)
         np.testing.assert_allclose(motion.gravity_vector(system, theta), terms.gravity, rtol=0, atol=1e-13)

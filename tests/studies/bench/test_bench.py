@@ -402,7 +402,7 @@ def test_benchmarks_have_kept_ends():
     kept = json.loads(endpoints.BENCHMARKS_PATH.read_text(encoding="utf-8"))
     for scene in BENCHMARKS.values():
         key = endpoints._key(scene.system, scene.theta, scene.omega, endpoints._times(scene.duration))
-        assert kept[key]["scene"] == scene.name, "the scene has changed: python -m furiko.reference.truth.enclosures"
+        assert kept[key]["scene"] == scene.name, "the scene has changed: python -m furiko.reference.truth.end_points"
         # long doubles for a hundred rods: eleven bits more than what is held against them
         assert max(kept[key]["error"]) < (1e-14 if scene.system.n > 50 else 1e-24)
 

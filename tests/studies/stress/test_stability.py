@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from furiko.reference.documents.equations_of_motion import energy
+from furiko.reference.documents.equations_of_motion import energies
 from furiko.studies.stress.failures import of_answer, of_energy, of_path
 from furiko.studies.stress.stability import (
     TOP,
@@ -104,7 +104,7 @@ def test_what_shows_first_names_the_failure():
 def test_energy_above_rest_is_the_height():
     given = problem("links", 1.0, 0)
     assert given.scale == pytest.approx(9.81 * 0.5 * (1 - np.cos(given.theta[0])), rel=1e-12)
-    assert float(sum(energy(given.system, given.theta, given.omega))) == pytest.approx(given.scale - 9.81 / 2)
+    assert float(sum(energies(given.system, given.theta, given.omega))) == pytest.approx(given.scale - 9.81 / 2)
 
 
 def test_rungs_are_half_octaves_of_one_swing():
