@@ -128,7 +128,7 @@ class AnyShape:
         return self._state(theta, omega)
 
     def _state(self, theta: ArrayLike, omega: ArrayLike) -> tuple[Array, Array]:
-        angles, rates = _numbers("theta", theta), _numbers("omega", omega)
+        angles, rates = np.array(_numbers("theta", theta)), np.array(_numbers("omega", omega))  # the engine's own
         for name, values in (("theta", angles), ("omega", rates)):
             if values.shape != (self._n,):
                 raise InvalidInput(f"{name}: shape {values.shape}, where one state of {self._n} angles is needed")
@@ -146,11 +146,12 @@ class AnyShape:
             if values.shape[-1:] != (self._n,) or values.shape != first:
                 shapes = ", ".join(f"{known} {state.shape}" for known, state in states.items())
                 raise InvalidInput(f"{name}: all must have one shape (..., {self._n}), got {shapes}")
-        rows = [np.ascontiguousarray(values.reshape(-1, self._n)) for values in states.values()]
+        # Copies: what an engine does to its arguments reaches nobody, and what it returns is its own buffer no longer.
+        rows = [np.array(values.reshape(-1, self._n), order="C") for values in states.values()]
         return self._held(ask(*rows), (len(rows[0]), *tail)).reshape(first[:-1] + tail)
 
     def _held(self, answer: Any, shape: tuple[int, ...]) -> Array:
-        found = np.asarray(answer, dtype=np.float64)
+        found = np.array(answer, dtype=np.float64)
         if found.shape != shape:
             raise RuntimeError(f"{self.info.name} gave an answer of shape {found.shape} where {shape} is due")
         return found

@@ -186,6 +186,18 @@ class WrongEnergy(Right):
         return super().energy(theta, omega) * [1, 1 - 1e-12]
 
 
+class EmptiesItsArguments(Right):
+    """Kinetic energy half as much again, and the arguments set to zero."""
+
+    info = about("EmptiesItsArguments")
+
+    def energy(self, theta, omega):
+        energies = np.array(super().energy(theta, omega))
+        energies[:, 0] *= 1.5
+        theta[:] = omega[:] = 0.0
+        return energies
+
+
 class LateByOneStep(Right):
     """Reports the state before the last step."""
 

@@ -107,3 +107,41 @@ def test_every_engine_takes_every_shape(engine, shape):
     found = load_engine(engine, RodChain((1.0, 0.5))).accelerations(states, 0 * states)
     assert found.shape == shape
     assert found.dtype == np.float64
+
+
+class Shares(Echo):
+    """Writes into its arguments, and returns one buffer again and again."""
+
+    def __init__(self):
+        self.buffer = np.zeros((2, 3))
+
+    def accelerations(self, theta, omega):
+        self.buffer[:] = theta + 10 * omega
+        theta[:] = omega[:] = 0.0
+        return self.buffer
+
+    def trajectory(self, theta, omega, integrator, step, steps):
+        self.buffer[0], self.buffer[1] = theta + 1, omega + 1
+        theta[:] = omega[:] = 0.0
+        return self.buffer[0], self.buffer[1]
+
+
+def test_arguments_are_copies_and_so_are_answers():
+    engine = AnyShape(Shares(), INFO, 3)
+    theta, omega = np.full((2, 3), 1.0), np.full((2, 3), 2.0)
+    first = engine.accelerations(theta, omega)
+    second = engine.accelerations(2 * theta, omega)
+    assert (theta == 1.0).all()
+    assert (omega == 2.0).all()
+    assert (first == 21.0).all()
+    assert (second == 22.0).all()
+    angles, rates = engine.trajectory(theta[0], omega[0], "RK4", 0.1, 1)
+    engine.trajectory(2 * theta[0], omega[0], "RK4", 0.1, 1)
+    assert (theta[0] == 1.0).all()
+    assert (angles == 2.0).all()
+    assert (rates == 3.0).all()
+
+
+def test_an_engine_that_changes_its_arguments_hides_nothing(run_cell):
+    """One that empties them and gives half as much kinetic energy again agreed, since theory then saw zeros too."""
+    assert run_cell("fake_engines:EmptiesItsArguments")["energy"].outcome == "differs"
