@@ -4,7 +4,7 @@ VENV ?= .venv
 BIN := $(VENV)/bin
 JOBS ?= 2
 
-.PHONY: check test lint models schema clean
+.PHONY: check test lint models architecture clean
 
 check: $(VENV)/.check  ## run the catalogue against every engine; writes furiko-report/
 	$(BIN)/furiko check
@@ -21,6 +21,9 @@ lint: $(VENV)/.test  ## ruff, mypy --strict and basedpyright
 models:  ## write the catalogue's model files and the JSON schemas again
 	$(BIN)/python -m furiko.models.writers.catalogue_files
 	$(BIN)/python -m furiko.records.schema
+
+architecture:  ## draw the picture of the rooms in docs/architecture.md again
+	$(BIN)/python tests/package_rooms.py
 
 clean:
 	rm -rf $(VENV) build dist furiko.egg-info

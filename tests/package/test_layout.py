@@ -1,50 +1,95 @@
-"""Imports run one way, file by file, and engines are imported only by their adapters."""
+"""Imports run one way, between the rooms, inside them and file by file; engines are imported only by their adapters."""
 
 import ast
-from pathlib import Path
 
 import pytest
+from package_rooms import MODULES, ROOT, circles, folder, imports, picture, room
 
-ROOT = Path(__file__).parent.parent.parent
-MAY_IMPORT = {
-    "records": set(),
-    "models": set(),
-    "reference": {"models"},
-    "engines": {"models", "records"},
-    "diagnosis": {"models", "reference", "engines"},
-    "checks": {"models", "records", "reference", "engines", "diagnosis"},
-    "studies": {"models", "records", "reference", "engines", "checks"},
-    "derivations": {"models", "reference"},
-    "reports": {"models", "records", "studies", "reference"},
+# A room, the rooms it may import, and its folders from the lowest to the highest: a file may import from its own
+# folder and from those before it. Folders in one tuple do not see each other; "." is the room's own files.
+ROOMS = {
+    "records": (set(), [(".",)]),
+    "models": (set(), [(".",), ("readers.xml_file", "readers.attributes"), ("readers.mjcf",), ("readers", "writers")]),
+    "reference": (
+        {"models"},
+        [("arithmetic", "limits"), ("documents",), ("kernels",), ("integration",), (".",), ("truth", "rounding"), ("chain",)],
+    ),
+    "engines": ({"models", "records"}, [("workers",), (".",), ("model_files",)]),
+    "diagnosis": ({"models", "records", "reference", "engines"}, [(".",), ("model_files",)]),
+    "checks": ({"models", "records", "reference", "engines", "diagnosis"}, [(".",), ("comparisons",)]),
+    "studies": ({"models", "records", "reference", "engines", "diagnosis", "checks", "furiko.__main__"}, [(".",), ("bench", "stress")]),
+    "derivations": (
+        {"models", "reference"},
+        [(".",), ("algebra",), ("steps",), ("mistakes",), ("grading",), ("audit", "lesson")],
+    ),
+    "reports": ({"models", "records"}, [(".",), ("pages", "terminal")]),
+    "furiko": ({"*"}, [(".",), ("cli",)]),
+}
+# Where a file of a room must import from a folder above it: what the room's front door (its __init__) names, and
+# renderings that are loaded when they are asked for.
+FRONT_DOORS = {"models", "reference", "engines", "reports", "furiko", "models.readers", "diagnosis", "checks", "furiko.__main__"}
+LAZY = {
+    "reports.write": "the renderings are imported when a report is written",
+    "engines.registry": "adapters are found by name",
 }
 ENGINES = {"mujoco", "pinocchio", "exudyn"}
-FILES = [path for folder in MAY_IMPORT for path in sorted((ROOT / folder).rglob("*.py"))]
 
 
-def imported(path):
-    """Folders of furiko and top-level packages that a file imports, relative imports resolved."""
-    parts = path.relative_to(ROOT).parts
-    depth = len(parts) - 1  # folders between the root and the file
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            yield from (name.name.split(".")[0] for name in node.names)
-        elif isinstance(node, ast.Call) and node.args and ast.unparse(node.func).endswith("import_module"):
-            if isinstance(node.args[0], ast.Constant) and not node.args[0].value.startswith("."):
-                yield node.args[0].value.split(".")[0]
-        elif isinstance(node, ast.ImportFrom) and node.level == 0:
-            yield node.module.split(".")[0]
-        elif isinstance(node, ast.ImportFrom):
-            if node.level <= depth:
-                yield parts[0]
-            else:
-                yield from [node.module.split(".")[0]] if node.module else (name.name for name in node.names)
+def place(module):
+    """Number of the layer that a module of a room is in."""
+    inside = module.partition(".")[2]
+    layers = ROOMS[room(module)][1]
+    for number, names in enumerate(layers):
+        for name in names:
+            if name != "." and (inside == name or inside.startswith(f"{name}.")):
+                return number
+    return next(number for number, names in enumerate(layers) if "." in names)
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(ROOT)))
-def test_imports_run_one_way(path):
-    folder = path.relative_to(ROOT).parts[0]
-    found = set(imported(path))
-    assert found & {*MAY_IMPORT, "furiko"} <= MAY_IMPORT[folder] | {folder}
-    assert "furiko" not in found, "inside the folders imports are relative"
-    if folder != "engines":
-        assert not found & ENGINES
+@pytest.mark.parametrize("module", sorted(MODULES))
+def test_imports_run_one_way(module):
+    allowed, _ = ROOMS[room(module)]
+    for other in imports(MODULES[module]):
+        if room(other) != room(module):
+            assert "*" in allowed or room(other) in allowed, f"{module} imports {other}"
+        elif folder(other) != folder(module) and module not in FRONT_DOORS and module not in LAZY:
+            assert other in FRONT_DOORS or place(other) < place(module), f"{module} imports {other}, which is above it"
+
+
+def test_no_file_imports_itself_by_way_of_others():
+    graph = {module: set(imports(path)) for module, path in MODULES.items()}
+    assert circles(graph) == []
+
+
+@pytest.mark.parametrize("module", sorted(MODULES))
+def test_inside_the_package_imports_are_relative_and_engines_are_adapters_alone(module):
+    tree = ast.parse((ROOT / MODULES[module]).read_text(encoding="utf-8"))
+    named = {
+        name.split(".")[0]
+        for node in ast.walk(tree)
+        for name in (
+            [alias.name for alias in node.names]
+            if isinstance(node, ast.Import)
+            else [node.module or ""]
+            if isinstance(node, ast.ImportFrom) and not node.level
+            else [argument.value for argument in node.args if isinstance(argument, ast.Constant)]
+            if isinstance(node, ast.Call) and ast.unparse(node.func).endswith("import_module")
+            else []
+        )
+        if isinstance(name, str)
+    }
+    assert "furiko" not in named
+    if room(module) != "engines":
+        assert not named & ENGINES
+
+
+def test_every_folder_at_the_root_is_known():
+    found = {path.name for path in ROOT.iterdir() if path.is_dir() and path.name[0] not in "._"}
+    built = {"build", "dist", "furiko.egg-info", "furiko-report", "furiko-stress"}
+    assert found - built == {*ROOMS, "tests", "docs", "benchmarks"}
+    assert len(found - built) <= 13
+
+
+def test_the_picture_of_the_rooms_is_that_of_the_code():
+    text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    assert f"<!-- rooms -->\n{picture()}\n<!-- /rooms -->" in text, "run: make architecture"
