@@ -12,7 +12,7 @@ from typing import Any
 
 import msgspec
 
-from . import bench, check, findings, listings
+from . import bench, check, findings, listings, stress
 
 FOLDER = Path(__file__).parent / "schemas"
 
@@ -24,6 +24,7 @@ SCHEMAS: dict[str, tuple[str, Any]] = {
     "engines": ("furiko engines --json", list[listings.EngineRow]),
     "cache": ("furiko cache --json", listings.CacheContents),
     "bench": (f"furiko bench --json, and bench.json, format {bench.FORMAT}", bench.Bench),
+    "stress": ("furiko stress --json", stress.StressSummary),
     "grade": ("furiko grade --json", findings.GradeDocument),
     "audit": ("furiko audit --json", findings.AuditDocument),
     "diagnose": ("furiko diagnose --json", findings.DiagnoseDocument),

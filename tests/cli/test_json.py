@@ -43,6 +43,7 @@ def printed(tmp_path, monkeypatch, capfd):
         ("cache", ["cache", "--clear"]),
         ("grade", ["grade", "derivation.toml"]),
         ("diagnose", ["diagnose", "model.xml"]),
+        ("stress", ["stress", "--axis", "long-rods", "-e", "document", "--budget", "5", "--out", "stress"]),
         pytest.param("audit", ["audit"], marks=pytest.mark.slow),
     ],
 )

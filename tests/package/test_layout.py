@@ -12,12 +12,23 @@ ROOMS = {
     "models": (set(), [(".",), ("readers.xml_file", "readers.attributes"), ("readers.mjcf",), ("readers", "writers")]),
     "reference": (
         {"models"},
-        [("arithmetic", "limits"), ("documents",), ("kernels",), ("integration",), (".",), ("truth", "rounding"), ("chain",)],
+        [
+            ("arithmetic", "limits"),
+            ("documents",),
+            ("kernels",),
+            ("integration",),
+            (".",),
+            ("truth", "rounding"),
+            ("chain",),
+        ],
     ),
     "engines": ({"models", "records"}, [("workers",), (".",), ("model_files",)]),
     "diagnosis": ({"models", "records", "reference", "engines"}, [(".",), ("model_files",)]),
     "checks": ({"models", "records", "reference", "engines", "diagnosis"}, [(".",), ("comparisons",)]),
-    "studies": ({"models", "records", "reference", "engines", "diagnosis", "checks", "furiko.__main__"}, [(".",), ("bench", "stress")]),
+    "studies": (
+        {"models", "records", "reference", "engines", "diagnosis", "checks"},
+        [(".",), ("bench", "stress")],
+    ),
     "derivations": (
         {"models", "reference"},
         [(".",), ("algebra",), ("steps",), ("mistakes",), ("grading",), ("audit", "lesson")],
@@ -27,7 +38,17 @@ ROOMS = {
 }
 # Where a file of a room must import from a folder above it: what the room's front door (its __init__) names, and
 # renderings that are loaded when they are asked for.
-FRONT_DOORS = {"models", "reference", "engines", "reports", "furiko", "models.readers", "diagnosis", "checks", "furiko.__main__"}
+FRONT_DOORS = {
+    "models",
+    "reference",
+    "engines",
+    "reports",
+    "furiko",
+    "models.readers",
+    "diagnosis",
+    "checks",
+    "furiko.__main__",
+}
 LAZY = {
     "reports.write": "the renderings are imported when a report is written",
     "engines.registry": "adapters are found by name",
