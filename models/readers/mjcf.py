@@ -7,6 +7,7 @@ without control) it leaves out of the text that engines are given.
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -489,7 +490,7 @@ def _include(element: Element, folder: Path, seen: set[Path]) -> list[Element]:
         raise element.wrong(
             f"file={name[:80]!r}: outside the model's own folder, where nothing is read; move it inside"
         )
-    if not path.is_file():
+    if not os.path.isfile(path):  # pathlib's raises where the name is too long
         raise element.wrong(f"file={name[:80]!r}: cannot be read: there is no such file in the model's folder")
     if path in seen:
         raise element.wrong(f"file={name[:80]!r}: included twice, or by itself")
