@@ -94,8 +94,9 @@ def find_scene(name: str) -> Scene:
 def read_scene(path: Path) -> Scene:
     """Read one scene file. Raises :class:`InvalidInput` naming the file, the field, and what would be right."""
     text = read_text(path, LARGEST_FILE)
+    name = path.stem.encode("utf-8", "backslashreplace").decode()  # a file's name need not be UTF-8, a scene's is
     try:
-        return scene_from_toml(text, name=path.stem)
+        return scene_from_toml(text, name)
     except InvalidInput as error:
         raise InvalidInput(f"{shown(path)}: {error}") from None
 
