@@ -42,7 +42,8 @@ class Holding:
 
     entries: int
     size: int  # bytes
-    oldest: float | None  # seconds since the epoch, of its last use
+    oldest: float | None  # seconds since the epoch: the last use of the entry that has not been used for longest
+    newest: float | None  # and of the one that was used last
 
 
 @dataclass(frozen=True)
@@ -121,9 +122,13 @@ class Cache:
         """What there is, kind by kind."""
         found = {}
         for kind in ("results", "truths"):
-            states = [path.stat() for path in self.entries(kind)]
-            oldest = min((state.st_mtime for state in states), default=None)
-            found[kind] = Holding(len(states), sum(state.st_size for state in states), oldest)
+            states = []
+            for path in self.entries(kind):
+                with contextlib.suppress(OSError):  # another run may have deleted it
+                    states.append(path.stat())
+            times = [state.st_mtime for state in states]
+            size = sum(state.st_size for state in states)
+            found[kind] = Holding(len(states), size, min(times, default=None), max(times, default=None))
         return found
 
     def trim(self) -> None:

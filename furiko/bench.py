@@ -129,13 +129,10 @@ def write(folder: Path, found: Bench) -> Path:
     """
     import msgspec
 
-    from .models.writers.whole_file import write_whole
+    from .models.writers.whole_file import make_folder, write_whole
     from .reports.pages.bench_page import to_html
 
     page = to_html(found)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InvalidInput(f"{folder}: cannot be written: {error.strerror or error}") from None
+    make_folder(folder)
     write_whole(folder / "bench.json", msgspec.json.format(msgspec.json.encode(found), indent=1).decode() + "\n")
     return write_whole(folder / "bench.html", page)

@@ -7,6 +7,8 @@ from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 
+import msgspec
+
 from . import __version__
 from .checks.cache import Cache, user_cache
 from .checks.jobs import MODULES
@@ -15,12 +17,20 @@ from .checks.plan import Plan, make_plan
 from .checks.runner import TIMEOUT, run
 from .engines import engine_version
 from .engines.workers.processes import Workers, worker_processes
-from .models import Scene, catalogue
+from .models import InvalidInput, Scene, catalogue
 from .records import provenance
 from .records.check import OUTCOMES, EngineEntry, Footer, Header, Result, SceneEntry
 from .reports import Report, StreamWriter, open_report, prepare_reports, write_reports
 
 SEED = "sha256 of the scene's name, PCG64"
+
+
+class ReportNotWritten(InvalidInput):
+    """The run is over, and a file of it could not be written; ``report`` is the run all the same."""
+
+    def __init__(self, message: str, report: Report) -> None:
+        super().__init__(message)
+        self.report = report
 
 
 def check(
@@ -43,24 +53,26 @@ def check(
     ``use_cache``: take results of an earlier run with the very same inputs; ``source``: workers started ahead;
     ``watch`` is called with each result as it comes.
 
-    Raises :class:`furiko.InvalidInput` for unknown names and bad files, before anything runs.
+    Raises :class:`furiko.InvalidInput` for unknown names and bad files, before anything runs, and
+    :class:`ReportNotWritten` at the end of a run whose files could not all be written.
     """
     begun = time.monotonic()
     given = None if scenes is None else [str(scene) for scene in scenes]
     plan = make_plan(given, engines, profile)
     cache = user_cache() if use_cache else Cache(None)
     results: list[Result] = []
+    unwritten: list[str] = []
     with ExitStack() as open_until_done:
         workers = source or open_until_done.enter_context(worker_processes(modules=MODULES))
         ledger = Ledger(plan)
         running = run(plan, cache=cache, source=workers, jobs=jobs, timeout=timeout, ledger=ledger)
-        header = make_header(plan, given)  # while they work: the formulas in it need numpy
+        header = make_header(plan, given, engines)  # while they work: the formulas in it need numpy
         stream = None if out is None else open_until_done.enter_context(open_report(out, header))
         if stream is not None:
             prepare_reports()  # likewise: at the end of a small run nothing else would be left to do
 
         def take(result: Result) -> None:
-            results.append(result if stream is None else stream.write(result))
+            results.append(result if stream is None or unwritten else _written(stream, result, unwritten))
             if watch is not None:
                 watch(plan, results[-1])
 
@@ -68,22 +80,42 @@ def check(
             take(result)
         for result in ledger.missing(results):
             take(result)
-        footer = _footer(stream, results, time.monotonic() - begun)
+        footer = _footer(stream, results, time.monotonic() - begun, unwritten)
     report = Report(header, tuple(results), footer)
     if out is not None:
-        write_reports(out, report)
+        try:
+            write_reports(out, report)
+        except InvalidInput as error:
+            unwritten.append(str(error))
+    if unwritten:
+        raise ReportNotWritten("; ".join(unwritten), report)
     return report
 
 
-def _footer(stream: StreamWriter | None, results: Sequence[Result], seconds: float) -> Footer:
-    if stream is not None:
-        return stream.finish(seconds)
+def _written(stream: StreamWriter, result: Result, unwritten: list[str]) -> Result:
+    """The result as the stream has it. A stream that takes no more ends there, without a footer; the run goes on."""
+    try:
+        return stream.write(result)
+    except InvalidInput as error:
+        unwritten.append(str(error))
+        return result
+
+
+def _footer(stream: StreamWriter | None, results: Sequence[Result], seconds: float, unwritten: list[str]) -> Footer:
+    if stream is not None and not unwritten:
+        try:
+            return stream.finish(seconds)
+        except InvalidInput as error:
+            unwritten.append(str(error))
     counts = {outcome: sum(result.outcome == outcome for result in results) for outcome in OUTCOMES}
     return Footer(**counts, seconds=seconds)
 
 
-def make_header(plan: Plan, given: Sequence[str] | None) -> Header:
-    """The first line of the stream: what runs, where, with what. ``given``: scenes as the user named them, or None."""
+def make_header(plan: Plan, given: Sequence[str] | None, engines: Sequence[str] | None = None) -> Header:
+    """The first line of the stream: what runs, where, with what.
+
+    ``given``, ``engines``: scenes and engines as the user named them, or None.
+    """
     sources = {} if given is None else dict(zip((scene.name for scene in plan.scenes), given, strict=False))
     return Header(
         furiko=__version__,
@@ -93,10 +125,19 @@ def make_header(plan: Plan, given: Sequence[str] | None) -> Header:
         seed=SEED,
         machine=provenance.machine(),
         versions=provenance.versions(),
-        scenes=[scene_entry(scene, plan, sources.get(scene.name, scene.name)) for scene in plan.scenes],
+        scenes=[
+            msgspec.structs.replace(
+                scene_entry(scene, plan, sources.get(scene.name, scene.name)), asked=scene.name in sources
+            )
+            for scene in plan.scenes
+        ],
         engines=[
             EngineEntry(
-                name=info.name, formulation=info.formulation, package=info.package, version=engine_version(info.name)
+                name=info.name,
+                formulation=info.formulation,
+                package=info.package,
+                version=engine_version(info.name),
+                asked=info.name in (engines or ()),
             )
             for info in plan.engines
         ],

@@ -12,6 +12,7 @@ from typing import Any
 from . import __version__
 from .engines import EngineInfo, engine_info, engine_names, engine_version
 from .models import EngineMissing, InvalidInput
+from .models.writers.whole_file import make_folder
 from .records import provenance
 from .records.check import EngineEntry, Header
 from .records.stress import StressSummary
@@ -185,8 +186,8 @@ def _work(
 
 def _folder(out: str | Path, fresh: bool) -> Path:
     folder = Path(out)
+    make_folder(folder)
     try:
-        folder.mkdir(parents=True, exist_ok=True)
         if fresh:
             (folder / STREAM).unlink(missing_ok=True)
     except OSError as error:

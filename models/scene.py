@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 import re
-import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,6 +15,8 @@ from typing import Any, Literal
 import msgspec
 
 from .errors import InvalidInput, nearest
+from .readers.bounded_file import read_text, shown
+from .readers.toml_text import parse_toml
 from .systems import NLegPendulum, RodChain, number
 
 CATALOGUE = Path(__file__).parent / "catalogue"
@@ -92,20 +93,18 @@ def find_scene(name: str) -> Scene:
 
 def read_scene(path: Path) -> Scene:
     """Read one scene file. Raises :class:`InvalidInput` naming the file, the field, and what would be right."""
+    text = read_text(path, LARGEST_FILE)
+    name = path.stem.encode("utf-8", "backslashreplace").decode()  # a file's name need not be UTF-8, a scene's is
     try:
-        return scene_from_toml(_text(path), name=path.stem)
+        return scene_from_toml(text, name)
     except InvalidInput as error:
-        raise InvalidInput(f"{path}: {error}") from None
+        raise InvalidInput(f"{shown(path)}: {error}") from None
 
 
 def scene_from_toml(text: str, name: str) -> Scene:
     """The scene that a TOML text describes. Raises :class:`InvalidInput`."""
     try:
-        file = msgspec.convert(tomllib.loads(text), _File)
-    except tomllib.TOMLDecodeError as error:
-        raise InvalidInput(f"not valid TOML: {error}") from None
-    except (RecursionError, MemoryError):
-        raise InvalidInput("not valid TOML: nested too deeply") from None
+        file = msgspec.convert(parse_toml(text), _File)
     except msgspec.ValidationError as error:
         raise InvalidInput(_field_first(str(error))) from None
     system = _system(file.system)
@@ -131,20 +130,6 @@ def scene_from_toml(text: str, name: str) -> Scene:
         equations=tuple(file.equations),
         description=file.description,
     )
-
-
-def _text(path: Path) -> str:
-    try:
-        with path.open("rb") as stream:
-            content = stream.read(LARGEST_FILE + 1)
-    except OSError as error:
-        raise InvalidInput(f"cannot be read: {error.strerror or error}") from None
-    if len(content) > LARGEST_FILE:
-        raise InvalidInput(f"larger than {LARGEST_FILE // 1_000_000} MB, which no scene needs")
-    try:
-        return content.decode()
-    except UnicodeDecodeError as error:
-        raise InvalidInput(f"not UTF-8 text: {error.reason} at byte {error.start}") from None
 
 
 def _system(given: _System) -> NLegPendulum | RodChain:

@@ -29,6 +29,7 @@ class SceneEntry(msgspec.Struct, frozen=True, kw_only=True):
     equations: list[str] = []
     tags: list[str] = []
     source: str = ""  # what to pass to `furiko check` to run it again: a name or a file's path
+    asked: bool = False  # the user named it: a run in which nothing of it was compared is incomplete
 
 
 class EngineEntry(msgspec.Struct, frozen=True, kw_only=True):
@@ -38,6 +39,7 @@ class EngineEntry(msgspec.Struct, frozen=True, kw_only=True):
     formulation: str
     package: str
     version: str = ""  # empty: not installed
+    asked: bool = False  # the user named it: a run in which nothing was compared with it is incomplete
 
 
 class Header(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag="header"):

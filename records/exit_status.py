@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 AGREES = 0  # everything that ran agrees, and everything that was asked for ran
-DIFFERS = 1  # something differs
+DIFFERS = 1  # something differs, or is loose where --sharp asks for it
 BAD_INPUT = 2  # wrong usage or wrong input
-INCOMPLETE = 3  # an engine that was asked for is missing or failed, or the run did not finish
-INTERRUPTED = 130  # interrupted (Ctrl-C), or the reader of standard output closed it
+INCOMPLETE = 3  # an engine that was asked for is missing or failed, a result is missing, or an output was not written
+INTERNAL_ERROR = 70  # a mistake in furiko
+HUNG_UP = 129  # SIGHUP: the terminal was closed
+INTERRUPTED = 130  # SIGINT: Ctrl-C
+CLOSED_PIPE = 141  # the reader of standard output closed it
+TERMINATED = 143  # SIGTERM

@@ -40,10 +40,21 @@ class EngineRow(msgspec.Struct, frozen=True, kw_only=True):
     homepage: str
 
 
+class CacheKind(msgspec.Struct, frozen=True, kw_only=True):
+    """The cache's entries of one kind."""
+
+    entries: int
+    bytes: int
+    least_recently_used: str | None  # ISO 8601, UTC: when the entry that would be deleted first was last used
+    most_recently_used: str | None
+
+
 class CacheContents(msgspec.Struct, frozen=True, kw_only=True):
     """The results kept from earlier runs, before anything is deleted; ``furiko cache --json`` prints it."""
 
     folder: str
     entries: int
     bytes: int
+    limit: int  # bytes; beyond it the entries that were used least recently are deleted
+    kinds: dict[str, CacheKind]  # results: of one scene on one engine; truths: of one scene
     deleted: int | msgspec.UnsetType = msgspec.UNSET  # entries; only with --clear

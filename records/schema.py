@@ -12,7 +12,7 @@ from typing import Any
 
 import msgspec
 
-from . import bench, check, findings, listings, stress
+from . import bench, check, errors, findings, listings, stress
 
 FOLDER = Path(__file__).parent / "schemas"
 
@@ -28,6 +28,7 @@ SCHEMAS: dict[str, tuple[str, Any]] = {
     "grade": ("furiko grade --json", findings.GradeDocument),
     "audit": ("furiko audit --json", findings.AuditDocument),
     "diagnose": ("furiko diagnose --json", findings.DiagnoseDocument),
+    "error": ("every furiko command with --json that fails", errors.ErrorDocument),
 }
 
 

@@ -1,6 +1,6 @@
 """Writes the result stream, reads it back, renders it (terminal, HTML, Markdown, JUnit) and compares two runs.
 
-Imports records and models.errors, nothing else of furiko.
+Imports records, and of models the errors and the readers and writers of whole files; nothing else of furiko.
 """
 
 from .compare import Comparison, compare

@@ -11,11 +11,13 @@ import fcntl
 import os
 from pathlib import Path
 from types import TracebackType
+from typing import BinaryIO
 
 from ..models.errors import InvalidInput
+from ..models.readers.bounded_file import open_regular, shown
 from ..records.check import Header, Result
 from .report import Report
-from .stream import StreamWriter, read_stream
+from .stream import LARGEST_STREAM, StreamWriter, read_stream
 
 HEADER_START = b'{"kind":"header"'
 
@@ -34,7 +36,7 @@ class Journal:
         self._writer: StreamWriter | None = None
 
     def __enter__(self) -> Journal:
-        if self.path.exists() and self.path.stat().st_size:
+        if os.path.exists(self.path) and self.path.stat().st_size:
             before = self._cut_back()
             if before is not None:
                 self.results = list(before.results)
@@ -67,14 +69,16 @@ class Journal:
 
         The file is changed only when it is known to be a stream of this format, of the same run.
         """
-        with self.path.open("r+b") as file:
+        with self._open() as file:
             try:
                 fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError:
                 raise InvalidInput(
                     f"{self.path}: another run is writing it; give this one a folder of its own"
                 ) from None
-            content = file.read()
+            content = file.read(LARGEST_STREAM + 1)
+            if len(content) > LARGEST_STREAM:
+                raise InvalidInput(f"{self.path}: larger than {LARGEST_STREAM // 1_000_000} MB, no run is")
             if b"\n" not in content:
                 if content[: len(HEADER_START)] != HEADER_START[: len(content)]:
                     raise InvalidInput(f"{self.path}: not a result stream; give this run a folder of its own")
@@ -84,6 +88,13 @@ class Journal:
             self._require_same_run(before.header)
             file.truncate(_end_of_results(content))
         return before
+
+    def _open(self) -> BinaryIO:
+        open_regular(self.path).close()  # a pipe would wait, a device deliver without end
+        try:
+            return self.path.open("r+b")
+        except OSError as error:
+            raise InvalidInput(f"{shown(self.path)}: cannot be written: {error.strerror or error}") from None
 
     def _require_same_run(self, found: Header) -> None:
         for what, there, here in (

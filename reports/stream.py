@@ -19,7 +19,9 @@ from typing import Any, BinaryIO
 import msgspec
 
 from ..models.errors import InvalidInput
+from ..models.readers.bounded_file import open_regular, shown
 from ..records.check import FORMAT, Footer, Header, Outcome, Record, Result
+from ..records.printable import without_surrogates
 from .report import Report
 
 STREAM = "report.jsonl"
@@ -28,6 +30,7 @@ STREAM = "report.jsonl"
 # run of the catalogue is 2 MB, and the header of a scene with ten thousand links half a megabyte.
 LARGEST_LINE = 8_000_000  # bytes
 LARGEST_STREAM = 256_000_000  # bytes
+MOST_VALUES = 3_000_000  # commas and brackets, a bound of the memory that the records take
 LONGEST_REASON = 20_000  # characters; a traceback fits
 
 _decoder = msgspec.json.Decoder(Header | Result | Footer)
@@ -58,7 +61,7 @@ class StreamWriter:
         self._header = header
         self._file: FileIO | None = None
         self._counts: Counter[Outcome] = Counter()
-        self._size = 0
+        self._size = self._values = 0
 
     def __enter__(self) -> StreamWriter:
         try:
@@ -98,7 +101,8 @@ class StreamWriter:
             raise ValueError(f"{self.path}: the stream is closed, or an earlier line of it could not be written")
         line = _encode(record) + b"\n"
         self._size += len(line)
-        if len(line) > LARGEST_LINE or self._size > LARGEST_STREAM:
+        self._values += _values(line)
+        if len(line) > LARGEST_LINE or self._size > LARGEST_STREAM or self._values > MOST_VALUES:
             self._close()
             raise InvalidInput(f"{self.path}: would be larger than can be read back; run fewer scenes at a time")
         rest = memoryview(line)
@@ -134,11 +138,11 @@ def read_stream(source: str | Path | BinaryIO) -> Report:
         return _read(source, str(getattr(source, "name", "stream")))
     path = Path(source)
     try:
-        path = path / STREAM if path.is_dir() else path
-        with path.open("rb") as file:
-            return _read(file, str(path))
+        path = path / STREAM if os.path.isdir(path) else path  # os.path's takes any name
+        with open_regular(path) as file:
+            return _read(file, shown(path))
     except OSError as error:
-        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from None
+        raise InvalidInput(f"{shown(path)}: cannot be read: {error.strerror or error}") from None
 
 
 def _read(file: BinaryIO, name: str) -> Report:
@@ -169,7 +173,7 @@ def _read(file: BinaryIO, name: str) -> Report:
 
 def _whole_lines(file: BinaryIO, name: str) -> Iterator[bytes]:
     """Lines that have their line end; half a line at the end of a cut-off run is left out."""
-    size = number = 0
+    size = number = values = 0
     while line := file.readline(LARGEST_LINE + 1):
         number += 1
         size += len(line)
@@ -177,8 +181,17 @@ def _whole_lines(file: BinaryIO, name: str) -> Iterator[bytes]:
             raise InvalidInput(f"{name}, line {number}: longer than {LARGEST_LINE // 1_000_000} MB, no record is")
         if size > LARGEST_STREAM:
             raise InvalidInput(f"{name}: larger than {LARGEST_STREAM // 1_000_000} MB, no run is")
+        values += _values(line)
+        if values > MOST_VALUES:
+            raise InvalidInput(
+                f"{name}, line {number}: more than {MOST_VALUES:,} values up to here, no run has so many"
+            )
         if line.endswith(b"\n"):
             yield line
+
+
+def _values(line: bytes) -> int:
+    return line.count(b",") + line.count(b"[") + line.count(b"{")
 
 
 def _decode(line: bytes, where: str) -> Record:
@@ -219,7 +232,9 @@ def _told(error: Exception) -> str:
 
 def _alone(path: Path) -> FileIO:
     """Open the file, empty, so that only this process writes it until it closes it."""
-    descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o666)
+    # a pipe without a reader is an error, and is not waited for
+    descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC | os.O_NONBLOCK, 0o666)
+    os.set_blocking(descriptor, True)
     file = FileIO(descriptor, "wb")
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -269,17 +284,7 @@ def _encode(record: Record) -> bytes:
     try:
         return _encoder.encode(record)
     except UnicodeEncodeError:  # a file name that is not UTF-8 comes as lone surrogates, which JSON text cannot hold
-        return _encoder.encode(_speakable(msgspec.to_builtins(record, enc_hook=_plain)))
-
-
-def _speakable(value: Any) -> Any:
-    if isinstance(value, str):
-        return value.encode("utf-8", "backslashreplace").decode()
-    if isinstance(value, dict):
-        return {_speakable(key): _speakable(entry) for key, entry in value.items()}
-    if isinstance(value, list | tuple):
-        return [_speakable(entry) for entry in value]
-    return value
+        return _encoder.encode(without_surrogates(msgspec.to_builtins(record, enc_hook=_plain)))
 
 
 def _plain(value: Any) -> Any:

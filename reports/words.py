@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from ..records.check import Outcome
+from ..records.printable import printable as printable  # noqa: PLC0414 (reports take it from here)
 
 if TYPE_CHECKING:
     from ..records.bench import Speed
@@ -64,18 +65,6 @@ def link_words(system: str, n: int) -> str:
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
-def printable(text: str) -> str:
-    """The text with everything that a terminal, a browser or an XML reader might act on written out as an escape.
-
-    Kept are letters, marks, digits, signs, spaces and line ends; control and formatting characters (ANSI escapes,
-    right-to-left overrides), lone surrogates and code points without a meaning become ``\\x1b``, ``\\u202e``.
-    """
-    if text.isprintable():
-        return text
-    text = text.replace("\r\n", "\n").replace("\t", "    ")
-    return "".join(c if c.isprintable() or c == "\n" else _written_out(c) for c in text)
-
-
 def one_line(text: str, longest: int = 300) -> str:
     """:func:`printable`, on one line, at most ``longest`` characters long."""
     line = " ".join(printable(text[: 8 * longest]).split())
@@ -91,12 +80,6 @@ def few(names: Iterable[str], noun: str) -> str:
     """Up to three names in full, more as their number."""
     known = sorted(set(names))
     return ", ".join(one_line(name, 40) for name in known) if len(known) <= 3 else count(len(known), noun)
-
-
-def _written_out(character: str) -> str:
-    if character.isspace() and character > "\x9f":  # a no-break space is a space, a form feed is not
-        return " "
-    return character.encode("unicode_escape").decode()
 
 
 def _three(value: float) -> str:

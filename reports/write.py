@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..models.errors import InvalidInput
-from ..models.writers.whole_file import write_whole
+from ..models.writers.whole_file import make_folder, write_whole
 from ..records.check import Header
 from .report import Report
 from .stream import STREAM, StreamWriter
@@ -20,8 +20,8 @@ def open_report(directory: str | Path, header: Header) -> StreamWriter:
     another. Raises :class:`InvalidInput` where the folder cannot be made or written.
     """
     folder = Path(directory)
+    make_folder(folder)
     try:
-        folder.mkdir(parents=True, exist_ok=True)
         for name in (PAGE, SUMMARY, JUNIT):
             (folder / name).unlink(missing_ok=True)
     except OSError as error:
@@ -39,14 +39,20 @@ def prepare_reports() -> None:
 def write_reports(directory: str | Path, report: Report) -> tuple[Path, ...]:
     """Write the page, the summary and the JUnit file of a run into its folder; returns their paths.
 
-    Each is written completely or not at all. Raises :class:`InvalidInput` with the path of one that cannot be written.
+    Each is written completely or not at all. Raises :class:`InvalidInput` with the paths of those that cannot be
+    written, after the others have been.
     """
     from .junit import to_junit
     from .markdown import to_markdown
     from .pages.check_page import to_html
 
     folder = Path(directory)
-    return tuple(
-        write_whole(folder / name, render(report))
-        for name, render in ((PAGE, to_html), (SUMMARY, to_markdown), (JUNIT, to_junit))
-    )
+    paths, failures = [], []
+    for name, render in ((PAGE, to_html), (SUMMARY, to_markdown), (JUNIT, to_junit)):
+        try:
+            paths.append(write_whole(folder / name, render(report)))
+        except InvalidInput as error:
+            failures.append(str(error))
+    if failures:
+        raise InvalidInput("; ".join(failures))
+    return tuple(paths)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 import re
-import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
 from ...models.errors import InvalidInput, nearest
+from ...models.readers.bounded_file import read_text, shown
+from ...models.readers.toml_text import parse_toml
 from ..algebra.quotient import Quotient
 from ..algebra.symbols import KINDS, Symbols, symbols_of
 from ..algebra.trig import Formula
@@ -47,29 +48,18 @@ class Submission:
 def read_submission(source: str | os.PathLike[str]) -> Submission:
     """Read a file. Raises InvalidInput, with the place, where it is not a derivation."""
     path = Path(source)
-    try:
-        if path.stat().st_size > 4 * LARGEST_FILE:
-            raise InvalidInput(f"{path}: larger than {LARGEST_FILE} characters; a derivation is not")
-        text = path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise InvalidInput(f"{path}: there is no such file") from None
-    except IsADirectoryError:
-        raise InvalidInput(f"{path}: a folder; a TOML file with a derivation is needed") from None
-    except UnicodeDecodeError as error:
-        raise InvalidInput(f"{path}: byte {error.start}: not UTF-8 text") from None
-    except (OSError, ValueError) as error:
-        raise InvalidInput(f"{path!s:.200}: cannot be read ({type(error).__name__})") from None
+    text = read_text(path, 4 * LARGEST_FILE)
     try:
         return parse_submission(text)
     except InvalidInput as error:
-        raise InvalidInput(f"{path}: {error}") from None
+        raise InvalidInput(f"{shown(path)}: {error}") from None
 
 
 def parse_submission(text: str) -> Submission:
     """Read the text of such a file."""
     if len(text) > LARGEST_FILE:
         raise InvalidInput(f"longer than {LARGEST_FILE} characters; a derivation is not")
-    data = _toml(text)
+    data = parse_toml(text)
     for name in data:
         if name not in FIELDS:
             raise InvalidInput(f"{name!r:.40}: no such field{nearest(name, FIELDS)}; known are {', '.join(FIELDS)}")
@@ -87,17 +77,6 @@ def parse_submission(text: str) -> Submission:
     return Submission(
         symbols, rows, lagrangian, angles == "relative", evaluation.equal_lengths, evaluation.equal_masses
     )
-
-
-def _toml(text: str) -> dict[str, Any]:
-    try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise InvalidInput(f"not TOML: {error!s:.200}") from None
-    except RecursionError:
-        raise InvalidInput("not TOML: brackets nested too deeply, at column 1") from None
-    except ValueError as error:  # an integer of thousands of digits
-        raise InvalidInput(f"not TOML: {error!s:.100}") from None
 
 
 def _symbols(data: dict[str, Any]) -> Symbols:

@@ -3,6 +3,18 @@
 May import everything else of the package.
 """
 
-from .main import main
+from __future__ import annotations
 
-__all__ = ["main"]
+import sys
+from importlib import import_module
+
+
+def main() -> None:
+    """Run the command line of this process, and end the process with its exit status."""
+    from .process import Stopped, catch_signals
+
+    catch_signals()  # first of all: imports take a while, and may be interrupted as well
+    try:
+        import_module(".main", __package__).main()
+    except Stopped as error:
+        sys.exit(error.status)

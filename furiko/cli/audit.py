@@ -6,7 +6,7 @@ import click
 
 from ..records.exit_status import AGREES
 from .options import json_option
-from .output import print_json
+from .output import print_json, print_text
 
 
 @click.command()
@@ -19,5 +19,5 @@ def audit(as_json: bool) -> int:
     if as_json:
         print_json(found.to_dict())
     else:
-        click.echo(found.text())
+        print_text(found.text())
     return AGREES

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import click
 
-from ..records.exit_status import AGREES, DIFFERS
+from ..records.exit_status import AGREES, DIFFERS, INCOMPLETE
 from .options import engine_option, json_option, report_folder_option
-from .output import print_json
+from .output import print_failure, print_json
 from .progress import status_line
 
 
@@ -41,14 +41,23 @@ def bench(
         os.environ.setdefault(name, "1")  # numpy reads them once, when it is imported
     from ..bench import bench as run_bench
     from ..bench import write
+    from ..models import InvalidInput
+    from ..models.writers.whole_file import make_folder
 
+    make_folder(out)  # first: the benchmark takes a while
     with status_line() as watch:
         found = run_bench(scenes or None, engines or None, budget=budget, skips=skips, watch=watch)
-    page = write(out, found)
+    status = DIFFERS if any(not skip.same for skip in found.skips) else AGREES
+    page = out / "bench.html"
+    try:
+        write(out, found)
+    except InvalidInput as error:
+        print_failure(str(error))
+        status = max(status, INCOMPLETE)
     if as_json:
         print_json(found)
     else:
         from ..reports.terminal.bench import print_bench
 
         print_bench(found, page)
-    return DIFFERS if any(not skip.same for skip in found.skips) else AGREES
+    return status

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import click
 
-from ..records.exit_status import DIFFERS
+from ..records.exit_status import DIFFERS, INCOMPLETE
 from .options import engine_option, jobs_option, json_option, report_folder_option
-from .output import print_json
+from .output import print_failure, print_json, print_text
 from .progress import check_progress
 
 
@@ -23,6 +23,12 @@ from .progress import check_progress
 @click.option(
     "--timeout", type=click.FloatRange(0.1), default=60.0, show_default=True, help="Time limit of one check [s]."
 )
+@click.option(
+    "--sharp/--no-sharp",
+    default=None,
+    help="Exit 1 as well where a result is loose: within the proven bound, but beyond what rounding does.  "
+    "[default: as with --baseline]",
+)
 @click.option("--no-cache", is_flag=True, help="Do not use results of earlier runs, and keep none.")
 @json_option
 def check(
@@ -33,6 +39,7 @@ def check(
     baseline: Path | None,
     jobs: int | None,
     timeout: float,
+    sharp: bool | None,
     no_cache: bool,
     as_json: bool,
 ) -> int:
@@ -45,22 +52,37 @@ def check(
 
     with worker_processes(jobs or os.cpu_count() or 1, ("furiko.checks.facts", "furiko.checks.cell")) as source:
         from ..reports import compare, read_stream
+        from ..run import ReportNotWritten
         from ..run import check as run_check
 
         before = read_stream(baseline) if baseline else None
+        unwritten = ""
         with check_progress() as watch:
-            report = run_check(
-                scenes or None,
-                engines or None,
-                profile=profile,
-                out=out,
-                jobs=jobs,
-                timeout=timeout,
-                use_cache=not no_cache,
-                source=source,
-                watch=watch,
-            )
-    status = report.exit_status
+            try:
+                report = run_check(
+                    scenes or None,
+                    engines or None,
+                    profile=profile,
+                    out=out,
+                    jobs=jobs,
+                    timeout=timeout,
+                    use_cache=not no_cache,
+                    source=source,
+                    watch=watch,
+                )
+            except ReportNotWritten as error:
+                report, unwritten = error.report, str(error)
+    statuses = [report.exit_status]
+    if unwritten:
+        print_failure(unwritten)
+        statuses.append(INCOMPLETE)
+    if (before is not None if sharp is None else sharp) and any(getattr(r, "loose", False) for r in report.results):
+        statuses.append(DIFFERS)
+    if before is not None:
+        comparison = compare(before, report)
+        statuses.append(comparison.exit_status)
+        if as_json:
+            print_text(comparison.text(), err=True)
     if as_json:
         from ..records.check import CheckReport
 
@@ -68,9 +90,7 @@ def check(
     else:
         from ..reports.terminal.check import print_report
 
-        print_report(report, path=out / "report.html")
-    if before is not None:
-        comparison = compare(before, report)
-        click.echo(comparison.text(), err=as_json)
-        status = DIFFERS if DIFFERS in (status, comparison.exit_status) else max(status, comparison.exit_status)
-    return status
+        print_report(report, path=None if unwritten else out / "report.html")
+        if before is not None:
+            print_text(comparison.text())
+    return DIFFERS if DIFFERS in statuses else max(statuses)

@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from .options import json_option
-from .output import print_json
+from .output import print_json, print_text
 
 
 @click.command()
@@ -24,5 +24,5 @@ def diagnose(model: Path, against: str | None, as_json: bool) -> int:
     if as_json:
         print_json(found.to_json())
     else:
-        click.echo(found.text())
+        print_text(found.text())
     return found.exit_status

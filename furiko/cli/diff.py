@@ -6,6 +6,8 @@ from pathlib import Path
 
 import click
 
+from .output import print_text
+
 
 @click.command()
 @click.argument("before", type=click.Path(path_type=Path))
@@ -19,5 +21,5 @@ def diff(before: Path, after: Path) -> int:
     from ..reports import compare, read_stream
 
     comparison = compare(read_stream(before), read_stream(after))
-    click.echo(comparison.text())
+    print_text(comparison.text())
     return comparison.exit_status

@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from ..records.exit_status import AGREES
+from .output import print_text
 
 
 @click.command()
@@ -24,7 +25,7 @@ def export(scene: str, language: str | None, out: Path | None) -> int:
     system = find_scene(scene).system
     text = to_mjcf(system) if language == "mjcf" else to_urdf(system)
     if out is None:
-        click.echo(text, nl=False)
+        print_text(text, end=False)
     else:
         write_whole(out, text)
     return AGREES

@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from .options import json_option
-from .output import print_json
+from .output import print_json, print_text
 
 
 @click.command()
@@ -42,5 +42,5 @@ def grade(
     if as_json:
         print_json(found.to_dict())
     else:
-        click.echo(found.text("ja" if japanese else "en"))
+        print_text(found.text("ja" if japanese else "en"))
     return found.exit_status

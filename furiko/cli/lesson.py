@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from ..records.exit_status import AGREES
+from .output import print_text
 
 
 @click.command()
@@ -22,7 +23,10 @@ def lesson(out: Path) -> int:
 
     Each mistake begins with a question and shows the motion that it causes. In English and Japanese.
     """
+    from ..models.writers.whole_file import require_writable
+
+    require_writable(out)  # first: making the page takes a while
     from ..derivations.lesson.lesson import write_lesson
 
-    click.echo(f"Lesson: {write_lesson(out)}")
+    print_text(f"Lesson: {write_lesson(out)}")
     return AGREES

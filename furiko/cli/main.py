@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import difflib
 import os
 import sys
 from importlib import import_module
@@ -9,7 +11,12 @@ from importlib import import_module
 import click
 
 from .. import __version__
-from ..records.exit_status import AGREES, BAD_INPUT, INCOMPLETE, INTERRUPTED
+from ..records.exit_status import AGREES, CLOSED_PIPE
+from .failures import Failure, failure_of
+from .output import documents_printed, print_failure, print_json
+from .process import OutputFailed, flush, open_standard_streams
+
+COMPLETION = "_FURIKO_COMPLETE"  # set by a shell that asks for completions
 
 # The command NAME is the function NAME in the file NAME.py. Its line in `furiko --help` is the first line of its own
 # help (a test compares them); it is repeated here so that `furiko --help` imports no command.
@@ -39,6 +46,19 @@ class _Commands(click.Group):
         command: click.Command = getattr(import_module(f".{cmd_name}", __package__), cmd_name)
         return command
 
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """The command that the first word names. A word that is none is answered with the nearest one."""
+        word = args[0]
+        if word not in self.commands and not word.startswith("-"):
+            close = difflib.get_close_matches(word, self.commands, n=1)
+            hint = f" (did you mean {close[0]!r}?)" if close else ""
+            raise click.UsageError(
+                f"{word[:100]!r}: no such command{hint}; commands are {', '.join(self.commands)}", ctx
+            )
+        return super().resolve_command(ctx, args)
+
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """The list of commands in the help, from the placeholders."""
         with formatter.section("Commands"):
@@ -57,34 +77,35 @@ def cli() -> None:
 
 def main() -> None:
     """Run the command line of this process, and end the process with its exit status."""
+    open_standard_streams()
     sys.exit(run(sys.argv[1:]))
 
 
 def run(arguments: list[str]) -> int:
-    """Run one command line; returns its exit status. An error that the user can correct is one line on stderr."""
+    """Run one command line; returns its exit status. A failure is one line on stderr, and a document with --json."""
+    before = documents_printed()
     try:
-        status = cli.main(arguments, prog_name="furiko", standalone_mode=False)
-        sys.stdout.flush()
-    except click.ClickException as error:
-        return _fail(error.format_message(), BAD_INPUT)
-    except (KeyboardInterrupt, click.Abort):
-        return _fail("interrupted; a stream of results that was being written has no footer: incomplete", INTERRUPTED)
-    except BrokenPipeError:
-        # The reader of standard output has closed it, so nothing more can be printed there.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return INTERRUPTED
-    except (ValueError, RuntimeError) as error:
-        # Imported here, not above: a check starts its workers before it imports numpy.
-        from ..models import EngineMissing, InvalidInput
-
-        if isinstance(error, InvalidInput):
-            return _fail(str(error), BAD_INPUT)
-        if isinstance(error, EngineMissing):
-            return _fail(str(error), INCOMPLETE)
-        raise
+        status = cli.main(arguments or ["--help"], prog_name="furiko", standalone_mode=False)
+        flush()
+    except BaseException as error:
+        if isinstance(error, SystemExit) and COMPLETION in os.environ:
+            return error.code if isinstance(error.code, int) else AGREES
+        # click turns a signal's exception into its own
+        cause = error.__cause__ if isinstance(error, click.Abort) and error.__cause__ else error
+        with_document = "--json" in arguments and documents_printed() == before
+        return _fail(failure_of(cause), with_document=with_document)
     return status if isinstance(status, int) else AGREES
 
 
-def _fail(message: str, status: int) -> int:
-    print(f"furiko: {' '.join(message.split())}", file=sys.stderr)
-    return status
+def _fail(failure: Failure, *, with_document: bool) -> int:
+    """Say it: whatever standard output and error take. The status stays that of the failure."""
+    if failure.message:
+        print_failure(failure.message)
+    if with_document and failure.status != CLOSED_PIPE:
+        from ..records.errors import Error, ErrorDocument
+
+        what, where, help_ = failure.parts()
+        with contextlib.suppress(OutputFailed):
+            print_json(ErrorDocument(error=Error(what=what, where=where, help=help_)))
+            flush()
+    return failure.status

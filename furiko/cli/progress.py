@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from ..records.printable import printable
+
 if TYPE_CHECKING:
     from ..checks.plan import Plan
     from ..records.check import Result
@@ -20,6 +22,7 @@ def check_progress() -> Iterator[Callable[[Plan, Result], None] | None]:
         yield None
         return
     from rich.console import Console
+    from rich.markup import escape
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
@@ -32,7 +35,7 @@ def check_progress() -> Iterator[Callable[[Plan, Result], None] | None]:
             # An engine has one trajectory result for each integrator: they count as the one check that was planned.
             seen.add((result.scene, result.engine, result.comparison))
             total = sum(len(t.checks) for t in plan.tasks) + len(settled)
-            now = f"{result.scene} {result.engine}"
+            now = escape(printable(f"{result.scene} {result.engine}"))
             bar.update(task, completed=min(len(seen), total), total=total, description=now)
 
         yield watch
@@ -48,7 +51,7 @@ def status_line() -> Iterator[Callable[[str], None]]:
     from rich.markup import escape
 
     with Console(stderr=True).status("") as status:
-        yield lambda words: status.update(escape(words))
+        yield lambda words: status.update(escape(printable(words)))
 
 
 @contextmanager
@@ -58,6 +61,7 @@ def stress_progress() -> Iterator[Callable[[Progress], None] | None]:
         yield None
         return
     from rich.console import Console
+    from rich.markup import escape
     from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
     from rich.progress import Progress as Bar
 
@@ -72,6 +76,13 @@ def stress_progress() -> Iterator[Callable[[Progress], None] | None]:
 
         def watch(now: Progress) -> None:
             total = now.done + now.open  # every open question takes at least one more case
-            bar.update(task, completed=now.done, total=total, description=now.now, done=now.done, open=now.open)
+            bar.update(
+                task,
+                completed=now.done,
+                total=total,
+                description=escape(printable(now.now)),
+                done=now.done,
+                open=now.open,
+            )
 
         yield watch

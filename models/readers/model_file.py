@@ -50,8 +50,6 @@ class ModelFile:
 def read_model(path: str | Path) -> ModelFile:
     """Read an MJCF or URDF file. Raises :class:`InvalidInput` naming the file, the element, and what would be right."""
     where = Path(path)
-    if where.is_dir():
-        raise InvalidInput(f"{where}: a folder; an MJCF or URDF file is needed")
     return _understand(read_xml(where), where)
 
 

@@ -13,6 +13,7 @@ from xml.parsers import expat
 from xml.sax.saxutils import quoteattr
 
 from ..errors import InvalidInput
+from .bounded_file import read_bytes, shown
 
 LARGEST_FILE = 8_000_000  # bytes
 MOST_ELEMENTS = 50_000
@@ -54,16 +55,7 @@ class Element:
 
 def read_xml(path: Path) -> Element:
     """The file's root element. Raises :class:`InvalidInput`."""
-    try:
-        with path.open("rb") as stream:
-            content = stream.read(LARGEST_FILE + 1)
-    except OSError as error:
-        raise InvalidInput(f"{path}: cannot be read: {error.strerror or error}") from None
-    except ValueError as error:  # a null byte in the name
-        raise InvalidInput(f"{str(path)!r:.80}: cannot be read: {error}") from None
-    if len(content) > LARGEST_FILE:
-        raise InvalidInput(f"{path}: larger than {LARGEST_FILE // 1_000_000} MB, the most that is read")
-    return parse_xml(content, str(path))
+    return parse_xml(read_bytes(path, LARGEST_FILE), shown(path))
 
 
 def parse_xml(content: bytes, file: str) -> Element:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import tempfile
 from pathlib import Path
 
 from ..errors import InvalidInput
+from ..readers.bounded_file import shown
 
 
 def write_whole(path: Path, text: str) -> Path:
@@ -20,12 +22,46 @@ def write_whole(path: Path, text: str) -> Path:
         else:
             _replace(path.resolve(), text)
     except OSError as error:
-        raise InvalidInput(f"{path}: cannot be written: {error.strerror or error}") from None
+        raise _unwritable(path, error) from None
     return path
 
 
+def require_writable(path: Path) -> None:
+    """Raise :class:`InvalidInput` where :func:`write_whole` could not write: asked before hours of work, not after."""
+    try:
+        if path.is_dir():
+            raise InvalidInput(f"{shown(path)}: cannot be written: Is a directory")
+        if path.exists() and not path.is_file():
+            return  # a device or a pipe
+        draft = _draft(path.resolve())
+        try:
+            draft.touch()
+        finally:
+            draft.unlink(missing_ok=True)
+    except OSError as error:
+        raise _unwritable(path, error) from None
+
+
+def make_folder(folder: Path) -> None:
+    """Make a folder that files can be written in. Raises :class:`InvalidInput` where that fails."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise _unwritable(folder, error) from None
+
+
+def _unwritable(path: Path, error: OSError) -> InvalidInput:
+    return InvalidInput(f"{shown(path)}: cannot be written: {error.strerror or error}")
+
+
+def _draft(path: Path) -> Path:
+    return path.with_name(f".{path.name}.{os.getpid()}")
+
+
 def _replace(path: Path, text: str) -> None:
-    draft = path.with_name(f".{path.name}.{os.getpid()}")
+    draft = _draft(path)
     try:
         draft.write_text(text, encoding="utf-8", newline="\n")
         draft.replace(path)

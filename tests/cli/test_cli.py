@@ -38,7 +38,10 @@ def run(*arguments, cwd, timeout=120, **options):
 
 def one_clear_line(done, status):
     assert done.returncode == status, done
-    assert done.stdout == ""
+    if "--json" in done.args:
+        assert set(json.loads(done.stdout)) == {"error"}
+    else:
+        assert done.stdout == ""
     (line,) = done.stderr.splitlines()
     assert line.startswith("furiko: ")
     return line
@@ -223,7 +226,7 @@ def test_help_is_printed(tmp_path, arguments):
 
 def test_every_file_of_a_command_is_listed():
     files = {path.stem for path in (Path(furiko.__file__).parent / "cli").glob("*.py")}
-    assert files - {"__init__", "main", "options", "output", "progress"} == set(COMMANDS)
+    assert files - {"__init__", "main", "options", "output", "progress", "process", "failures"} == set(COMMANDS)
 
 
 @pytest.mark.parametrize("name", COMMANDS)
@@ -244,7 +247,8 @@ def test_a_command_imports_no_other(tmp_path):
         "print([name for name in sys.modules if name.startswith('furiko.')], file=sys.stderr)"
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=tmp_path, check=True)
-    names = {"cli", "cli.main", "cli.scenes", "cli.options", "cli.output", "records", "records.exit_status"}
+    names = {"cli", "cli.main", "cli.scenes", "cli.options", "cli.output", "cli.process", "cli.failures"}
+    names |= {"records", "records.exit_status", "records.printable"}
     assert {name.removeprefix("furiko.") for name in ast.literal_eval(done.stderr)} == names
 
 

@@ -29,8 +29,8 @@ def test_everything_but_the_system_is_optional():
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("[system\n", "not valid TOML.*line 1"),
-        ("x = " + "[" * 5000, "nested too deeply|not valid TOML"),
+        ("[system\n", "not TOML.*line 1"),
+        ("x = " + "[" * 5000, "nested too deeply|not TOML"),
         ("", "system"),
         ('[system]\nkind = "rods"\nlengths = [1]', "system.kind: .*'rods'"),
         ('[system]\nkind = "rod-chain"', "system: .*lengths"),

@@ -9,7 +9,18 @@ from package_rooms import MODULES, ROOT, circles, folder, imports, picture, room
 # folder and from those before it. Folders in one tuple do not see each other; "." is the room's own files.
 ROOMS = {
     "records": (set(), [(".",)]),
-    "models": (set(), [(".",), ("readers.xml_file", "readers.attributes"), ("readers.mjcf",), ("readers", "writers")]),
+    "models": (
+        set(),
+        [
+            ("errors",),
+            ("readers.bounded_file",),
+            ("readers.toml_text", "writers.whole_file"),
+            (".",),
+            ("readers.xml_file", "readers.attributes"),
+            ("readers.mjcf",),
+            ("readers", "writers"),
+        ],
+    ),
     "reference": (
         {"models"},
         [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from ..xml_file import DEEPEST, MOST_ELEMENTS, Element, read_xml
@@ -53,7 +54,7 @@ def _include(element: Element, folder: Path, seen: set[Path]) -> list[Element]:
         raise element.wrong(
             f"file={name[:80]!r}: outside the model's own folder, where nothing is read; move it inside"
         )
-    if not path.is_file():
+    if not os.path.isfile(path):  # pathlib's raises where the name is too long
         raise element.wrong(f"file={name[:80]!r}: cannot be read: there is no such file in the model's folder")
     if path in seen:
         raise element.wrong(f"file={name[:80]!r}: included twice, or by itself")

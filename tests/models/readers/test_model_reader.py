@@ -233,7 +233,7 @@ def test_a_huge_file_is_not_read(tmp_path, size):
     path = tmp_path / "model.xml"
     with path.open("wb") as stream:
         stream.truncate(size)
-    with pytest.raises(InvalidInput, match="larger than 8 MB"):
+    with pytest.raises(InvalidInput, match="larger than 8,000,000 bytes"):
         read_model(path)
 
 

@@ -1,0 +1,106 @@
+"""The process of a command: signals that end it, and standard streams that may be closed, full, or nowhere."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import os
+import signal
+import sys
+import time
+from types import FrameType
+from typing import TextIO
+
+QUIET = 2.0  # [s] in which a second signal is the same wish: a closed terminal sends several
+
+
+class Stopped(KeyboardInterrupt):
+    """A signal asked this process to end; it does so as after Ctrl-C: what is open is closed, workers are ended."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(signal.Signals(number).name)
+        self.status = 128 + number
+
+
+class OutputFailed(Exception):
+    """Standard output takes nothing more. No OSError, so that no library takes it for one of its own files."""
+
+    def __init__(self, error: OSError) -> None:
+        super().__init__(error.strerror or str(error))
+        self.closed_by_reader = isinstance(error, BrokenPipeError)
+
+
+def catch_signals() -> None:
+    """Raise :class:`Stopped` at SIGINT, SIGTERM and SIGHUP. A signal that this process was told to ignore stays so."""
+    last = -QUIET
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        nonlocal last
+        before, last = last, time.monotonic()
+        if last - before >= QUIET:
+            raise Stopped(number)
+
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) in (signal.SIG_DFL, signal.default_int_handler):
+            signal.signal(number, stop)
+
+
+def open_standard_streams() -> None:
+    """Give this process three standard streams whatever it was started with.
+
+    A closed one is taken by ``/dev/null``, as the next file that is opened would take its number. What standard output
+    cannot take raises :class:`OutputFailed`, once; what standard error cannot take is lost.
+    """
+    closed = {number for number in (0, 1, 2) if not _is_open(number)}
+    for number in sorted(closed):
+        # read-only for standard output, so that writing fails
+        taken = os.open(os.devnull, os.O_WRONLY if number == 2 else os.O_RDONLY)
+        if taken != number:
+            os.dup2(taken, number)
+            os.close(taken)
+    sys.stdout = _text(_Raw(1, raises=True), sys.stdout)
+    sys.stderr = _text(_Raw(2, raises=False), sys.stderr)
+
+
+def flush() -> None:
+    """Write what is left. Raises :class:`OutputFailed`."""
+    if sys.stdout is not None:
+        sys.stdout.flush()
+
+
+class _Raw(io.FileIO):
+    """A standard stream's file, never closed by its object."""
+
+    def __init__(self, number: int, *, raises: bool) -> None:
+        super().__init__(number, "wb", closefd=False)
+        self._raises = raises
+        self._failed = False
+
+    def write(self, content: object, /) -> int:
+        if not self._failed:
+            try:
+                return super().write(content) or 0  # type: ignore[arg-type]
+            except OSError as error:
+                self._failed = True  # the interpreter writes what is left when it ends: that must not fail again
+                if self._raises:
+                    raise OutputFailed(error) from None
+        return memoryview(content).nbytes  # type: ignore[arg-type]
+
+
+def _text(raw: _Raw, before: TextIO | None) -> io.TextIOWrapper:
+    if before is not None:
+        with contextlib.suppress(OSError):
+            before.flush()
+    encoding = getattr(before, "encoding", None) or "utf-8"
+    # a character that the encoding does not know is written out, and no error
+    return io.TextIOWrapper(
+        io.BufferedWriter(raw), encoding=encoding, errors="backslashreplace", line_buffering=raw.isatty()
+    )
+
+
+def _is_open(number: int) -> bool:
+    try:
+        os.fstat(number)
+    except OSError:
+        return False
+    return True
