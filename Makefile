@@ -4,13 +4,18 @@ VENV ?= .venv
 BIN := $(VENV)/bin
 JOBS ?= 2
 
-.PHONY: check test lint models architecture clean
+.PHONY: check test test-slow test-all lint models architecture clean
 
 check: $(VENV)/.check  ## run the catalogue against every engine; writes furiko-report/
 	$(BIN)/furiko check
 
-test: $(VENV)/.test  ## run the tests
-	$(BIN)/python -m pytest -n $(JOBS)
+test: $(VENV)/.test  ## run the tests, less the slow ones: some minutes
+	$(BIN)/python -m pytest -n $(JOBS) -m "not slow"
+
+test-slow: $(VENV)/.test  ## run the slow tests alone
+	$(BIN)/python -m pytest -n $(JOBS) -m slow
+
+test-all: test test-slow  ## run every test
 
 lint: $(VENV)/.test  ## ruff, mypy --strict and basedpyright
 	$(BIN)/ruff check .
