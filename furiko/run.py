@@ -17,8 +17,8 @@ from .engines import engine_version
 from .engines.workers.processes import Workers, worker_processes
 from .models import Scene, catalogue
 from .records import provenance
-from .records.check import OUTCOMES, EngineEntry, Footer, Header, Result, SceneEntry
-from .reports import Report, StreamWriter, open_report, prepare_reports, write_reports
+from .records.check import EngineEntry, Footer, Header, Result, SceneEntry
+from .reports import Report, StreamWriter, footer_of, open_report, prepare_reports, write_reports
 
 SEED = "sha256 of the scene's name, PCG64"
 
@@ -54,7 +54,7 @@ def check(
         workers = source or open_until_done.enter_context(worker_processes(modules=MODULES))
         ledger = Ledger(plan)
         running = run(plan, cache=cache, source=workers, jobs=jobs, timeout=timeout, ledger=ledger)
-        header = make_header(plan, given)  # while they work: the formulas in it need numpy
+        header = make_header(plan, given, engines)  # while they work: the formulas in it need numpy
         stream = None if out is None else open_until_done.enter_context(open_report(out, header))
         if stream is not None:
             prepare_reports()  # likewise: at the end of a small run nothing else would be left to do
@@ -78,12 +78,14 @@ def check(
 def _footer(stream: StreamWriter | None, results: Sequence[Result], seconds: float) -> Footer:
     if stream is not None:
         return stream.finish(seconds)
-    counts = {outcome: sum(result.outcome == outcome for result in results) for outcome in OUTCOMES}
-    return Footer(**counts, seconds=seconds)
+    return footer_of(results, seconds=seconds)
 
 
-def make_header(plan: Plan, given: Sequence[str] | None) -> Header:
-    """The first line of the stream: what runs, where, with what. ``given``: scenes as the user named them, or None."""
+def make_header(plan: Plan, given: Sequence[str] | None, engines: Sequence[str] | None = None) -> Header:
+    """The first line of the stream: what runs, where, with what.
+
+    ``given``, ``engines``: scenes and engines as the user named them; None where all run.
+    """
     sources = {} if given is None else dict(zip((scene.name for scene in plan.scenes), given, strict=False))
     return Header(
         furiko=__version__,
@@ -93,18 +95,25 @@ def make_header(plan: Plan, given: Sequence[str] | None) -> Header:
         seed=SEED,
         machine=provenance.machine(),
         versions=provenance.versions(),
-        scenes=[scene_entry(scene, plan, sources.get(scene.name, scene.name)) for scene in plan.scenes],
+        scenes=[
+            scene_entry(scene, plan, sources.get(scene.name, scene.name), asked=given is not None)
+            for scene in plan.scenes
+        ],
         engines=[
             EngineEntry(
-                name=info.name, formulation=info.formulation, package=info.package, version=engine_version(info.name)
+                name=info.name,
+                formulation=info.formulation,
+                package=info.package,
+                version=engine_version(info.name),
+                asked=engines is not None,
             )
             for info in plan.engines
         ],
     )
 
 
-def scene_entry(scene: Scene, plan: Plan, source: str) -> SceneEntry:
-    """One scene in the header. ``source``: what to pass to ``furiko check`` to run it again."""
+def scene_entry(scene: Scene, plan: Plan, source: str, *, asked: bool = False) -> SceneEntry:
+    """One scene in the header. ``source``: what to pass to ``furiko check`` to run it again; ``asked``: by name."""
     from .reference import EQUATIONS
 
     system = scene.system
@@ -122,4 +131,5 @@ def scene_entry(scene: Scene, plan: Plan, source: str) -> SceneEntry:
         equations=[f"{name}: {formulas[name]}" if name in formulas else name for name in scene.equations],
         tags=list(scene.tags),
         source=scene.name if scene.name in catalogue() else source,
+        asked=asked,
     )
