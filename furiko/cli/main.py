@@ -86,5 +86,7 @@ def run(arguments: list[str]) -> int:
 
 
 def _fail(message: str, status: int) -> int:
-    print(f"furiko: {' '.join(message.split())}", file=sys.stderr)
+    from ..reports.words import one_line  # a path or a name in the message may hold escape sequences
+
+    print(f"furiko: {one_line(message)}", file=sys.stderr)
     return status

@@ -72,6 +72,12 @@ def test_a_named_scene_of_which_nothing_is_compared_is_status_3(tmp_path):
     assert "Incomplete: 1 agrees" in done.stdout
 
 
+def test_a_path_with_escapes_is_written_out(tmp_path):
+    done = run("check", "\x1b[2J\u202e.toml", cwd=tmp_path)
+    assert "\\x1b[2J\\u202e.toml" in one_clear_line(done, 2)
+    assert "\x1b" not in done.stderr
+
+
 def test_a_failing_engine_is_status_3(tmp_path):
     done = run("check", "rods-2", "-e", "fake_engines:Nan", "--profile", "smoke", cwd=tmp_path)
     assert done.returncode == 3
