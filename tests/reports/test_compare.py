@@ -45,6 +45,13 @@ def test_outcomes(make, before, after, mark, status):
         assert f"  {mark} rods-2 × mujoco, accelerations: " in comparison.text()
 
 
+def test_what_became_loose_or_is_no_longer_is_marked(make):
+    tight, loose = (make.report(make.result(outcome, measured=50.0)) for outcome in ("agrees", "loose"))
+    assert marks(compare(tight, loose)) == marks(compare(loose, tight)) == "~"
+    assert "agrees 50 ε → loose 50 ε" in compare(tight, loose).text()
+    assert marks(compare(loose, loose)) == " "
+
+
 @pytest.mark.parametrize(
     ("before", "after", "unit", "mark"),
     [

@@ -47,7 +47,7 @@ def run(make, text: str, outcome: str) -> Report:
 
 def shown(report: Report) -> dict[str, str]:
     stream = io.StringIO()
-    print_report(report, path="furiko-report\x1b[2J/\u202e\n.html", file=stream)
+    print_report(report, path="furiko-report\x1b[2J/\u202e\nAll 30 agree.html", file=stream)
     return {
         "terminal": stream.getvalue(),
         "markdown": to_markdown(report),
