@@ -7,8 +7,6 @@ from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 
-import msgspec
-
 from . import __version__
 from .checks.cache import Cache, user_cache
 from .checks.jobs import MODULES
@@ -19,8 +17,8 @@ from .engines import engine_version
 from .engines.workers.processes import Workers, worker_processes
 from .models import InvalidInput, Scene, catalogue
 from .records import provenance
-from .records.check import OUTCOMES, EngineEntry, Footer, Header, Result, SceneEntry
-from .reports import Report, StreamWriter, open_report, prepare_reports, write_reports
+from .records.check import EngineEntry, Footer, Header, Result, SceneEntry
+from .reports import Report, StreamWriter, footer_of, open_report, prepare_reports, write_reports
 
 SEED = "sha256 of the scene's name, PCG64"
 
@@ -107,14 +105,13 @@ def _footer(stream: StreamWriter | None, results: Sequence[Result], seconds: flo
             return stream.finish(seconds)
         except InvalidInput as error:
             unwritten.append(str(error))
-    counts = {outcome: sum(result.outcome == outcome for result in results) for outcome in OUTCOMES}
-    return Footer(**counts, seconds=seconds)
+    return footer_of(results, seconds=seconds)
 
 
 def make_header(plan: Plan, given: Sequence[str] | None, engines: Sequence[str] | None = None) -> Header:
     """The first line of the stream: what runs, where, with what.
 
-    ``given``, ``engines``: scenes and engines as the user named them, or None.
+    ``given``, ``engines``: scenes and engines as the user named them; None where all run.
     """
     sources = {} if given is None else dict(zip((scene.name for scene in plan.scenes), given, strict=False))
     return Header(
@@ -126,9 +123,7 @@ def make_header(plan: Plan, given: Sequence[str] | None, engines: Sequence[str] 
         machine=provenance.machine(),
         versions=provenance.versions(),
         scenes=[
-            msgspec.structs.replace(
-                scene_entry(scene, plan, sources.get(scene.name, scene.name)), asked=scene.name in sources
-            )
+            scene_entry(scene, plan, sources.get(scene.name, scene.name), asked=given is not None)
             for scene in plan.scenes
         ],
         engines=[
@@ -137,15 +132,15 @@ def make_header(plan: Plan, given: Sequence[str] | None, engines: Sequence[str] 
                 formulation=info.formulation,
                 package=info.package,
                 version=engine_version(info.name),
-                asked=info.name in (engines or ()),
+                asked=engines is not None,
             )
             for info in plan.engines
         ],
     )
 
 
-def scene_entry(scene: Scene, plan: Plan, source: str) -> SceneEntry:
-    """One scene in the header. ``source``: what to pass to ``furiko check`` to run it again."""
+def scene_entry(scene: Scene, plan: Plan, source: str, *, asked: bool = False) -> SceneEntry:
+    """One scene in the header. ``source``: what to pass to ``furiko check`` to run it again; ``asked``: by name."""
     from .reference import EQUATIONS
 
     system = scene.system
@@ -163,4 +158,5 @@ def scene_entry(scene: Scene, plan: Plan, source: str) -> SceneEntry:
         equations=[f"{name}: {formulas[name]}" if name in formulas else name for name in scene.equations],
         tags=list(scene.tags),
         source=scene.name if scene.name in catalogue() else source,
+        asked=asked,
     )

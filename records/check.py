@@ -1,4 +1,4 @@
-"""The result stream's records: one header, a result for each comparison, one footer.
+"""The result stream's records: one header, a result for each comparison, diagnoses, one footer.
 
 The checks make them and the reports read them; neither imports the other.
 """
@@ -8,6 +8,8 @@ from __future__ import annotations
 from typing import Any, Literal
 
 import msgspec
+
+from .findings import Difference
 
 FORMAT = 2  # 2: a result carries `comparison`
 Outcome = Literal["agrees", "differs", "skipped", "error"]
@@ -62,7 +64,9 @@ class Result(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag="r
 
     ``measured`` and ``allowed`` are in ``unit`` (``ε``: multiples of 2⁻⁵² of the sum of the terms' magnitudes); None
     where nothing was measured. ``cause``: a stable code, where one is known. ``reason``: a sentence: why it differs,
-    was skipped or failed, or where the bound comes from. ``details``: further figures, check by check.
+    was skipped or failed, or where the bound comes from. ``details``: further figures, check by check. ``loose``: the
+    result agrees, since ``measured`` is within ``allowed``, but it is beyond ``line``, which rounding does not exceed
+    in this state.
     """
 
     scene: str
@@ -77,7 +81,24 @@ class Result(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag="r
     reason: str = ""
     seconds: float = 0.0
     kept: bool = False  # from an earlier run with the very same inputs
+    loose: bool = False  # only where it agrees
+    line: float | None = None  # the sharp line, in `unit`; None: there is none
     details: dict[str, Any] = {}
+
+
+class Diagnosis(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag="diagnosis"):
+    """Why one engine differs in one scene: everything that was found.
+
+    All of ``findings`` hold together. Where ``alternatives`` has entries, exactly one of them holds besides: the
+    measurements cannot tell which. ``explains``: the ``check`` of each result that these causes explain together. A
+    finding whose cause is ``unexplained`` describes what is left.
+    """
+
+    scene: str
+    engine: str
+    findings: list[Difference] = []
+    alternatives: list[Difference] = []
+    explains: list[str] = []
 
 
 class Footer(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag="footer"):
@@ -87,10 +108,12 @@ class Footer(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag="f
     differs: int
     skipped: int
     error: int
+    loose: int = 0  # of those that agree
+    diagnoses: int = 0
     seconds: float = 0.0
 
 
-Record = Header | Result | Footer
+Record = Header | Result | Diagnosis | Footer
 
 
 class CheckReport(msgspec.Struct, frozen=True, kw_only=True):
@@ -99,3 +122,4 @@ class CheckReport(msgspec.Struct, frozen=True, kw_only=True):
     header: Header
     results: list[Result]
     footer: Footer | None  # None: the run was cut off
+    diagnoses: list[Diagnosis] = []

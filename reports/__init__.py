@@ -4,7 +4,7 @@ Imports records, and of models the errors and the readers and writers of whole f
 """
 
 from .compare import Comparison, compare
-from .report import Report, TableCell
+from .report import Report, TableCell, footer_of
 from .stream import StreamWriter, read_stream
 from .write import open_report, prepare_reports, write_reports
 
@@ -14,6 +14,7 @@ __all__ = [
     "StreamWriter",
     "TableCell",
     "compare",
+    "footer_of",
     "open_report",
     "prepare_reports",
     "read_stream",

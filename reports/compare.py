@@ -10,7 +10,7 @@ from typing import Literal
 from ..records.check import Result
 from ..records.exit_status import AGREES, DIFFERS, INCOMPLETE
 from .report import Report
-from .words import count, figure, one_line
+from .words import count, figure, one_line, word
 
 # ! agreed, or was missing, and now differs or fails     * differed or failed and now agrees
 # + error grew     - error shrank     x bound or unit changed, so the errors cannot be compared
@@ -70,7 +70,7 @@ class Comparison:
         """0: nothing broke; 1: something differs or fails now that did not before; 3: a run is incomplete."""
         if self.marked("!"):
             return DIFFERS
-        return AGREES if self.before.complete and self.after.complete else INCOMPLETE
+        return AGREES if self.before.complete and not self.after.flaws else INCOMPLETE
 
     def text(self) -> str:
         """One line for each change, under headings; unchanged comparisons are only counted."""
@@ -124,7 +124,7 @@ def _mark(before: Result | None, after: Result | None, factor: float) -> Mark:  
         return ">"
     if before.outcome in BAD and after.outcome == "agrees":
         return "*"
-    if before.outcome != after.outcome:
+    if word(before) != word(after):
         return "~"
     if after.measured is None and before.measured is None:
         return " "
@@ -159,5 +159,5 @@ def _figures(result: Result | None) -> str:
     if result is None:
         return "none"
     if result.measured is None:
-        return result.outcome
-    return f"{result.outcome} {figure(result.measured)} {result.unit}".rstrip()
+        return word(result)
+    return f"{word(result)} {figure(result.measured)} {result.unit}".rstrip()

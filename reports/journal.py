@@ -18,6 +18,7 @@ from ..models.readers.bounded_file import open_regular, shown
 from ..records.check import Header, Result
 from .report import Report
 from .stream import LARGEST_STREAM, StreamWriter, read_stream
+from .words import word
 
 HEADER_START = b'{"kind":"header"'
 
@@ -122,7 +123,8 @@ class _Appending(StreamWriter):
 
     def __init__(self, path: Path, before: Report) -> None:
         super().__init__(path, before.header)
-        self._counts.update(result.outcome for result in before.results)
+        self._counts.update(word(result) for result in before.results)
+        self._diagnoses = len(before.diagnoses)
 
     def __enter__(self) -> StreamWriter:
         try:

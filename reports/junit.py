@@ -5,8 +5,9 @@ from __future__ import annotations
 from xml.etree import ElementTree as XML
 
 from ..records.check import Outcome, Result
-from .report import Report, against
-from .words import last_line, one_line, printable
+from .causes import Explanation
+from .report import Report, against, against_line
+from .words import last_line, one_line, printable, word
 
 # JUnit's element for an outcome, inside a test case. One that agrees has none.
 ELEMENTS: dict[Outcome, str] = {"differs": "failure", "error": "error", "skipped": "skipped"}
@@ -22,7 +23,7 @@ def to_junit(report: Report) -> str:
         if results:
             suite = _suite(suites, scene, report)
             for result in results:
-                _case(suite, result)
+                _case(suite, result, report.causes.explanation_of(result))
             _count(suite)
     if report.flaws:
         suite = _suite(suites, "furiko", report)
@@ -30,7 +31,7 @@ def to_junit(report: Report) -> str:
             case = XML.SubElement(
                 suite, "testcase", {"classname": "furiko.run", "name": "the run is whole", "time": "0"}
             )
-            XML.SubElement(case, "error", {"message": flaw, "type": "incomplete"})
+            XML.SubElement(case, "error", {"message": one_line(flaw), "type": "incomplete"})
         _count(suite)
     for field in ("tests", "failures", "errors", "skipped"):
         suites.set(field, str(sum(int(suite.get(field, "0")) for suite in suites)))
@@ -44,9 +45,12 @@ def _suite(suites: XML.Element, name: str, report: Report) -> XML.Element:
     return XML.SubElement(suites, "testsuite", {"name": printable(name), "timestamp": printable(started)})
 
 
-def _case(suite: XML.Element, result: Result) -> None:
+def _case(suite: XML.Element, result: Result, explanation: Explanation | None) -> None:
     where = {"classname": printable(f"{result.scene}.{result.engine}"), "name": printable(result.check)}
     case = XML.SubElement(suite, "testcase", where | {"time": _seconds(result.seconds)})
+    if word(result) == "loose":
+        loose = one_line(f"loose: {against_line(result)}: {last_line(result.reason)}".rstrip(": "))
+        XML.SubElement(case, "system-out").text = loose
     element = ELEMENTS.get(result.outcome)
     if element is None:
         return
@@ -55,8 +59,17 @@ def _case(suite: XML.Element, result: Result) -> None:
         message = one_line(f"{against(result)}: {message}")
     said = XML.SubElement(case, element, {"message": message})
     if result.outcome != "skipped":
-        said.set("type", printable(result.cause or result.outcome))
-        said.text = printable("\n".join([result.reason, str(result.details.get("traceback", ""))]).strip())
+        found = [] if explanation is None else [explanation.headline, *explanation.lines]
+        said.set("type", printable(_code(result, explanation)))
+        text = [*found, result.reason, str(result.details.get("traceback", ""))]
+        said.text = printable("\n".join(text).strip())
+
+
+def _code(result: Result, explanation: Explanation | None) -> str:
+    """The cause's code: the first of those that hold together."""
+    if explanation is not None:
+        return (explanation.together or explanation.alternatives)[0].code
+    return result.cause or result.outcome
 
 
 def _count(suite: XML.Element) -> None:

@@ -1,25 +1,29 @@
-"""The summary for a CI step (GITHUB_STEP_SUMMARY) or a comment: differences first, the table, details folded."""
+"""The summary for a CI step (GITHUB_STEP_SUMMARY) or a comment: causes first, the table, details folded."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
 from ..records.check import Result
-from .report import Report, TableCell
-from .words import GLYPHS, LEGEND, figure, last_line, one_line
+from .causes import Explanation
+from .report import Report, TableCell, group_line
+from .words import GLYPHS, LEGEND, figure, last_line, listed, one_line
 
 MOST_LISTED = 50  # a step summary may hold 1 MiB
-LONGEST_REASON = 400  # characters
-_SAFE = frozenset(" .,;'()/+=-%–…·×≤≥²³√°✓✗") | frozenset("\n")
+LONGEST_REASON = 2000  # characters; none of furiko's own sentences is as long
+_SAFE = frozenset(" .,;'()/+=-%–…·×≤≥²³√°✓✗≈") | frozenset("\n")
 
 
 def to_markdown(report: Report) -> str:
     """GitHub-flavoured Markdown; text from the stream never acts as markup."""
     sections = [
         _top(report),
-        _findings(report.having("differs"), "Differences"),
+        _causes(report),
+        _unexplained(report),
         _findings(report.having("error"), "Failures"),
+        _loose(report),
         _table(report),
+        _differences(report),
         _skips(report),
         _facts(report),
     ]
@@ -39,6 +43,62 @@ def _top(report: Report) -> str:
     flaws = [f"> [!WARNING]\n> {escape(flaw)}" for flaw in report.flaws]
     outliers = [escape(sentence) for sentence in report.outliers]
     return "\n\n".join([f"## furiko {mark} {escape(report.verdict)}", *flaws, *outliers])
+
+
+def _causes(report: Report) -> str:
+    """A list: each cause once, with its scenes."""
+    items = [_cause(explanation) for explanation in report.causes.explanations[:MOST_LISTED]]
+    more = len(report.causes.explanations) - MOST_LISTED
+    return _section("Causes", items, more)
+
+
+def _cause(explanation: Explanation) -> str:
+    lines = [f"- {escape(explanation.headline)}"]
+    lines += [f"  - {escape(line)}" for line in explanation.lines]
+    return "\n".join([*lines, f"  - scenes: {escape(listed(explanation.scenes))}"])
+
+
+def _unexplained(report: Report) -> str:
+    causes = report.causes
+    items = [f"- {escape(group_line(group))}" for group in causes.unexplained[:MOST_LISTED]]
+    items += [
+        f"  - {escape(engine)}, {escape(listed(scenes))}: {escape(sentence)}"
+        for engine, sentence, scenes in causes.remarks[:MOST_LISTED]
+    ]
+    return _section("Differs without a known cause", items, max(0, len(causes.unexplained) - MOST_LISTED))
+
+
+def _section(title: str, items: Sequence[str], more: int) -> str:
+    if not items:
+        return ""
+    left = f"\n\n… and {more} more; report.html lists all." if more > 0 else ""
+    return f"### {title}\n\n" + "\n".join(items) + left
+
+
+def _loose(report: Report) -> str:
+    if not report.loose:
+        return ""
+    rows = [
+        [
+            *map(escape, (result.scene, result.engine, result.check)),
+            _measured(result.measured, result.unit),
+            _measured(result.line, result.unit),
+            _measured(result.allowed, result.unit),
+            escape(last_line(result.reason)),
+        ]
+        for result in report.loose[:MOST_LISTED]
+    ]
+    table = _rows(["scene", "engine", "check", "measured", "rounding", "allowed", "reason"], rows)
+    more = len(report.loose) - MOST_LISTED
+    left = f"\n\n… and {more} more; report.html lists all." if more > 0 else ""
+    says = "They agree, but with larger errors than rounding explains."
+    return f"### {GLYPHS['loose']} Loose\n\n{says}\n\n{table}{left}"
+
+
+def _differences(report: Report) -> str:
+    """The largest differences one by one, folded: what they have in common is said above."""
+    table = _findings(report.having("differs"), "")
+    return _folded("Differences, the largest first", table.removeprefix("### \n\n")) if table else ""
 
 
 def _findings(results: Sequence[Result], title: str) -> str:
@@ -72,9 +132,9 @@ def _table(report: Report) -> str:
 
 
 def _said(cell: TableCell) -> str:
-    if cell.outcome is None:
+    if cell.word is None:
         return "no result"
-    said = f"{GLYPHS[cell.outcome]} {cell.outcome}"
+    said = f"{GLYPHS[cell.word]} {cell.word}"
     if cell.outcome == "differs":
         said = f"**{said}**"
     return f"{said} {cell.error}".rstrip()

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 import shlex
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from ..records.check import OUTCOMES, EngineEntry, Footer, Header, Outcome, Result, SceneEntry
+from ..records.check import OUTCOMES, Diagnosis, EngineEntry, Footer, Header, Outcome, Result, SceneEntry
 from ..records.exit_status import AGREES, DIFFERS, INCOMPLETE
-from .words import count, few, figure, last_line
+from .causes import Causes, CheckGroup, group_causes
+from .words import Word, count, few, figure, last_line, listed, one_line, tally, word
 
 # The outcome of a cell with several checks is the first of these that occurs: a difference outweighs a failure, and one
 # skipped check says little where others ran.
@@ -33,9 +34,15 @@ class TableCell:
         return next((outcome for outcome in GRAVEST if outcome in found), None)
 
     @cached_property
+    def word(self) -> Word | None:
+        """The outcome; ``loose`` where all that ran agrees and something only loosely."""
+        loose = self.outcome == "agrees" and any(word(result) == "loose" for result in self.results)
+        return "loose" if loose else self.outcome
+
+    @cached_property
     def worst(self) -> Result | None:
-        """The result that decides: with the cell's outcome, and the largest error as a multiple of what is allowed."""
-        deciding = [result for result in self.results if result.outcome == self.outcome]
+        """The result that decides: with the cell's word, and the largest error as a multiple of what is allowed."""
+        deciding = [result for result in self.results if word(result) == self.word]
         return max(deciding, key=_share_or_nothing, default=None)
 
     @property
@@ -45,8 +52,10 @@ class TableCell:
 
     @cached_property
     def rounding(self) -> float | None:
-        """Worst error as a multiple of rounding [ε], over the checks that measure in it."""
-        errors = [r.measured for r in self.results if r.unit == "ε" and r.measured is not None]
+        """Worst error as a multiple of rounding [ε], over the checks that measure in it; of a loose cell, over its
+        loose results."""
+        deciding = [r for r in self.results if word(r) == "loose"] if self.word == "loose" else self.results
+        errors = [r.measured for r in deciding if r.unit == "ε" and r.measured is not None]
         return max(errors, default=None)
 
     @property
@@ -61,22 +70,55 @@ class TableCell:
 
 @dataclass(frozen=True)
 class Report:
-    """A result stream: its header, its results in the order they came, and its footer if the run got that far."""
+    """A result stream: its header, its results in the order they came, its footer if the run got that far, and its
+    diagnoses."""
 
     header: Header
     results: tuple[Result, ...]
     footer: Footer | None = None
+    diagnoses: tuple[Diagnosis, ...] = ()
 
     @property
     def complete(self) -> bool:
-        """Whether the stream is whole: it has its footer, and the footer's counts are those of the results."""
-        return self.footer is not None and self._counted == self.counts
+        """Whether the stream is whole: it has its footer, whose counts are those of its lines, and no line twice."""
+        return self.footer is not None and not self._miscounted and not self.repeated
+
+    @cached_property
+    def repeated(self) -> tuple[Result, ...]:
+        """Results that are in the stream twice, the same to the last digit: no run writes one twice."""
+        first: dict[tuple[object, ...], Result] = {}
+        again = []
+        for result in self.results:
+            key = (result.scene, result.engine, result.check, result.outcome, result.measured, result.seconds)
+            if key not in first:
+                first[key] = result
+            elif repr(first[key]) == repr(result):
+                again.append(result)
+        return tuple(again)
 
     @cached_property
     def counts(self) -> Mapping[Outcome, int]:
         """Number of results of each outcome."""
         found = Counter(result.outcome for result in self.results)
         return {outcome: found[outcome] for outcome in OUTCOMES}
+
+    @cached_property
+    def words(self) -> Mapping[Word, int]:
+        """Number of results of each word, the gravest first. Loose results are not among those that agree."""
+        found = Counter(word(result) for result in self.results)
+        order: tuple[Word, ...] = ("differs", "error", "loose", "agrees", "skipped")
+        return {name: found[name] for name in order}
+
+    @cached_property
+    def loose(self) -> tuple[Result, ...]:
+        """The results that agree only loosely, the largest multiple of the sharp line first."""
+        found = [result for result in self.results if word(result) == "loose"]
+        return tuple(sorted(found, key=_of_line, reverse=True))
+
+    @cached_property
+    def causes(self) -> Causes:
+        """What differs, by engine and cause."""
+        return group_causes(self.having("differs"), self.diagnoses)
 
     @cached_property
     def kept(self) -> int:
@@ -129,25 +171,52 @@ class Report:
             found.append(
                 "This run was cut off: its stream has no footer, so only the results before the cut are shown."
             )
-        elif not self.complete:
-            wrong = ", ".join(
-                f"{outcome} {self._counted[outcome]} (found {self.counts[outcome]})"
-                for outcome in OUTCOMES
-                if self._counted[outcome] != self.counts[outcome]
+        elif self._miscounted:
+            wrong = ", ".join(f"{name} {said} (found {found})" for name, said, found in self._miscounted)
+            found.append(f"This stream was altered or damaged: its footer does not count the lines in it: {wrong}.")
+        if self.repeated:
+            first = self.repeated[0]
+            found.append(
+                f"This stream was altered or damaged: {count(len(self.repeated), 'result')} in it twice, "
+                f"the first {_place(first.scene, first.engine)}, {one_line(first.check, 80)}."
             )
-            found.append(f"This stream was altered or damaged: its footer does not count the results in it: {wrong}.")
         if self.footer is not None and self.unrun:
-            first = self.unrun[0]
+            pair = self.unrun[0]
             found.append(
                 f"{count(len(self.unrun), 'pair')} of scene and engine that should have run left no result, "
-                f"the first {first.scene} × {first.engine}."
+                f"the first {_place(pair.scene, pair.engine)}."
             )
-        return tuple(found)
+        return (*found, *self._nothing_compared)
+
+    @cached_property
+    def _nothing_compared(self) -> tuple[str, ...]:
+        """Why a run of which everything was skipped proves nothing: the whole of it, or what the user named."""
+        if self.counts["error"] and not self._ran:
+            return ()  # the failures say it
+        if not self._ran:
+            return ("No comparison was made, so this run proves nothing.",)
+        scenes = [scene.name for scene in self.header.scenes if scene.asked]
+        engines = [engine.name for engine in self.header.engines if engine.asked]
+        cells = self.table.values()
+        return tuple(
+            f"{one_line(name, 80)} was asked for, and nothing of it was compared: each check was skipped."
+            for names, field in ((scenes, "scene"), (engines, "engine"))
+            for name in names
+            if all(cell.outcome == "skipped" for cell in cells if getattr(cell, field) == name)
+        )
+
+    @property
+    def _ran(self) -> int:
+        return self.counts["agrees"] + self.counts["differs"]
 
     @property
     def exit_status(self) -> int:
         """0: all planned comparisons ran and agree; 1: something differs; 3: something failed or is missing."""
-        if self.counts["differs"]:
+        return self.exit_status_of(sharp=False)
+
+    def exit_status_of(self, sharp: bool) -> int:
+        """The exit status; ``sharp``: a loose result counts as one that differs."""
+        if self.counts["differs"] or (sharp and self.words["loose"]):
             return DIFFERS
         if self.counts["error"] or self.flaws:
             return INCOMPLETE
@@ -155,21 +224,28 @@ class Report:
 
     @cached_property
     def verdict(self) -> str:
-        """One sentence for people: how many comparisons differ, failed, agree and were left out."""
-        ran = self.counts["agrees"] + self.counts["differs"]
-        if not ran and not self.counts["error"]:
-            said = ["Nothing was compared"]
-        elif self.counts["differs"]:
-            said = [f"{self.counts['differs']:,} of {count(ran, 'comparison')} {_verb(self.counts['differs'])}"]
-        else:
-            said = [f"All {count(ran, 'comparison')} agree" if ran != 1 else "The one comparison agrees"]
-            if not ran:
-                said = ["No comparison finished"]
-        if self.counts["error"]:
-            said.append(f"{self.counts['error']:,} failed")
-        if self.counts["skipped"]:
-            said.append(f"{self.counts['skipped']:,} skipped, each with its reason")
-        return ("Until the cut: " if self.footer is None else "") + "; ".join(said) + "."
+        """One sentence for people: how many comparisons differ, failed, are loose, agree and were left out."""
+        words, ran = self.words, self._ran
+        said: list[str] = []
+        if words["differs"]:
+            said.append(f"{words['differs']:,} of {count(ran, 'comparison')} {_verb(words['differs'])}")
+        if words["error"]:
+            said.append(f"{words['error']:,} failed" if said else f"{count(words['error'], 'comparison')} failed")
+        if words["loose"]:
+            number, be = words["loose"], "is" if words["loose"] == 1 else "are"
+            said.append(f"{number:,} {be} loose" if said else f"{number:,} of {count(ran, 'comparison')} {be} loose")
+        if not ran:
+            said.append("nothing was compared")
+        elif words["agrees"] and not said and not self.flaws:
+            said.append(f"all {words['agrees']:,} comparisons agree" if ran > 1 else "the one comparison agrees")
+        elif words["agrees"]:
+            said.append(tally(words["agrees"], "agrees"))
+        if words["skipped"]:
+            said.append(f"{words['skipped']:,} skipped, each with its reason")
+        text = "; ".join(said) + "."
+        if self.footer is None:
+            return f"Until the cut: {text}"
+        return f"Incomplete: {text}" if ran and self.flaws else text[:1].upper() + text[1:]
 
     def having(self, *outcomes: Outcome) -> list[Result]:
         """The results with these outcomes, largest share of the allowed first."""
@@ -221,16 +297,29 @@ class Report:
         words = ["furiko", "check", (entry.source if entry else "") or scene]
         return shlex.join([*words, "--profile", self.header.profile])
 
-    @property
-    def _counted(self) -> Mapping[Outcome, int]:
+    @cached_property
+    def _miscounted(self) -> tuple[tuple[str, int, int], ...]:
+        """What the footer counts otherwise than the stream: name, the footer's number, the number found."""
         if self.footer is None:
-            return {}
-        return {
-            "agrees": self.footer.agrees,
-            "differs": self.footer.differs,
-            "skipped": self.footer.skipped,
-            "error": self.footer.error,
-        }
+            return ()
+        found = footer_of(self.results, self.diagnoses)
+        names = (*OUTCOMES, "loose", "diagnoses")
+        pairs = [(name, getattr(self.footer, name), getattr(found, name)) for name in names]
+        return tuple(pair for pair in pairs if pair[1] != pair[2])
+
+
+def footer_of(results: Iterable[Result], diagnoses: Sequence[Diagnosis] = (), seconds: float = 0.0) -> Footer:
+    """The footer of a run with these results and diagnoses that took so many seconds."""
+    found = Counter(word(result) for result in results)
+    return Footer(
+        agrees=found["agrees"] + found["loose"],
+        differs=found["differs"],
+        skipped=found["skipped"],
+        error=found["error"],
+        loose=found["loose"],
+        diagnoses=len(diagnoses),
+        seconds=seconds,
+    )
 
 
 def share(result: Result) -> float | None:
@@ -252,6 +341,35 @@ def against(result: Result) -> str:
     return f"{said} against {figure(result.allowed)} {result.unit}".rstrip() + " allowed"
 
 
+def against_line(result: Result) -> str:
+    """``1,800 ε, rounding gives at most 12 ε``; as much of it as was measured, and the bound where there is no line."""
+    if result.measured is None or result.line is None:
+        return against(result)
+    line = f"{figure(result.line)} {result.unit}".rstrip()
+    return f"{figure(result.measured)} {result.unit}".rstrip() + f", rounding gives at most {line}"
+
+
+def group_line(group: CheckGroup) -> str:
+    """One engine and one check: where its largest error is, how large, why, and in which scenes there are others."""
+    worst = group.results[0]
+    scenes = list(dict.fromkeys(result.scene for result in group.results))
+    said = f"{worst.scene} × {worst.engine}, {worst.check}"
+    if worst.measured is not None:
+        said += f": {against_line(worst) if word(worst) == 'loose' else against(worst)}"
+    if worst.reason:
+        said += f": {last_line(worst.reason)}"
+    if len(group.results) > 1:
+        said += f"; the largest of {len(group.results):,} in {count(len(scenes), 'scene')}: {listed(scenes)}"
+    return one_line(said)
+
+
+def _of_line(result: Result) -> float:
+    """Error as a multiple of the sharp line, of what is allowed where there is no line."""
+    if result.measured is None or not result.line:
+        return _share_or_nothing(result)
+    return abs(result.measured / result.line)
+
+
 def _share_or_nothing(result: Result) -> float:
     value = share(result)
     return -1.0 if value is None else value
@@ -263,3 +381,7 @@ def _in_order(first: Iterable[str], then: Iterable[str]) -> tuple[str, ...]:
 
 def _verb(number: int) -> str:
     return "differs" if number == 1 else "differ"
+
+
+def _place(scene: str, engine: str) -> str:
+    return f"{one_line(scene, 80)} × {one_line(engine, 80)}"

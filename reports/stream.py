@@ -20,9 +20,11 @@ import msgspec
 
 from ..models.errors import InvalidInput
 from ..models.readers.bounded_file import open_regular, shown
-from ..records.check import FORMAT, Footer, Header, Outcome, Record, Result
+from ..records.check import FORMAT, Diagnosis, Footer, Header, Record, Result
+from ..records.findings import Difference
 from ..records.printable import without_surrogates
 from .report import Report
+from .words import Word, word
 
 STREAM = "report.jsonl"
 
@@ -33,7 +35,7 @@ LARGEST_STREAM = 256_000_000  # bytes
 MOST_VALUES = 3_000_000  # commas and brackets, a bound of the memory that the records take
 LONGEST_REASON = 20_000  # characters; a traceback fits
 
-_decoder = msgspec.json.Decoder(Header | Result | Footer)
+_decoder = msgspec.json.Decoder(Record)
 
 
 class _Head(msgspec.Struct):
@@ -60,7 +62,8 @@ class StreamWriter:
         self.path = Path(path)
         self._header = header
         self._file: FileIO | None = None
-        self._counts: Counter[Outcome] = Counter()
+        self._counts: Counter[Word] = Counter()
+        self._diagnoses = 0
         self._size = self._values = 0
 
     def __enter__(self) -> StreamWriter:
@@ -75,16 +78,29 @@ class StreamWriter:
         """Append one result, on disk when this returns. Returns it as it was written, with finite figures only."""
         written = _finite(result)
         self._line(written)
-        self._counts[written.outcome] += 1
+        self._counts[word(written)] += 1
+        return written
+
+    def write_diagnosis(self, diagnosis: Diagnosis) -> Diagnosis:
+        """Append one diagnosis, on disk when this returns. Returns it as it was written."""
+        written = msgspec.structs.replace(
+            diagnosis,
+            findings=[_finite_finding(finding) for finding in diagnosis.findings],
+            alternatives=[_finite_finding(finding) for finding in diagnosis.alternatives],
+        )
+        self._line(written)
+        self._diagnoses += 1
         return written
 
     def finish(self, seconds: float = 0.0) -> Footer:
         """Append the footer, with the counts of what was written, and close. ``seconds``: how long the run took."""
         footer = Footer(
-            agrees=self._counts["agrees"],
+            agrees=self._counts["agrees"] + self._counts["loose"],
             differs=self._counts["differs"],
             skipped=self._counts["skipped"],
             error=self._counts["error"],
+            loose=self._counts["loose"],
+            diagnoses=self._diagnoses,
             seconds=seconds,
         )
         self._line(footer)
@@ -149,8 +165,13 @@ def _read(file: BinaryIO, name: str) -> Report:
     header: Header | None = None
     footer: Footer | None = None
     results: list[Result] = []
-    for number, line in enumerate(_whole_lines(file, name), start=1):
+    diagnoses: list[Diagnosis] = []
+    for number, line in enumerate(_lines(file, name), start=1):
         where = f"{name}, line {number}"
+        if footer is not None:
+            raise InvalidInput(f"{where}: something follows the footer, which is the last line of a run")
+        if not line.endswith(b"\n"):
+            break  # half a line, at which the run was cut off
         if number == 1:
             _require_this_format(line, where)
         record = _decode(line, where)
@@ -160,19 +181,19 @@ def _read(file: BinaryIO, name: str) -> Report:
             header = record
         elif isinstance(record, Header):
             raise InvalidInput(f"{where}: a second header; one file holds one run")
-        elif footer is not None:
-            raise InvalidInput(f"{where}: something follows the footer, which is the last line of a run")
         elif isinstance(record, Footer):
             footer = record
+        elif isinstance(record, Diagnosis):
+            diagnoses.append(record)
         else:
             results.append(record)
     if header is None:
         raise InvalidInput(f"{name}: empty, or cut off within its header; it holds no result")
-    return Report(header, tuple(results), footer)
+    return Report(header, tuple(results), footer, tuple(diagnoses))
 
 
-def _whole_lines(file: BinaryIO, name: str) -> Iterator[bytes]:
-    """Lines that have their line end; half a line at the end of a cut-off run is left out."""
+def _lines(file: BinaryIO, name: str) -> Iterator[bytes]:
+    """The lines with their line ends. Raises :class:`InvalidInput` where a line or the whole is too large."""
     size = number = values = 0
     while line := file.readline(LARGEST_LINE + 1):
         number += 1
@@ -186,8 +207,7 @@ def _whole_lines(file: BinaryIO, name: str) -> Iterator[bytes]:
             raise InvalidInput(
                 f"{name}, line {number}: more than {MOST_VALUES:,} values up to here, no run has so many"
             )
-        if line.endswith(b"\n"):
-            yield line
+        yield line
 
 
 def _values(line: bytes) -> int:
@@ -253,7 +273,7 @@ def _finite(result: Result) -> Result:
     """
     said = [
         f"{field} is {float(value)}"
-        for field in ("measured", "allowed")
+        for field in ("measured", "allowed", "line")
         if (value := getattr(result, field)) is not None and not math.isfinite(value)
     ]
     reason = _clipped("; ".join([*said, *([result.reason] if result.reason else [])]))
@@ -263,9 +283,20 @@ def _finite(result: Result) -> Result:
         result,
         measured=_finite_or_none(result.measured),
         allowed=_finite_or_none(result.allowed),
+        line=_finite_or_none(result.line),
         reason=reason,
         outcome="error" if result.outcome == "agrees" else result.outcome,
     )
+
+
+def _finite_finding(finding: Difference) -> Difference:
+    """The finding with words for a number that is not finite."""
+    values = {
+        field: str(value) if isinstance(value, float) and not math.isfinite(value) else value
+        for field in ("measured", "expected")
+        for value in [getattr(finding, field)]
+    }
+    return msgspec.structs.replace(finding, says=_clipped(finding.says), **values)
 
 
 def _finite_or_none(value: float | None) -> float | None:

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
-from ..records.check import Outcome
+from ..records.check import Outcome, Result
 from ..records.printable import printable as printable  # noqa: PLC0414 (reports take it from here)
 
 if TYPE_CHECKING:
     from ..records.bench import Speed
 
+# How a report calls a result: its outcome, or "loose" where it agrees only loosely.
+Word = Outcome | Literal["loose"]
 # A glyph beside the word, so that no outcome is told by colour alone.
-GLYPHS: dict[Outcome, str] = {"agrees": "✓", "differs": "✗", "skipped": "–", "error": "!"}
+GLYPHS: dict[Word, str] = {"agrees": "✓", "loose": "≈", "differs": "✗", "skipped": "–", "error": "!"}
 LEGEND = "ε: worst error as a multiple of rounding; ×: as a multiple of what is allowed"
+
+LONGEST_LINE = 20_000  # characters: a sentence is never cut, a runaway text is
 
 # A benchmark: whether a target is met, and whether verdicts are the same with a skip and without.
 SAME = {True: "the same {}", False: "NOT the same ({})"}
@@ -37,10 +41,15 @@ def count(number: int, noun: str) -> str:
     return f"{number:,} {noun}" if number == 1 else f"{number:,} {noun}s"
 
 
-def tally(number: int, outcome: Outcome) -> str:
-    """``1 agrees``, ``2 agree``, ``1 error``, ``2 errors``, ``3 skipped``."""
-    plural = {"agrees": "agree", "differs": "differ", "skipped": "skipped", "error": "errors"}
-    return f"{number:,} {outcome if number == 1 else plural[outcome]}"
+def word(result: Result) -> Word:
+    """The result's outcome, or ``loose`` where it agrees only loosely."""
+    return "loose" if result.loose and result.outcome == "agrees" else result.outcome
+
+
+def tally(number: int, outcome: Word) -> str:
+    """``1 agrees``, ``2 agree``, ``1 error``, ``2 errors``, ``3 skipped``, ``4 loose``."""
+    plural = {"agrees": "agree", "differs": "differ", "error": "errors"}
+    return f"{number:,} {outcome if number == 1 else plural.get(outcome, outcome)}"
 
 
 def duration(seconds: float) -> str:
@@ -65,7 +74,7 @@ def link_words(system: str, n: int) -> str:
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
-def one_line(text: str, longest: int = 300) -> str:
+def one_line(text: str, longest: int = LONGEST_LINE) -> str:
     """:func:`printable`, on one line, at most ``longest`` characters long."""
     line = " ".join(printable(text[: 8 * longest]).split())
     return line if len(line) <= longest else line[: longest - 1] + "…"
@@ -74,6 +83,13 @@ def one_line(text: str, longest: int = 300) -> str:
 def last_line(reason: str) -> str:
     """The line of a traceback that names the exception; another reason as it is."""
     return reason.strip().splitlines()[-1] if reason.startswith("Traceback") else reason
+
+
+def listed(names: Iterable[str], most: int = 40) -> str:
+    """The names in the order in which they first come; of more than ``most``, how many are left out."""
+    known = list(dict.fromkeys(names))
+    shown = ", ".join(one_line(name, 80) for name in known[:most])
+    return shown if len(known) <= most else f"{shown} and {len(known) - most} more"
 
 
 def few(names: Iterable[str], noun: str) -> str:

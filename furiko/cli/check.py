@@ -72,12 +72,10 @@ def check(
                 )
             except ReportNotWritten as error:
                 report, unwritten = error.report, str(error)
-    statuses = [report.exit_status]
+    statuses = [report.exit_status_of(before is not None if sharp is None else sharp)]
     if unwritten:
         print_failure(unwritten)
         statuses.append(INCOMPLETE)
-    if (before is not None if sharp is None else sharp) and any(getattr(r, "loose", False) for r in report.results):
-        statuses.append(DIFFERS)
     if before is not None:
         comparison = compare(before, report)
         statuses.append(comparison.exit_status)
@@ -86,7 +84,14 @@ def check(
     if as_json:
         from ..records.check import CheckReport
 
-        print_json(CheckReport(header=report.header, results=list(report.results), footer=report.footer))
+        print_json(
+            CheckReport(
+                header=report.header,
+                results=list(report.results),
+                footer=report.footer,
+                diagnoses=list(report.diagnoses),
+            )
+        )
     else:
         from ..reports.terminal.check import print_report
 

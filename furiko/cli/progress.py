@@ -7,8 +7,6 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from ..records.printable import printable
-
 if TYPE_CHECKING:
     from ..checks.plan import Plan
     from ..records.check import Result
@@ -22,10 +20,11 @@ def check_progress() -> Iterator[Callable[[Plan, Result], None] | None]:
         yield None
         return
     from rich.console import Console
-    from rich.markup import escape
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    from ..reports.words import one_line
+
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("checking", total=None)
         seen: set[tuple[str, str, str]] = set()
@@ -35,7 +34,7 @@ def check_progress() -> Iterator[Callable[[Plan, Result], None] | None]:
             # An engine has one trajectory result for each integrator: they count as the one check that was planned.
             seen.add((result.scene, result.engine, result.comparison))
             total = sum(len(t.checks) for t in plan.tasks) + len(settled)
-            now = escape(printable(f"{result.scene} {result.engine}"))
+            now = one_line(f"{result.scene} {result.engine}", 80)
             bar.update(task, completed=min(len(seen), total), total=total, description=now)
 
         yield watch
@@ -50,8 +49,10 @@ def status_line() -> Iterator[Callable[[str], None]]:
     from rich.console import Console
     from rich.markup import escape
 
+    from ..reports.words import one_line
+
     with Console(stderr=True).status("") as status:
-        yield lambda words: status.update(escape(printable(words)))
+        yield lambda words: status.update(escape(one_line(words)))
 
 
 @contextmanager
@@ -61,15 +62,16 @@ def stress_progress() -> Iterator[Callable[[Progress], None] | None]:
         yield None
         return
     from rich.console import Console
-    from rich.markup import escape
     from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
     from rich.progress import Progress as Bar
+
+    from ..reports.words import one_line
 
     columns = (
         TextColumn("{task.fields[done]} cases, {task.fields[open]} questions open"),
         BarColumn(),
         TimeElapsedColumn(),
-        TextColumn("{task.description}"),
+        TextColumn("{task.description}", markup=False),
     )
     with Bar(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("starting", total=None, done=0, open="?")
@@ -77,12 +79,7 @@ def stress_progress() -> Iterator[Callable[[Progress], None] | None]:
         def watch(now: Progress) -> None:
             total = now.done + now.open  # every open question takes at least one more case
             bar.update(
-                task,
-                completed=now.done,
-                total=total,
-                description=escape(printable(now.now)),
-                done=now.done,
-                open=now.open,
+                task, completed=now.done, total=total, description=one_line(now.now, 80), done=now.done, open=now.open
             )
 
         yield watch

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from ...records.check import Outcome, Result, SceneEntry
-from ..report import Report, TableCell, against
-from ..words import GLYPHS, LEGEND, count, last_line
+from ...records.check import Result, SceneEntry
+from ..report import Report, TableCell, against, group_line
+from ..words import GLYPHS, LEGEND, Word, count, last_line, word
 from .error_plots import ErrorPlot, HorizonPlot, draw_errors, draw_horizons
 from .mechanism_drawing import MechanismDrawing, draw_mechanism
 from .rendering import environment, render
@@ -16,7 +16,7 @@ from .rendering import environment, render
 DRAWN = ("traceback", "errors over time")  # details that the page shows elsewhere
 
 PAGE = "report.html.j2"
-PARTS = ("marks", "facts", "overview", "reasons", "scene", "plot")  # it includes these
+PARTS = ("marks", "facts", "causes", "overview", "reasons", "scene", "plot")  # it includes these
 
 
 @dataclass(frozen=True)
@@ -43,9 +43,10 @@ class SceneView:
         return [result for cell in self.cells for result in cell.results]
 
     @cached_property
-    def outcomes(self) -> list[Outcome]:
-        """The outcomes that occur."""
-        return [outcome for outcome in GLYPHS if any(result.outcome == outcome for result in self.results)]
+    def words(self) -> list[Word]:
+        """The outcomes that occur, and ``loose``."""
+        found = {word(result) for result in self.results}
+        return [name for name in GLYPHS if name in found]
 
     @cached_property
     def horizons(self) -> tuple[HorizonPlot, ...]:
@@ -111,6 +112,7 @@ def to_html(report: Report) -> str:
         glyphs=GLYPHS,
         legend=LEGEND,
         in_words=_in_words,
+        group_line=group_line,
     )
 
 
@@ -125,7 +127,7 @@ def _in_words(cell: TableCell) -> str:
     worst = cell.worst
     if worst is None:
         return f"{cell.scene} × {cell.engine}: no result"
-    said = f"{cell.scene} × {cell.engine}: {worst.check} {worst.outcome}"
+    said = f"{cell.scene} × {cell.engine}: {worst.check} {word(worst)}"
     if worst.measured is not None:
         said += f", {against(worst)}"
     elif worst.reason:

@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..words import count, few, figure, last_line, printable, tally
+from ..words import count, few, figure, last_line, listed, printable, tally, word
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -43,9 +43,11 @@ def environment() -> Environment:
         "count": count,
         "few": few,
         "last_line": last_line,
+        "listed": listed,
         "list_of": _list_of,
         "tally": tally,
         "value": _value,
+        "word": word,
     }
     return made
 

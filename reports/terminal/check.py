@@ -1,4 +1,4 @@
-"""The end of a check in the terminal: the table of scenes and engines, then differences, failures and skips."""
+"""The end of a check in the terminal: the table of scenes and engines, skips, failures, causes, last the verdict."""
 
 from __future__ import annotations
 
@@ -7,18 +7,20 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
-from ...records.check import Outcome, Result
+from ...records.check import Outcome
 from ...records.exit_status import AGREES, DIFFERS
-from ..report import Report, TableCell, against
-from ..words import GLYPHS, LEGEND, count, few, last_line, one_line
+from ..causes import group_by_check
+from ..report import Report, TableCell, against, group_line
+from ..words import GLYPHS, LEGEND, Word, count, few, listed, one_line
 from .console import PlainConsole
 
 if TYPE_CHECKING:
     from rich.table import Table
 
 # Blue and orange, which people who confuse red and green can distinguish.
-STYLES: dict[Outcome, str] = {
+STYLES: dict[Word, str] = {
     "agrees": "blue",
+    "loose": "bold yellow",
     "differs": "bold dark_orange",
     "skipped": "dim",
     "error": "bold magenta",
@@ -31,17 +33,19 @@ GAP = 2  # columns of the terminal between two of the table
 def print_report(
     report: Report, path: str | Path | None = None, file: TextIO | None = None, width: int | None = None
 ) -> None:
-    """Print the table, differences, failures, reasons of skips, and the path of the report (``path``).
+    """Print the table, skips, failures, loose results, causes of differences, the verdict and the report's path.
 
     ``file`` is standard output unless given; ``width`` [columns] that of the terminal, or 120 in a pipe.
     """
     console = PlainConsole(file or sys.stdout, width)
     _print_table(report, console)
-    _print_differing(report, console)
+    _print_reasons(report, "skipped", "Skipped", console)
+    _print_reasons(report, "error", "Failed", console)
+    _print_loose(report, console)
+    _print_causes(report, console)
+    _print_unexplained(report, console)
     for sentence in report.outliers:
         console.line(sentence)
-    _print_reasons(report, "error", "Failed", console)
-    _print_reasons(report, "skipped", "Skipped", console)
     console.line()
     for flaw in report.flaws:
         console.line(flaw, "bold reverse")
@@ -52,7 +56,7 @@ def print_report(
             f"{count(report.kept, 'result')} kept from an earlier run with the same inputs; --no-cache runs all."
         )
     if path is not None:
-        console.line(f"Report: {path}")
+        console.line(one_line(f"Report: {path}"))
 
 
 def _print_table(report: Report, console: PlainConsole) -> None:
@@ -98,19 +102,53 @@ def _table(report: Report, engines: Sequence[str], say: Callable[[TableCell], st
         table.add_column(console.text(_heading(engine)), no_wrap=True, vertical="bottom")
     for scene in report.scenes:
         cells = [report.table[scene, engine] for engine in engines]
-        said = [console.text(say(cell), STYLES[cell.outcome] if cell.outcome else "dim") for cell in cells]
+        said = [console.text(say(cell), STYLES[cell.word] if cell.word else "dim") for cell in cells]
         table.add_row(console.text(_row_name(scene)), *said)
     return table
 
 
-def _print_differing(report: Report, console: PlainConsole) -> None:
-    found = report.having("differs")
+def _print_loose(report: Report, console: PlainConsole) -> None:
+    """One line for each engine and check, with its loosest result."""
+    found = group_by_check(report.loose)
     if found:
-        console.line("\nDiffers", STYLES["differs"])
-    for result in found[:MOST_LISTED]:
-        console.line(f"  {_finding(result)}")
-    if len(found) > MOST_LISTED:
-        console.line(f"  … and {len(found) - MOST_LISTED} more; the report lists all")
+        console.line("\nLoose: they agree, but with larger errors than rounding explains", STYLES["loose"])
+    for group in found[:MOST_LISTED]:
+        console.line(f"  {GLYPHS['loose']} {group_line(group)}")
+    _print_left(len(found), "checks", console)
+
+
+def _print_causes(report: Report, console: PlainConsole) -> None:
+    """Each cause once, with the scenes where it was found and its largest error."""
+    found = report.causes.explanations
+    if found:
+        console.line("\nCauses", STYLES["differs"])
+    for explanation in found:
+        console.line(f"  {GLYPHS['differs']} {explanation.headline}")
+        for line in explanation.lines:
+            console.line(f"      {line}")
+        console.line(f"      scenes: {listed(explanation.scenes)}")
+        if explanation.explained:
+            worst = explanation.explained[0]
+            console.line(f"      largest: {one_line(f'{worst.scene}, {worst.check}: {against(worst)}'.rstrip(': '))}")
+
+
+def _print_unexplained(report: Report, console: PlainConsole) -> None:
+    """One line for each engine and check, with the largest error; then what the diagnoses say of it."""
+    found = report.causes.unexplained
+    if found:
+        console.line("\nDiffers without a known cause", STYLES["differs"])
+    for group in found[:MOST_LISTED]:
+        console.line(f"  {GLYPHS['differs']} {group_line(group)}")
+    _print_left(len(found), "checks", console)
+    remarks = report.causes.remarks
+    for engine, sentence, scenes in remarks[:MOST_LISTED]:
+        console.line(f"      {one_line(engine, 80)}, {listed(scenes)}: {one_line(sentence)}")
+    _print_left(len(remarks), "sentences", console)
+
+
+def _print_left(number: int, noun: str, console: PlainConsole) -> None:
+    if number > MOST_LISTED:
+        console.line(f"  … and {number - MOST_LISTED} more {noun}; the report lists all")
 
 
 def _print_reasons(report: Report, outcome: Outcome, title: str, console: PlainConsole) -> None:
@@ -123,30 +161,15 @@ def _print_reasons(report: Report, outcome: Outcome, title: str, console: PlainC
         engines = few((result.engine for result in results), "engine")
         checks = few((result.check for result in results), "check")
         console.line(f"  {GLYPHS[outcome]} {len(results)}: {scenes} × {engines}, {checks}: {one_line(reason)}")
-    if len(found) > MOST_LISTED:
-        console.line(f"  … and {len(found) - MOST_LISTED} more reasons; the report lists all")
-
-
-def _finding(result: Result) -> str:
-    """One line: where, what was measured against what is allowed, and why."""
-    said = f"{GLYPHS[result.outcome]} {result.scene} × {result.engine}, {result.check}"
-    if result.measured is not None:
-        said += f": {against(result)}"
-    if result.cause:
-        said += f" [{result.cause}]"
-    if result.reason:
-        said += f": {last_line(result.reason)}"
-    return one_line(said)
+    _print_left(len(found), "reasons", console)
 
 
 def _in_words(cell: TableCell) -> str:
-    if cell.outcome is None:
-        return "no result"
-    return f"{GLYPHS[cell.outcome]} {cell.outcome} {cell.error}".rstrip()
+    return f"{GLYPHS[cell.word]} {cell.word} {cell.error}".rstrip() if cell.word else "no result"
 
 
 def _in_glyphs(cell: TableCell) -> str:
-    return f"{GLYPHS[cell.outcome]} {cell.error}".rstrip() if cell.outcome else "?"
+    return f"{GLYPHS[cell.word]} {cell.error}".rstrip() if cell.word else "?"
 
 
 def _heading(engine: str) -> str:

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from rich.text import Text
 
 PIPED_WIDTH = 120  # a log is wide, and a wrapped table hard to read
-ASCII = {"✓": "+", "✗": "x", "–": "-", "×": "x", "ε": "eps", "…": "...", "⁻⁵²": "^-52"}
+ASCII = {"✓": "+", "✗": "x", "≈": "~", "–": "-", "×": "x", "ε": "eps", "…": "...", "⁻⁵²": "^-52"}
 
 
 class PlainConsole:

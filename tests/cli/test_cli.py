@@ -66,6 +66,21 @@ def test_a_difference_is_status_1(tmp_path):
     assert "differs" in done.stdout
 
 
+def test_a_named_scene_of_which_nothing_is_compared_is_status_3(tmp_path):
+    (tmp_path / "long.toml").write_text(f'[system]\nkind = "rod-chain"\nlengths = [{"1.0," * 3000}]\n')
+    named = ("check", "rods-1", "long.toml", "--profile", "smoke", "-e", "pinocchio-aba")
+    done = run(*named, cwd=tmp_path)
+    assert done.returncode == 3, done
+    assert "long was asked for, and nothing of it was compared" in done.stdout
+    assert "Incomplete: 1 agrees" in done.stdout
+
+
+def test_a_path_with_escapes_is_written_out(tmp_path):
+    done = run("check", "\x1b[2J\u202e.toml", cwd=tmp_path)
+    assert "\\x1b[2J\\u202e.toml" in one_clear_line(done, 2)
+    assert "\x1b" not in done.stderr
+
+
 def test_a_failing_engine_is_status_3(tmp_path):
     done = run("check", "rods-2", "-e", "fake_engines:Nan", "--profile", "smoke", cwd=tmp_path)
     assert done.returncode == 3
@@ -75,7 +90,7 @@ def test_a_failing_engine_is_status_3(tmp_path):
 def test_json_is_one_document_and_nothing_else(tmp_path):
     done = run("check", "rods-1", "--profile", "smoke", "--json", cwd=tmp_path)
     document = json.loads(done.stdout)
-    assert set(document) == {"header", "results", "footer"}
+    assert set(document) == {"header", "results", "footer", "diagnoses"}
     assert document["footer"]["agrees"] == len(document["results"])
     for command in ("scenes", "engines", "cache"):
         assert json.loads(run(command, "--json", cwd=tmp_path).stdout)
@@ -114,7 +129,7 @@ def test_bad_input_is_one_clear_line_and_status_2(tmp_path, arguments, says):
 def test_a_system_too_large_for_an_engine_is_skipped_in_words_before_memory_is_gone(tmp_path):
     (tmp_path / "long.toml").write_text(f'[system]\nkind = "rod-chain"\nlengths = [{"1.0," * 3000}]\n')
     done = run("check", "long.toml", "-e", "pinocchio-aba", "--profile", "smoke", cwd=tmp_path)
-    assert done.returncode == 0, done
+    assert done.returncode == 3, done  # nothing was compared
     assert "takes at most" in done.stdout
 
 

@@ -45,6 +45,8 @@ def header(scenes=None, engines=None, **fields) -> Header:
 
 
 def result(outcome="agrees", scene="rods-2", engine="mujoco", check="accelerations", **fields) -> Result:
+    if outcome == "loose":
+        return result("agrees", scene, engine, check, **({"measured": 50.0, "line": 4.0, "loose": True} | fields))
     given = {"measured": 3.1, "allowed": 64.0, "unit": "ε"} if outcome in ("agrees", "differs") else {}
     return Result(scene=scene, engine=engine, check=check, outcome=outcome, **(given | fields))
 
@@ -53,7 +55,8 @@ def report(*results: Result, footer: bool = True, **fields) -> Report:
     """A run of these results, whole unless ``footer`` is false."""
     outcomes = [r.outcome for r in results]
     counted = {outcome: outcomes.count(outcome) for outcome in ("agrees", "differs", "skipped", "error")}
-    return Report(header(**fields), results, Footer(**counted, seconds=1.5) if footer else None)
+    loose = sum(r.loose for r in results)
+    return Report(header(**fields), results, Footer(**counted, loose=loose, seconds=1.5) if footer else None)
 
 
 def large_run(links=LINKS, checks=CHECKS, seed: int = 1) -> Report:

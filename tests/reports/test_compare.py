@@ -28,12 +28,12 @@ def test_a_run_is_as_itself(make):
         ("differs", "agrees", "*", 0),
         ("error", "agrees", "*", 0),
         ("skipped", "agrees", "~", 0),
-        ("agrees", "skipped", "~", 0),
-        ("differs", "skipped", "~", 0),
+        ("agrees", "skipped", "~", 3),
+        ("differs", "skipped", "~", 3),
         (None, "agrees", ">", 0),
         (None, "differs", "!", 1),
-        ("agrees", None, "<", 0),
-        ("skipped", "skipped", " ", 0),
+        ("agrees", None, "<", 3),
+        ("skipped", "skipped", " ", 3),
     ],
 )
 def test_outcomes(make, before, after, mark, status):
@@ -43,6 +43,13 @@ def test_outcomes(make, before, after, mark, status):
     assert comparison.exit_status == status
     if mark != " ":
         assert f"  {mark} rods-2 × mujoco, accelerations: " in comparison.text()
+
+
+def test_what_became_loose_or_is_no_longer_is_marked(make):
+    tight, loose = (make.report(make.result(outcome, measured=50.0)) for outcome in ("agrees", "loose"))
+    assert marks(compare(tight, loose)) == marks(compare(loose, tight)) == "~"
+    assert "agrees 50 ε → loose 50 ε" in compare(tight, loose).text()
+    assert marks(compare(loose, loose)) == " "
 
 
 @pytest.mark.parametrize(

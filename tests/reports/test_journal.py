@@ -6,8 +6,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as some
 
 from furiko.models import InvalidInput
-from furiko.records.check import Header, Result
-from furiko.reports import read_stream
+from furiko.records.check import Diagnosis, Header, Result
+from furiko.reports import StreamWriter, read_stream
 from furiko.reports.journal import Journal
 
 HEADER = Header(
@@ -40,6 +40,18 @@ def test_what_was_written_is_there_when_it_goes_on(tmp_path):
     assert report.results[2].details == result(3).details
     assert report.complete  # its one footer counts all three
     assert report.counts["agrees"] == 3
+
+
+def test_loose_results_and_diagnoses_are_still_counted_when_it_goes_on(tmp_path):
+    path = tmp_path / "stress.jsonl"
+    with StreamWriter(path, HEADER) as stream:
+        stream.write(msgspec.structs.replace(result(1), loose=True))
+        stream.write_diagnosis(Diagnosis(scene="s", engine="e"))
+        stream.finish()
+    write(path, [2])
+    report = read_stream(path)
+    assert report.complete
+    assert (report.footer.agrees, report.footer.loose, report.footer.diagnoses) == (2, 1, 1)
 
 
 @given(cut=some.integers(1, 4000), finish=some.booleans())

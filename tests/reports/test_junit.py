@@ -6,6 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from furiko.records.check import Diagnosis
+from furiko.records.findings import Difference
 from furiko.reports.junit import to_junit
 from furiko.reports.report import Report
 
@@ -27,8 +29,8 @@ def assert_structure(root):
             assert float(case.get("time")) >= 0
             assert len(case) <= 1
             for said in case:
-                assert said.tag in ("failure", "error", "skipped")
-                assert said.get("message")
+                assert said.tag in ("failure", "error", "skipped", "system-out")
+                assert said.text if said.tag == "system-out" else said.get("message")
         tally(suite, cases)
     tally(root, root.findall("testsuite/testcase"))
 
@@ -80,6 +82,24 @@ def test_a_run_that_was_cut_off_is_not_green(make):
     assert_structure(root)
     assert int(root.get("errors")) == 1
     assert "cut off" in root.find("testsuite[@name='furiko']/testcase/error").get("message")
+
+
+def test_a_loose_result_is_said_and_no_failure(make):
+    root = parsed(make.report(make.result("loose", reason="Monte-Carlo")))
+    assert_structure(root)
+    assert root.get("failures") == "0"
+    said = root.find("testsuite/testcase/system-out").text
+    assert said == "loose: 50 ε, rounding gives at most 4 ε: Monte-Carlo"
+
+
+def test_a_failure_carries_its_whole_diagnosis(make):
+    mass = Difference(cause="mass", where="link 1", measured=2.0, expected=1.0, says="mass of link 1 is 2")
+    found = Diagnosis(scene="rods-2", engine="mujoco", alternatives=[mass], explains=["accelerations"])
+    whole = make.report(make.result("differs"))
+    root = parsed(Report(whole.header, whole.results, whole.footer, (found,)))
+    failure = root.find("testsuite/testcase/failure")
+    assert failure.get("type") == "mass"
+    assert "either mass: mass of link 1 is 2" in failure.text
 
 
 @settings(deadline=None, max_examples=60)

@@ -35,8 +35,8 @@ def test_every_row_of_every_table_has_its_columns(make):
 def test_what_differs_stands_before_the_table(make):
     text = to_markdown(make.large())
     assert text.startswith("## furiko ✗ 2 of")
-    assert text.index("### Differences") < text.index("### Failures") < text.index("### Scene × engine")
-    assert text.count("<details>") == text.count("</details>") == 2
+    assert text.index("### Causes") < text.index("### Failures") < text.index("### Scene × engine")
+    assert text.count("<details>") == text.count("</details>") == 3
 
 
 def test_it_fits_a_step_summary_however_much_differs(make):
@@ -72,3 +72,11 @@ def test_hostile_text_is_inert(make, field, outcome):
 @given(st.text())
 def test_escaped_text_has_no_sign_that_marks_up(text):
     assert re.fullmatch(r"(?:[^\W_]|[^\x00-\x7f]|[ .,;'()/+=%-]|&#\d+;)*", escape(text))
+
+
+def test_loose_results_are_rows_of_their_own(make):
+    text = to_markdown(make.report(make.result("loose", reason="Monte-Carlo"), make.result(check="b")))
+    assert "### ≈ Loose" in text
+    assert "| rods-2 | mujoco | accelerations | 50 ε | 4 ε | 64 ε | Monte-Carlo |" in text.replace("&#949;", "ε")
+    assert "| rods-2 | ≈ loose 50 ε |" in text
+    assert "Loose" not in to_markdown(make.report(make.result()))

@@ -2,10 +2,11 @@
 
 import itertools
 
+import msgspec
 import pytest
 
-from furiko.records.check import Footer
-from furiko.reports.report import Report, share
+from furiko.records.check import Diagnosis, Footer
+from furiko.reports.report import Report, against_line, footer_of, share
 
 
 @pytest.mark.parametrize(
@@ -13,7 +14,7 @@ from furiko.reports.report import Report, share
     [
         (["agrees"], "agrees", 0),
         (["agrees", "skipped"], "agrees", 0),
-        (["skipped"], "skipped", 0),
+        (["skipped"], "skipped", 3),
         (["agrees", "error"], "error", 3),
         (["agrees", "differs"], "differs", 1),
         (["agrees", "error", "differs", "skipped"], "differs", 1),
@@ -89,11 +90,15 @@ def test_scenes_and_engines_that_only_results_name_are_shown(make):
         ([], "Nothing was compared."),
         (["agrees"], "The one comparison agrees."),
         (["agrees"] * 1200, "All 1,200 comparisons agree."),
-        (["agrees", "differs"], "1 of 2 comparisons differs."),
+        (["agrees", "differs"], "1 of 2 comparisons differs; 1 agrees."),
         (["differs", "differs", "skipped"], "2 of 2 comparisons differ; 1 skipped, each with its reason."),
-        (["agrees", "agrees", "error"], "All 2 comparisons agree; 1 failed."),
-        (["error"], "No comparison finished; 1 failed."),
+        (["agrees", "agrees", "error"], "1 comparison failed; 2 agree."),
+        (["error"], "1 comparison failed; nothing was compared."),
         (["skipped"], "Nothing was compared; 1 skipped, each with its reason."),
+        (["agrees"] * 30 + ["error"] * 9, "9 comparisons failed; 30 agree."),
+        (["differs", "error", "loose", "agrees"], "1 of 3 comparisons differs; 1 failed; 1 is loose; 1 agrees."),
+        (["loose", "loose", "agrees"], "2 of 3 comparisons are loose; 1 agrees."),
+        (["loose"], "1 of 1 comparison is loose."),
     ],
 )
 def test_verdict(make, outcomes, verdict):
@@ -122,3 +127,106 @@ def test_outliers_are_found_by_a_vote(make, outcomes, says):
     named = zip(("one", "two", "three"), outcomes, strict=True)
     report = make.report(*(make.result(outcome, engine=engine) for engine, outcome in named))
     assert report.outliers == ((says,) if says else ())
+
+
+@pytest.mark.parametrize("bad", ["differs", "error", "loose"])
+def test_all_agree_is_never_said_beside_anything_else(make, bad):
+    results = [make.result(check=str(i)) for i in range(30)]
+    for report in (
+        make.report(*results, make.result(bad)),
+        make.report(*results, footer=False),
+        make.report(*results, engines=[make.engine("mujoco"), make.engine("exudyn-tree")]),
+        make.report(*results, results[0]),
+        make.report(*results, make.result("skipped", engine="late"), engines=[make.engine("late", asked=True)]),
+    ):
+        assert "all" not in report.verdict.lower()
+        assert report.exit_status_of(sharp=True) != 0
+    assert make.report(*results).verdict == "All 30 comparisons agree."
+
+
+@pytest.mark.parametrize(
+    ("outcomes", "plain", "sharp"),
+    [
+        (["agrees"], 0, 0),
+        (["agrees", "loose"], 0, 1),
+        (["agrees", "loose", "error"], 3, 1),
+        (["agrees", "error"], 3, 3),
+        (["differs", "error"], 1, 1),
+        ([], 3, 3),
+        (["skipped"], 3, 3),
+    ],
+)
+def test_exit_status_with_the_sharp_line(make, outcomes, plain, sharp):
+    report = make.report(*(make.result(outcome, check=str(i)) for i, outcome in enumerate(outcomes)))
+    assert report.exit_status == report.exit_status_of(sharp=False) == plain
+    assert report.exit_status_of(sharp=True) == sharp
+
+
+def test_a_run_in_which_nothing_was_compared_says_so(make):
+    report = make.report(make.result("skipped"))
+    assert report.complete
+    assert report.flaws == ("No comparison was made, so this run proves nothing.",)
+    assert make.report(make.result("error")).flaws == ()
+
+
+@pytest.mark.parametrize("asked", [True, False])
+def test_what_was_asked_for_must_be_compared(make, asked):
+    skipped = make.report(
+        make.result(),
+        make.result("skipped", engine="exudyn-tree"),
+        engines=[make.engine("mujoco"), make.engine("exudyn-tree", asked=asked)],
+    )
+    scene = make.report(
+        make.result(),
+        make.result("skipped", scene="rods-100"),
+        scenes=[make.scene(), make.scene("rods-100", asked=asked)],
+    )
+    assert [report.exit_status for report in (skipped, scene)] == ([3, 3] if asked else [0, 0])
+    if asked:
+        assert skipped.flaws == ("exudyn-tree was asked for, and nothing of it was compared: each check was skipped.",)
+        assert scene.flaws[0].startswith("rods-100 was asked for")
+        assert skipped.verdict == "Incomplete: 1 agrees; 1 skipped, each with its reason."
+
+
+def test_a_result_that_is_in_the_stream_twice_is_a_flaw(make):
+    twice = make.result(seconds=0.25)
+    header = make.header()
+    assert Report(header, (twice,), footer_of([twice])).complete
+    report = Report(header, (twice, twice), footer_of([twice, twice]))
+    # As often as a result was doubled, another one is gone: the footer's counts alone do not show it.
+    copied = Report(header, (twice, msgspec.structs.replace(twice)), footer_of([twice, twice]))
+    for found in (copied, report):
+        assert not found.complete
+        assert found.exit_status == 3
+        assert "1 result in it twice, the first rods-2 × mujoco, accelerations" in found.flaws[0]
+
+
+def test_the_footer_counts_loose_results_and_diagnoses(make):
+    results = (make.result("loose"), make.result("differs", check="energy"))
+    diagnosis = Diagnosis(scene="rods-2", engine="mujoco", explains=["energy"])
+    footer = footer_of(results, [diagnosis], 1.0)
+    assert (footer.agrees, footer.differs, footer.loose, footer.diagnoses) == (1, 1, 1, 1)
+    assert Report(make.header(), results, footer, (diagnosis,)).complete
+    assert "diagnoses 1 (found 0)" in Report(make.header(), results, footer).flaws[0]
+    tight = (msgspec.structs.replace(results[0], loose=False), results[1])
+    assert "loose 1 (found 0)" in Report(make.header(), tight, footer, (diagnosis,)).flaws[0]
+
+
+def test_a_cell_that_is_loose_shows_its_loosest_result(make):
+    report = make.report(
+        make.result(check="a", measured=60.0), make.result("loose", check="b"), make.result("skipped", check="c")
+    )
+    cell = report.table["rods-2", "mujoco"]
+    assert (cell.outcome, cell.word, cell.worst.check, cell.error) == ("agrees", "loose", "b", "50 ε")
+    assert report.words == {"differs": 0, "error": 0, "loose": 1, "agrees": 1, "skipped": 1}
+    graver = make.report(make.result("loose"), make.result("differs", check="b"))
+    assert graver.table["rods-2", "mujoco"].word == "differs"
+
+
+def test_loose_results_are_ordered_by_the_sharp_line(make):
+    report = make.report(
+        make.result("loose", check="a", measured=60.0, line=30.0), make.result("loose", check="b", measured=8, line=1)
+    )
+    assert [result.check for result in report.loose] == ["b", "a"]
+    assert against_line(report.loose[0]) == "8 ε, rounding gives at most 1 ε"
+    assert against_line(make.result("loose", line=None)) == "50 ε against 64 ε allowed"

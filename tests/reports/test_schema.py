@@ -5,6 +5,8 @@ import json
 import jsonschema
 import pytest
 
+from furiko.records.check import Diagnosis
+from furiko.records.findings import Difference
 from furiko.records.schema import FOLDER
 from furiko.reports import StreamWriter
 
@@ -17,11 +19,13 @@ def test_real_lines_are_valid(make, tmp_path):
         for result in run.results:
             stream.write(result)
         stream.write(make.result("differs", measured=float("inf"), cause="armature"))
+        finding = Difference(cause="gravity", where="mujoco", measured=9.8, expected="9.81", says="gravity is 9.8")
+        stream.write_diagnosis(Diagnosis(scene="rods-2", engine="mujoco", findings=[finding], explains=["energy"]))
         stream.finish(1.0)
     lines = (tmp_path / "r").read_text(encoding="utf-8").splitlines()
     for line in lines:
         VALIDATOR.validate(json.loads(line))
-    assert {json.loads(line)["kind"] for line in lines} == {"header", "result", "footer"}
+    assert {json.loads(line)["kind"] for line in lines} == {"header", "result", "diagnosis", "footer"}
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 import io
 import json
 import os
+import re
 import subprocess
 import sys
 
@@ -13,7 +14,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from furiko.models.errors import InvalidInput
-from furiko.records.check import FORMAT, OUTCOMES, Result
+from furiko.records.check import FORMAT, OUTCOMES, Diagnosis, Result
+from furiko.records.findings import Difference
 from furiko.reports import StreamWriter, read_stream
 from furiko.reports.stream import LARGEST_LINE, LONGEST_REASON
 
@@ -47,7 +49,7 @@ def written(path, header, results, finish=True) -> bytes:
 
 
 @settings(deadline=None, max_examples=60)
-@given(found=st.lists(results, max_size=6))
+@given(found=st.lists(results, max_size=6, unique_by=repr))
 def test_what_is_written_is_read_back(make, tmp_path_factory, found):
     path = tmp_path_factory.mktemp("stream") / "report.jsonl"
     written(path, make.header(), found)
@@ -224,6 +226,69 @@ def test_a_long_reason_keeps_its_ends(make, tmp_path):
     assert reason.endswith("end")
     assert "left out" in reason
     assert len(reason) < LONGEST_REASON + 100
+
+
+def damaged(content: bytes, edit) -> bytes:
+    """The stream with its lines edited."""
+    lines = content.splitlines(keepends=True)
+    return b"".join(edit(lines))
+
+
+@pytest.mark.parametrize(
+    ("edit", "says"),
+    [
+        (lambda lines: lines[:3] + lines[4:], "agrees 3 \\(found 2\\)"),  # a result lost on the way
+        (lambda lines: lines[:2] + lines[1:], "agrees 3 \\(found 4\\)"),  # a line twice
+        (lambda lines: lines[:2] + lines[1:3] + lines[4:], "1 result in it twice"),  # one twice, another lost
+        (lambda lines: lines[:-1], "cut off"),
+        (lambda lines: [*lines[:-1], lines[-1][:-1]], "cut off"),  # half a footer
+        (lambda lines: [*lines[:-1], lines[-1][:30]], "cut off"),
+        (lambda lines: [*lines[:-2], lines[-2][:30]], "cut off"),  # half a result
+        (lambda lines: [*lines[:4], *lines[5:]], "diagnoses 1 \\(found 0\\)"),
+    ],
+)
+def test_a_stream_that_is_not_as_it_was_written_has_a_flaw(make, tmp_path, edit, says):
+    path = tmp_path / "r"
+    with StreamWriter(path, make.header()) as stream:
+        for i in range(3):
+            stream.write(make.result(check=str(i), seconds=0.5 + i))
+        stream.write_diagnosis(Diagnosis(scene="rods-2", engine="mujoco"))
+        stream.finish()
+    assert read_stream(path).exit_status == 0
+    report = read_stream(io.BytesIO(damaged(path.read_bytes(), edit)))
+    assert not report.complete
+    assert report.exit_status == 3
+    assert re.search(says, report.flaws[0])
+
+
+def test_half_a_line_after_the_footer_is_refused(make, tmp_path):
+    content = written(tmp_path / "r", make.header(), [make.result()])
+    with pytest.raises(InvalidInput, match="line 4: something follows the footer"):
+        read_stream(io.BytesIO(content + GOOD[:20]))
+
+
+def test_a_diagnosis_is_read_back_as_it_was_written(make, tmp_path):
+    found = Difference(cause="gravity", where="mujoco", measured=9.8, expected=9.81, says="mujoco: gravity is 9.8")
+    odd = Difference(cause="mass", where="link 1", measured=float("nan"), expected="a point", says="x" * 10**6)
+    diagnosis = Diagnosis(scene="s", engine="e", findings=[found], alternatives=[odd], explains=["energy"])
+    with StreamWriter(tmp_path / "r", make.header()) as stream:
+        back = stream.write_diagnosis(diagnosis)
+        stream.finish()
+    report = read_stream(tmp_path / "r")
+    assert report.diagnoses == (back,)
+    assert back.findings == [found]
+    assert back.alternatives[0].measured == "nan"
+    assert len(back.alternatives[0].says) < LONGEST_REASON + 100
+    assert report.footer.diagnoses == 1
+
+
+def test_loose_results_are_counted_in_the_footer(make, tmp_path):
+    found = [make.result("loose"), make.result(check="b"), make.result("loose", check="c", measured=float("nan"))]
+    written(tmp_path / "r", make.header(), found)
+    report = read_stream(tmp_path / "r")
+    assert report.complete
+    assert (report.footer.agrees, report.footer.loose, report.footer.error) == (2, 1, 1)
+    assert report.results[0].line == 4.0
 
 
 HEADER = object()

@@ -100,7 +100,7 @@ def test_tables_have_headings_with_their_scope_and_pictures_a_text(make):
 def test_it_says_what_was_run_and_what_came_out(make):
     html = to_html(make.large())
     for expected in (
-        "2 of 1,135 comparisons differ; 35 failed; 90 skipped",
+        "2 of 1,135 comparisons differ; 35 failed; 1,133 agree; 90 skipped",
         "furiko check --profile full",
         "4.0.1",
         "an example",
@@ -187,7 +187,16 @@ def test_contrast_in_both_themes(make, theme):
     # WCAG AA: 4.5 for text, 3 for the parts of a picture.
     for ink, paper in [("ink", "paper"), ("faint", "paper"), ("link", "paper"), ("ink", "panel")]:
         assert contrast(palette[ink], palette[paper]) >= 4.5
-    for outcome in ("agrees", "differs", "error", "skipped"):
+    for outcome in ("agrees", "differs", "error", "skipped", "loose"):
         assert contrast(palette[outcome], palette[f"{outcome}-paper"]) >= 4.5
     for i in range(8):
         assert contrast(palette[f"e{i}"], palette["paper"]) >= 3
+
+
+def test_loose_results_are_shown_apart(make):
+    html = to_html(make.report(make.result("loose", reason="Monte-Carlo rounding"), make.result(check="b")))
+    assert '<li class="loose">≈ 1 loose</li>' in html
+    assert '<td class="loose">' in html
+    assert '<h2 id="loose">' in html
+    assert "Monte-Carlo rounding" in html
+    assert 'id="loose"' not in to_html(make.report(make.result()))

@@ -40,7 +40,7 @@ def test_at_120_columns_cells_have_words_and_at_80_glyphs_that_are_explained(mak
     assert "✗ differs 1.4e7 ×" in wide
     assert "! error" in wide
     assert "✗ 1.4e7 ×" in narrow
-    assert "✓ agrees   ✗ differs   – skipped   ! error" in narrow
+    assert "✓ agrees   ≈ loose   ✗ differs   – skipped   ! error" in narrow
     assert narrow.count("scene  ") == 1, "six engines fit at 80 columns without being split"
 
 
@@ -69,7 +69,8 @@ def test_what_differs_failed_and_was_skipped_is_listed_below(make):
         make.result("skipped", check="b", reason="it cannot"),
     )
     text = printed(report, path="furiko-report/report.html")
-    assert "  ✗ rods-2 × mujoco, terms: 2.3e9 ε against 160 ε allowed [armature]: M is larger\n" in text
+    assert "  ✗ mujoco: M is larger [armature]: explains 1 of 1 difference in 1 scene\n" in text
+    assert "largest: rods-2, terms: 2.3e9 ε against 160 ε allowed\n" in text
     assert "  ! 1: rods-2 × mujoco, energy: RuntimeError: no\n" in text
     assert "  – 2: rods-2 × mujoco, a, b: it cannot\n" in text
     assert text.endswith("Report: furiko-report/report.html\n")
@@ -110,3 +111,25 @@ def test_kept_results_are_told(make):
     kept = make.report(make.result(kept=True), make.result(check="energy"))
     assert "1 result kept from an earlier run" in printed(kept)
     assert "kept" not in printed(make.report(make.result()))
+
+
+def test_the_verdict_comes_last_and_causes_right_above_it(make):
+    report = make.report(
+        make.result("differs", cause="mass", reason="the mass is wrong"),
+        make.result("loose", check="energy", reason="more than rounding"),
+        make.result("skipped", check="a", reason="it cannot"),
+        make.result("error", check="b", reason="it failed"),
+    )
+    text = printed(report)
+    order = ["Skipped", "Failed", "Loose", "Causes", "1 of 2 comparisons differs; 1 failed; 1 is loose; 1 skipped"]
+    places = [text.index(f"\n{title}") for title in order]
+    assert places == sorted(places)
+    assert len(text[places[-1] :].splitlines()) == 2
+
+
+def test_loose_results_have_their_own_mark_and_say_measured_line_and_why(make):
+    text = printed(make.report(make.result("loose", reason="Monte-Carlo rounding of M"), make.result(check="b")))
+    assert "≈ loose 50 ε" in text
+    assert "  ≈ rods-2 × mujoco, accelerations: 50 ε, rounding gives at most 4 ε: Monte-Carlo rounding of M\n" in text
+    assert "1 of 2 comparisons is loose; 1 agrees." in text
+    assert "~ loose 50 eps" in printed(make.report(make.result("loose")), encoding="ascii")
