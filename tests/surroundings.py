@@ -150,12 +150,11 @@ class Place:
             [*PYTHON, *arguments], preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler)
         )
         deadline = time.monotonic() + wait
-        while time.monotonic() < deadline and not until() and process.poll() is None:
-            time.sleep(0.02)
+        while time.monotonic() < deadline and not until() and not ends_within(process.pid, 0.02):
+            pass
         begun = time.monotonic()
-        process.send_signal(number)
-        if again:
-            process.send_signal(number)
+        for _ in range(1 + again):
+            os.kill(process.pid, number)  # not process.send_signal, which reaps one that has ended
         return self.end(process, begun, 30.0)
 
 

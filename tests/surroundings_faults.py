@@ -15,6 +15,7 @@ import furiko
 
 CHECK = ("check", "rods-1", "-e", "mujoco", "--profile", "smoke")
 SCENE = '[system]\nkind = "rod-chain"\nlengths = [1.0]\n'
+BENCH = ("bench", "bench-rods-2", "-e", "exudyn-redundant", "--budget", "20")
 NASTY = "a\x1b[31mb\u202ec\x9b7m"
 
 
@@ -118,7 +119,7 @@ SIGNALS = [
     *(
         Fault(f"{signal.Signals(number).name} after {seconds} s of {' '.join(arguments)}",
               _signal_soon(number, seconds, *arguments), (status, -number, 0))
-        for arguments in (("bench", "bench-rods-2", "--budget", "20"), ("audit",), ("stress", "--budget", "20"))
+        for arguments in (BENCH, ("audit",), ("stress", "--budget", "20"))
         for number, status in ((signal.SIGINT, 130), (signal.SIGTERM, 143))
         for seconds in (1.0, 4.0)
     ),
