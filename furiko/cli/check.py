@@ -78,8 +78,8 @@ def check(
         statuses.append(INCOMPLETE)
     if (before is not None if sharp is None else sharp) and any(getattr(r, "loose", False) for r in report.results):
         statuses.append(DIFFERS)
-    if before is not None:
-        comparison = compare(before, report)
+    comparison = None if before is None else compare(before, report)
+    if comparison is not None:
         statuses.append(comparison.exit_status)
         if as_json:
             print_text(comparison.text(), err=True)
@@ -91,6 +91,6 @@ def check(
         from ..reports.terminal.check import print_report
 
         print_report(report, path=None if unwritten else out / "report.html")
-        if before is not None:
+        if comparison is not None:
             print_text(comparison.text())
     return DIFFERS if DIFFERS in statuses else max(statuses)
