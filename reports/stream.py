@@ -31,7 +31,7 @@ STREAM = "report.jsonl"
 # Bounds for what is read and written, so that a huge file gives a message and does not fill the memory. A full
 # run of the catalogue is 2 MB, and the header of a scene with ten thousand links half a megabyte.
 LARGEST_LINE = 8_000_000  # bytes
-LARGEST_STREAM = 256_000_000  # bytes
+LARGEST_STREAM = 64_000_000  # bytes; as text up to four times as much, and diff reads two
 MOST_VALUES = 3_000_000  # commas and brackets, a bound of the memory that the records take
 LONGEST_REASON = 20_000  # characters; a traceback fits
 

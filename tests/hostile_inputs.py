@@ -10,7 +10,6 @@ import json
 import os
 import random
 import resource
-import select
 import signal
 import sys
 import tempfile
@@ -21,7 +20,7 @@ from importlib import import_module
 from pathlib import Path
 
 from hostile_derivations import hostile as hostile_derivation
-from surroundings import LARGEST, Ended, Place
+from surroundings import LARGEST, Ended, Place, ends_within
 
 import furiko
 from furiko.cli.main import run as run_furiko
@@ -179,7 +178,9 @@ def forked(place: Place, words: list[str], limit: float = LIMIT) -> Ended:
             sys.stdout.flush()
         finally:
             os._exit(status)
-    late = _wait(child, limit)
+    late = not ends_within(child, limit)
+    if late:
+        os.kill(child, signal.SIGKILL)
     _, state, usage = os.wait4(child, 0)
     seconds = time.monotonic() - begun
     own = 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
@@ -188,18 +189,6 @@ def forked(place: Place, words: list[str], limit: float = LIMIT) -> Ended:
     if late:
         ended.left.append("it hangs")
     return ended
-
-
-def _wait(child: int, limit: float) -> bool:
-    """Wait for the process to end; kill it, and return True, where it takes too long."""
-    descriptor = os.pidfd_open(child)
-    try:
-        if select.select([descriptor], [], [], limit)[0]:
-            return False
-        os.kill(child, signal.SIGKILL)
-        return True
-    finally:
-        os.close(descriptor)
 
 
 def wrong(words: list[str], ended: Ended) -> list[str]:

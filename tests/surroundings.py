@@ -14,6 +14,7 @@ from __future__ import annotations
 import argparse
 import os
 import resource
+import select
 import signal
 import subprocess
 import sys
@@ -77,6 +78,15 @@ def marked_processes(mark: str) -> list[int]:
     return found
 
 
+def ends_within(process: int, seconds: float) -> bool:
+    """Whether a child process ends in time; it is not reaped."""
+    descriptor = os.pidfd_open(process)
+    try:
+        return bool(select.select([descriptor], [], [], seconds)[0])
+    finally:
+        os.close(descriptor)
+
+
 class Place:
     """A folder for one command, with a folder for its temporary files and a cache of its own."""
 
@@ -92,27 +102,24 @@ class Place:
     def start(self, command: list[str], shell: str = "{}", **options: object) -> subprocess.Popen[bytes]:
         """Start a command; ``shell``: what a shell makes of it, as in ``{} >&-``."""
         line = shell.format('"$@"')
-        return subprocess.Popen(
-            ["bash", "-c", f"exec {line}" if shell == "{}" else line, "bash", *command],
-            cwd=self.folder, env=self.environment, stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options,
-        )  # type: ignore[call-overload]  # fmt: skip
+        with (self.folder / "out").open("wb") as out, (self.folder / "err").open("wb") as err:
+            return subprocess.Popen(
+                ["bash", "-c", f"exec {line}" if shell == "{}" else line, "bash", *command],
+                cwd=self.folder, env=self.environment, stdin=subprocess.DEVNULL, stdout=out, stderr=err, **options,
+            )  # type: ignore[call-overload]  # fmt: skip
 
     def end(self, process: subprocess.Popen[bytes], begun: float, limit: float = 120.0) -> Ended:
         """Wait for it, and look at what it left."""
-        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
-        try:
-            out, err = process.communicate(timeout=limit)
-        except subprocess.TimeoutExpired:
+        late = not ends_within(process.pid, limit)
+        if late:
             for number in marked_processes(self.mark):
                 os.kill(number, signal.SIGKILL)
-            out, err = process.communicate()
-            err += b"\nTraceback: it hangs"
+        _, state, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(state)
         seconds = time.monotonic() - begun
-        after = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
-        # the largest of all so far: a command that is smaller than an earlier one is not seen, and is below it
-        memory = 1024 * after if after > before else 0
-        return Ended(process.returncode, out, err, seconds, memory, self.left())
+        left = [*(["it hangs"] if late else []), *self.left()]
+        out, err = ((self.folder / name).read_bytes() for name in ("out", "err"))
+        return Ended(process.returncode, out, err, seconds, 1024 * usage.ru_maxrss, left)
 
     def left(self) -> list[str]:
         """What is left: processes, and temporary files other than an internal error's traceback."""
@@ -143,12 +150,11 @@ class Place:
             [*PYTHON, *arguments], preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler)
         )
         deadline = time.monotonic() + wait
-        while time.monotonic() < deadline and not until() and process.poll() is None:
-            time.sleep(0.02)
+        while time.monotonic() < deadline and not until() and not ends_within(process.pid, 0.02):
+            pass
         begun = time.monotonic()
-        process.send_signal(number)
-        if again:
-            process.send_signal(number)
+        for _ in range(1 + again):
+            os.kill(process.pid, number)  # not process.send_signal, which reaps one that has ended
         return self.end(process, begun, 30.0)
 
 

@@ -15,17 +15,25 @@ import furiko
 
 CHECK = ("check", "rods-1", "-e", "mujoco", "--profile", "smoke")
 SCENE = '[system]\nkind = "rod-chain"\nlengths = [1.0]\n'
+BENCH = ("bench", "bench-rods-2", "-e", "exudyn-redundant", "--budget", "20")
 NASTY = "a\x1b[31mb\u202ec\x9b7m"
 
 
-def _with(
-    content: str | bytes, *arguments: str, name: str = "file.toml", **options: object
-) -> Callable[[Place], Ended]:
+Content = (
+    str | bytes | Callable[[], str | bytes | list[str]]
+)  # large ones are made when they are needed: memory is measured
+
+
+def _with(content: Content, *arguments: str, name: str = "file.toml", **options: object) -> Callable[[Place], Ended]:
     """Run on a file of this content, ``FILE`` among the arguments."""
 
     def run(place: Place) -> Ended:
         path = place.folder / name
-        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        made = content() if callable(content) else content
+        with path.open("wb") as file:  # piece by piece: what this process needs is counted for the command as well
+            for piece in made if isinstance(made, list) else [made]:
+                file.write(piece if isinstance(piece, bytes) else piece.encode())
+        del made
         return place.run(*(name if word == "FILE" else word for word in arguments), **options)  # type: ignore[arg-type]
 
     return run
@@ -111,7 +119,7 @@ SIGNALS = [
     *(
         Fault(f"{signal.Signals(number).name} after {seconds} s of {' '.join(arguments)}",
               _signal_soon(number, seconds, *arguments), (status, -number, 0))
-        for arguments in (("bench", "bench-rods-2", "--budget", "20"), ("audit",), ("stress", "--budget", "20"))
+        for arguments in (BENCH, ("audit",), ("stress", "--budget", "20"))
         for number, status in ((signal.SIGINT, 130), (signal.SIGTERM, 143))
         for seconds in (1.0, 4.0)
     ),
@@ -182,17 +190,53 @@ LARGE_FILES = [
     Fault(f"{name} of {what}", _with(content, *FILES[name]), (2,), QUICK, SMALL)
     for name in ("grade", "check", "export")
     for what, content in (
-        ("a key of 20,000 dots", "a" + ".a" * 20_000 + " = 1\n"),
-        ("10,000 keys of 15 dots", "".join(f"k{i}" + ".a" * 15 + " = 1\n" for i in range(10_000))),
-        ("a table's name of 20,000 dots", "[a" + ".a" * 20_000 + "]\n"),
-        ("nested arrays", "a = " + "[" * 100_000),
-        ("nested tables", "a = " + "{a = " * 30_000),
-        ("100,000 tables", "".join(f"[t{i}]\n" for i in range(100_001))),
-        ("a number of 150,000 digits", "a = " + "1" * 150_000),
-        ("a hexadecimal number of 150,000 digits", SCENE.replace("1.0", "0x" + "f" * 150_000)),
-        ("a string without an end", 'a = """' + '"" ' * 50_000),
-        ("zeros", b"\0" * 700_000),
-        ("UTF-16", SCENE.encode("utf-16")),
+        ("a key of 20,000 dots", lambda: "a" + ".a" * 20_000 + " = 1\n"),
+        ("10,000 keys of 15 dots", lambda: "".join(f"k{i}" + ".a" * 15 + " = 1\n" for i in range(10_000))),
+        ("a table's name of 20,000 dots", lambda: "[a" + ".a" * 20_000 + "]\n"),
+        ("nested arrays", lambda: "a = " + "[" * 100_000),
+        ("nested tables", lambda: "a = " + "{a = " * 30_000),
+        ("100,000 tables", lambda: "".join(f"[t{i}]\n" for i in range(100_001))),
+        ("a number of 150,000 digits", lambda: "a = " + "1" * 150_000),
+        ("a hexadecimal number of 150,000 digits", lambda: SCENE.replace("1.0", "0x" + "f" * 150_000)),
+        ("a string without an end", lambda: 'a = """' + '"" ' * 50_000),
+        ("zeros", lambda: b"\0" * 700_000),
+        ("UTF-16", lambda: SCENE.encode("utf-16")),
+    )
+]
+
+HEADER = (
+    '{"kind":"header","furiko":"1","started":"","command":"","profile":"","seed":"","machine":{},"versions":{},'
+    '"scenes":[],"engines":[]}\n'
+)
+
+
+def _result(fields: str) -> str:
+    return f'{{"kind":"result","scene":"s","engine":"e","check":"c","outcome":"agrees",{fields}}}\n'
+
+
+LARGE_STREAMS = [
+    Fault(f"diff of {what}", _with(lambda f=fields, t=times: [HEADER, *[_result(f())] * t], *FILES["diff"]), statuses)
+    for what, fields, times, statuses in (
+        ("half a million results", lambda: '"unit":"x"', 500_000, (2, 3)),
+        ("a million lists", lambda: f'"details":{{"a":[{"[]," * 500_000}[]]}}', 2, (2, 3)),
+        ("eight million lists", lambda: f'"details":{{"a":[{"[]," * 2_000_000}[]]}}', 4, (2, 3)),
+        ("long reasons", lambda: f'"reason":"{"x" * 4_000_000}𝜃"', 15, (3,)),
+        ("reasons without end", lambda: f'"reason":"{"x" * 4_000_000}𝜃"', 40, (2,)),
+    )
+]
+
+MODEL = furiko.to_mjcf(furiko.RodChain([1.0]))
+LARGE_MODELS = [
+    Fault(f"diagnose of {what}", _with(content, "diagnose", "FILE", name="m.xml"), (2,))
+    for what, content in (
+        ("half a million attributes", lambda: "<mujoco " + "".join(f"a{i}='' " for i in range(500_000)) + "/>"),
+        ("nested elements", lambda: "<mujoco>" + "<body>" * 900_000),
+        ("a million elements", lambda: "<mujoco>" + "<a/>" * 1_000_000 + "</mujoco>"),
+        ("entities", lambda: '<!DOCTYPE a [<!ENTITY b "' + "x" * 1000 + '">]><mujoco>' + "&b;" * 100_000 + "</mujoco>"),
+        ("a file that includes itself", lambda: MODEL.replace("<worldbody>", '<include file="m.xml"/><worldbody>')),
+        ("a long name to include", lambda: MODEL.replace("<worldbody>", f'<include file="{"x" * 5000}"/><worldbody>')),
+        ("zeros", lambda: b"\0" * 7_000_000),
+        ("UTF-32", lambda: MODEL.encode("utf-32")),
     )
 ]
 
@@ -239,4 +283,15 @@ MISTAKES = [
     ),
 ]  # fmt: skip
 
-FAULTS = [*STREAMS, *SIGNALS, *DISKS, *LIMITS, *NO_FILES, *LARGE_FILES, *NAMES, *MISTAKES]
+FAULTS = [
+    *STREAMS,
+    *SIGNALS,
+    *DISKS,
+    *LIMITS,
+    *NO_FILES,
+    *LARGE_FILES,
+    *LARGE_STREAMS,
+    *LARGE_MODELS,
+    *NAMES,
+    *MISTAKES,
+]

@@ -76,8 +76,8 @@ def check(
     if unwritten:
         print_failure(unwritten)
         statuses.append(INCOMPLETE)
-    if before is not None:
-        comparison = compare(before, report)
+    comparison = None if before is None else compare(before, report)
+    if comparison is not None:
         statuses.append(comparison.exit_status)
         if as_json:
             print_text(comparison.text(), err=True)
@@ -96,6 +96,6 @@ def check(
         from ..reports.terminal.check import print_report
 
         print_report(report, path=None if unwritten else out / "report.html")
-        if before is not None:
+        if comparison is not None:
             print_text(comparison.text())
     return DIFFERS if DIFFERS in statuses else max(statuses)

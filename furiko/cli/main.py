@@ -14,7 +14,7 @@ from .. import __version__
 from ..records.exit_status import AGREES, CLOSED_PIPE
 from .failures import Failure, failure_of
 from .output import documents_printed, print_failure, print_json
-from .process import OutputFailed, flush, open_standard_streams
+from .process import OutputFailed, flush, open_standard_streams, stopped
 
 COMPLETION = "_FURIKO_COMPLETE"  # set by a shell that asks for completions
 
@@ -87,11 +87,13 @@ def run(arguments: list[str]) -> int:
     try:
         status = cli.main(arguments or ["--help"], prog_name="furiko", standalone_mode=False)
         flush()
+        if signalled := stopped():  # an engine's own code swallowed it, and what it then gave is worth nothing
+            raise signalled
     except BaseException as error:
         if isinstance(error, SystemExit) and COMPLETION in os.environ:
             return error.code if isinstance(error.code, int) else AGREES
-        # click turns a signal's exception into its own
-        cause = error.__cause__ if isinstance(error, click.Abort) and error.__cause__ else error
+        # click turns a signal's exception into its own, and so do some engines
+        cause = stopped() or error
         with_document = "--json" in arguments and documents_printed() == before
         return _fail(failure_of(cause), with_document=with_document)
     return status if isinstance(status, int) else AGREES

@@ -8,9 +8,11 @@ import os
 import signal
 import sys
 import time
+from dataclasses import dataclass
 from types import FrameType
 from typing import TextIO
 
+AGAIN = 5.0  # [s] after which a signal that had no effect is raised again
 QUIET = 2.0  # [s] in which a second signal is the same wish: a closed terminal sends several
 
 
@@ -30,19 +32,46 @@ class OutputFailed(Exception):
         self.closed_by_reader = isinstance(error, BrokenPipeError)
 
 
+@dataclass
+class _Signals:
+    """What this process has been told."""
+
+    last: float = -QUIET
+    stopped: Stopped | None = None
+
+    def stop(self, number: int, frame: FrameType | None) -> None:
+        """End, unless that is under way."""
+        before, self.last = self.last, time.monotonic()
+        if self.last - before >= QUIET:
+            self.stopped = Stopped(number)
+            signal.setitimer(signal.ITIMER_REAL, AGAIN, AGAIN)
+            raise self.stopped
+
+    def stop_again(self, number: int, frame: FrameType | None) -> None:
+        """Something has swallowed the exception: an engine's own code, or whoever catches all that it raises."""
+        if self.stopped is not None:
+            raise self.stopped
+
+
+_signals = _Signals()
+
+
 def catch_signals() -> None:
     """Raise :class:`Stopped` at SIGINT, SIGTERM and SIGHUP. A signal that this process was told to ignore stays so."""
-    last = -QUIET
-
-    def stop(number: int, frame: FrameType | None) -> None:
-        nonlocal last
-        before, last = last, time.monotonic()
-        if last - before >= QUIET:
-            raise Stopped(number)
-
+    signal.signal(signal.SIGALRM, _signals.stop_again)
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         if signal.getsignal(number) in (signal.SIG_DFL, signal.default_int_handler):
-            signal.signal(number, stop)
+            signal.signal(number, _signals.stop)
+
+
+def stopped() -> Stopped | None:
+    """The signal that ends this process, if one came; it is not raised again.
+
+    An engine's own code may have made another exception of it.
+    """
+    if _signals.stopped is not None:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+    return _signals.stopped
 
 
 def open_standard_streams() -> None:

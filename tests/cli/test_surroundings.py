@@ -23,7 +23,7 @@ QUICK = (
     "scenes, no standard stream at all",
     "SIGTERM in a check",
     "SIGHUP in a check",
-    "SIGTERM after 4.0 s of bench bench-rods-2 --budget 20",
+    "SIGTERM after 4.0 s of bench bench-rods-2 -e exudyn-redundant --budget 20",
     "a disk that fills up at the end",
     "a disk that fills up in the middle",
     "a journal that is a pipe",
