@@ -38,6 +38,11 @@ class EngineInfo:
     that is more than double precision's rounding. ``largest_n`` links it takes, and a mass of ``least_mass`` [kg] or
     more and an inertia about the hinge of ``least_inertia`` [kg m²] or more for each link; the reasons say what stands
     in the way.
+
+    Two facts tell what rounding does, not at worst but as a rule, and are trusted only where they promise less of it:
+    ``algorithm``: how accelerations are solved for, articulated bodies (``aba``) or a mass matrix that is put together
+    and factorised (``crba``); ``inverse``: how inverse dynamics and joint forces are computed, link by link in the
+    links' own frames (``rnea``) or from a mass matrix, in the world's frame, or in a way that is not known (``matrix``).
     """
 
     name: str
@@ -60,3 +65,5 @@ class EngineInfo:
     moments: Literal["hinge", "tree"] = "hinge"
     placed: Literal["parent", "world"] = "parent"
     interchanges: bool = False
+    algorithm: Literal["aba", "crba"] = "crba"
+    inverse: Literal["rnea", "matrix"] = "matrix"

@@ -17,6 +17,7 @@ _PINOCCHIO: dict[str, Any] = {
     "package": "pin",
     "homepage": "https://github.com/stack-of-tasks/pinocchio",
     "coordinates": "relative",
+    "inverse": "rnea",
     "missing": {"trajectory": "Pinocchio computes dynamics; it has no integrator of its own"},
     "largest_n": 300,
     "least_mass": 2.0**-52,
@@ -52,6 +53,7 @@ ENGINES: dict[str, EngineInfo] = {
             name="pinocchio-aba",
             formulation="articulated-body algorithm; model from URDF",
             adapter="furiko.engines.pinocchio:PinocchioAba",
+            algorithm="aba",
             **_PINOCCHIO,
         ),
         EngineInfo(
@@ -59,6 +61,7 @@ ENGINES: dict[str, EngineInfo] = {
             formulation="articulated-body algorithm; model from MJCF",
             adapter="furiko.engines.pinocchio:PinocchioAbaMjcf",
             placed="world",
+            algorithm="aba",
             **_PINOCCHIO,
         ),
         EngineInfo(

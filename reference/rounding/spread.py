@@ -1,0 +1,202 @@
+"""What rounding really does in a state to each entry of a result: its root mean square, by the algorithm's class.
+
+The proven bounds (:mod:`.bounds`) have room for the worst of everything at once. Here every rounding is an independent
+random number of the size that it has in this very state, so that errors add up as the root of the sum of their squares.
+
+* Articulated bodies (ABA) and RNEA in link frames are run in Monte-Carlo arithmetic: :mod:`.sampled`.
+* Engines that put together the mass matrix M of their own coordinates and factorise it: with x the accelerations, b the
+  bias and F_ij what meets in entry ij of M and of its factors (:mod:`.entries`), δM_ij = F_ij u and δb_i = β_i u,
+
+      δx = M⁻¹ (δM x + δb),        spread²  =  (M⁻¹)∘² (F∘² x∘² + β∘²) · (rms of one rounding)².
+
+  β is the sum over all that a joint carries of the bias' terms in absolute angles, Σ_j W_ij ω_j² + g-terms, with every
+  sine one (an angle known to ε makes a sine near zero known to ε, not to ε of itself), diagonal included: in relative
+  coordinates v × I v leaves it as a difference.
+* Maximal coordinates: the same with the matrix (M, Gᵀ; G, 0), :mod:`.maximal_elimination`.
+
+No entry is known better than the last digits of what is summed up for it: the relative accelerations on the way, and
+what the loss of digits below the smallest normal number does. These are added everywhere, so that an entry that is
+exactly zero (at rest, stretched out straight) has a spread unless the engine adds up nothing but zeros for it.
+"""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import gravity_vector, mass_matrix
+from ..documents.equations_of_motion import Mechanism
+from .bounds import EPSILON, Amplitudes, turns
+from .entries import entries, reach
+from .lever_arms import from_support
+from .maximal_elimination import maximal_spread
+from .monte_carlo import ONE_ROUNDING
+from .sampled import aba_accelerations, rnea_forces, rnea_torques
+
+Array = NDArray[np.float64]
+
+
+class Formulation(Protocol):
+    """What of an engine matters to its rounding; ``engines.EngineInfo`` has it."""
+
+    @property
+    def coordinates(self) -> str: ...
+    @property
+    def algorithm(self) -> str: ...
+    @property
+    def inverse(self) -> str: ...
+    @property
+    def moments(self) -> str: ...
+    @property
+    def placed(self) -> str: ...
+    @property
+    def interchanges(self) -> bool: ...
+    @property
+    def accuracy(self) -> float: ...
+
+
+def accelerations(
+    how: Formulation, system: Mechanism, amplitude: Amplitudes, theta: Array, omega: Array, alpha: Array
+) -> Array:
+    """Spread of θ̈ [rad/s²], (B, n), in states (B, n) whose true accelerations are ``alpha``."""
+    mass = mass_matrix(system, theta)
+    if how.coordinates == "maximal":
+        found = maximal_spread(system, theta, omega)[0] * _coarser(how)
+    elif how.algorithm == "aba":
+        found = aba_accelerations(system.tree(), theta, omega, alpha, accuracy=how.accuracy, placed=how.placed)
+    else:
+        met = entries(how, system, amplitude, theta, mass)
+        rows = _squared(met, amplitude.own(alpha)) + bias(system, amplitude, theta, omega) ** 2
+        found = np.sqrt(_squared(amplitude.solution(mass), np.sqrt(rows))) * ONE_ROUNDING * _coarser(how)
+    summed = ONE_ROUNDING * _coarser(how) * amplitude.felt(alpha)
+    lost = amplitude.answers(mass, EPSILON * amplitude.lost(omega, alpha) + 0 * theta)
+    return np.sqrt(found**2 + summed**2) * turns(theta)[:, None] + lost
+
+
+def bias(system: Mechanism, amplitude: Amplitudes, theta: Array, omega: Array) -> Array:
+    """β: the magnitudes of velocity and gravity terms in rows of the engine's coordinates, (B, n) [N m]."""
+    straight = np.zeros_like(theta[:1])
+    velocity = omega**2 @ np.abs(mass_matrix(system, straight)[0]).T
+    return np.asarray((velocity + _weights(system, theta)) @ amplitude.to_absolute)
+
+
+def mass_entries(how: Formulation, system: Mechanism, amplitude: Amplitudes, theta: Array) -> Array:
+    """Spread of the absolute mass matrix, column by column from inverse dynamics, (B, n, n) [kg m²]."""
+    if how.inverse == "rnea":
+        return _columns(how, system, theta, accelerate=True)
+    met = entries(how, system, amplitude, theta, mass_matrix(system, theta))
+    back = amplitude.from_absolute
+    own = np.sqrt(met**2 @ back**2)  # of each row of the engine's coordinates, for each unit acceleration
+    return _rows(how, amplitude, theta, own)
+
+
+def velocity_entries(how: Formulation, system: Mechanism, amplitude: Amplitudes, theta: Array) -> Array:
+    """Spread of the coefficients of the squared rates, (B, n, n) [kg m²]."""
+    if how.inverse == "rnea":
+        return _columns(how, system, theta, accelerate=False)
+    n = system.n
+    units = np.broadcast_to(np.eye(n), (len(theta), n, n))
+    own = np.stack([velocity_bias(how, system, amplitude, theta, units[:, k]) for k in range(n)], axis=-1)
+    return _rows(how, amplitude, theta, own)
+
+
+def velocity_terms(how: Formulation, system: Mechanism, amplitude: Amplitudes, theta: Array, omega: Array) -> Array:
+    """Spread of the velocity terms with all rates at once, (B, n) [N m]."""
+    if how.inverse == "rnea":
+        return _torques(how, system, theta, omega, np.zeros_like(theta), gravity=False)
+    own = velocity_bias(how, system, amplitude, theta, omega)
+    return _rows(how, amplitude, theta, own[..., None])[..., 0]
+
+
+def gravity_terms(how: Formulation, system: Mechanism, amplitude: Amplitudes, theta: Array) -> Array:
+    """Spread of the gravity terms, (B, n) [N m]."""
+    rest = np.zeros_like(theta)
+    if how.inverse == "rnea":
+        return _torques(how, system, theta, rest, rest, gravity=True)
+    levers = reach(how, system, amplitude, theta)
+    return _rows(how, amplitude, theta, (levers @ (amplitude.mass * system.gravity))[..., None])[..., 0]
+
+
+def joint_forces(
+    how: Formulation, system: Mechanism, amplitude: Amplitudes, theta: Array, omega: Array, alpha: Array
+) -> Array:
+    """Spread of the length of each joint's force, (B, n) [N], in the true motion."""
+    if how.coordinates == "maximal":
+        found = maximal_spread(system, theta, omega)[1] * _coarser(how)
+    elif how.inverse == "rnea":
+        found = rnea_forces(system.tree(), theta, omega, alpha, accuracy=how.accuracy, placed=how.placed)
+    else:
+        levers = reach(how, system, amplitude, theta)
+        rates = np.abs(amplitude.own(omega))
+        swing = np.abs(amplitude.own(alpha)) + 2 * rates * amplitude.felt(omega)
+        pull = system.gravity + (swing[:, None, :] @ levers)[:, 0]
+        found = ONE_ROUNDING * _coarser(how) * ((amplitude.mass * pull) @ amplitude.carried)
+    return np.asarray(found * turns(theta)[:, None] + EPSILON * amplitude.underflow(omega, alpha))
+
+
+def energy(how: Formulation, system: Mechanism, amplitude: Amplitudes, theta: Array, omega: Array) -> Array:
+    """Spread of kinetic and potential energy, (B, 2) [J]."""
+    rates = np.abs(amplitude.own(omega))
+    levers = reach(how, system, amplitude, theta)
+    speed = (rates[:, None, :] @ levers)[:, 0]
+    kinetic = (speed**2 @ amplitude.mass + amplitude.felt(omega) ** 2 @ amplitude.inertia) / 2
+    height = from_support(system.tree())[1]
+    potential = np.full(len(theta), float(height @ amplitude.mass) * system.gravity)
+    found = np.stack([kinetic, potential], axis=-1) * ONE_ROUNDING * _coarser(how)
+    return np.asarray(found * turns(theta)[:, None] + EPSILON * amplitude.underflow(omega))
+
+
+def velocity_bias(how: Formulation, system: Mechanism, amplitude: Amplitudes, theta: Array, omega: Array) -> Array:
+    """Magnitudes of the velocity terms in rows of the engine's coordinates, (B, n) [N m], as inverse dynamics has them.
+
+    As β in :mod:`.bounds`, with the levers of this state: in relative coordinates F_k is the sum of the magnitudes of
+    the rates on the way to link k, V_k that of velocities, and a row gets m_k 2 F_k V_k × lever + m_k V_k² + I_k F_k².
+    """
+    if how.coordinates != "relative":
+        return amplitude.velocity_terms(omega)
+    levers = reach(how, system, amplitude, theta)
+    felt = amplitude.felt(omega)
+    speed = (np.abs(amplitude.own(omega))[:, None, :] @ levers)[:, 0]
+    force = (levers @ (2 * amplitude.mass * felt * speed)[..., None])[..., 0]
+    return np.asarray(force + (amplitude.mass * speed**2 + amplitude.inertia * felt**2) @ amplitude.carried)
+
+
+def _columns(how: Formulation, system: Mechanism, theta: Array, *, accelerate: bool) -> Array:
+    """Spread of RNEA's answers to a unit acceleration, or a unit rate, of each angle alone, (B, n, n)."""
+    count, n = theta.shape
+    units = np.tile(np.eye(n), (count, 1))
+    rest = np.zeros_like(units)
+    omega, alpha = (rest, units) if accelerate else (units, rest)
+    found = _torques(how, system, np.repeat(theta, n, axis=0), omega, alpha, gravity=False)
+    return np.asarray(found.reshape(count, n, n).swapaxes(1, 2))
+
+
+def _torques(
+    how: Formulation, system: Mechanism, theta: Array, omega: Array, alpha: Array, *, gravity: bool
+) -> Array:
+    found = rnea_torques(
+        system.tree(), theta, omega, alpha, gravity=gravity, accuracy=how.accuracy, placed=how.placed
+    )
+    return np.asarray(found * turns(theta)[:, None])
+
+
+def _rows(how: Formulation, amplitude: Amplitudes, theta: Array, own: Array) -> Array:
+    """Spreads of rows of absolute angles, (B, n, m), from magnitudes in rows of the engine's coordinates, (B, n, m)."""
+    found = np.sqrt(amplitude.from_absolute.T**2 @ own**2)
+    return np.asarray(ONE_ROUNDING * _coarser(how) * found * turns(theta)[:, None, None])
+
+
+def _squared(matrix: Array, vector: Array) -> Array:
+    """Σ_j matrix_ij² vector_j², (B, n)."""
+    return np.asarray((matrix**2 @ (vector**2)[..., None])[..., 0])
+
+
+def _weights(system: Mechanism, theta: Array) -> Array:
+    """The gravity terms in absolute angles with every sine one, (1, n) [N m]."""
+    return np.abs(gravity_vector(system, np.full_like(theta[:1], np.pi / 2)))
+
+
+def _coarser(how: Formulation) -> float:
+    return how.accuracy / EPSILON
