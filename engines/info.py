@@ -41,8 +41,9 @@ class EngineInfo:
 
     Two facts tell what rounding does, not at worst but as a rule, and are trusted only where they promise less of it:
     ``algorithm``: how accelerations are solved for, articulated bodies (``aba``) or a mass matrix that is put together
-    and factorised (``crba``); ``inverse``: how inverse dynamics and joint forces are computed, link by link in the
-    links' own frames (``rnea``) or from a mass matrix, in the world's frame, or in a way that is not known (``matrix``).
+    and factorised (``crba``); ``inverse``: how inverse dynamics and joint forces are computed, link by link (``rnea``,
+    with moments about what ``moments`` says), so but for a mass matrix of composite bodies times the accelerations
+    (``crba``), or in a way that is not known (``matrix``).
     """
 
     name: str
@@ -66,4 +67,4 @@ class EngineInfo:
     placed: Literal["parent", "world"] = "parent"
     interchanges: bool = False
     algorithm: Literal["aba", "crba"] = "crba"
-    inverse: Literal["rnea", "matrix"] = "matrix"
+    inverse: Literal["rnea", "crba", "matrix"] = "matrix"

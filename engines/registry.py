@@ -41,6 +41,7 @@ ENGINES: dict[str, EngineInfo] = {
             package="mujoco",
             homepage="https://github.com/google-deepmind/mujoco",
             coordinates="relative",
+            inverse="crba",
             moments="tree",  # mjData.cinert, cdof, cvel and cacc are "com-based", about subtree_com of the root body
             integrators=(Integrator("Euler", 1), Integrator("implicitfast", 1), Integrator("RK4", 4)),
             largest_n=1000,
@@ -76,6 +77,7 @@ ENGINES: dict[str, EngineInfo] = {
             adapter="furiko.engines.exudyn_tree:ExudynTree",
             coordinates="relative",
             interchanges=True,
+            inverse="crba",
             integrators=(
                 Integrator("RK44", 4),
                 Integrator("RK67", 6),

@@ -73,10 +73,11 @@ class Turn(NamedTuple):
         """An articulated inertia of the link, seen from the parent."""
         c, s = self.cos, self.sin
         hx, hy = c * i.wx - s * i.wy, s * i.wx + c * i.wy
-        cross = c * s * (i.xx - i.yy)
-        xx = c * c * i.xx - 2.0 * (c * s * i.xy) + s * s * i.yy
-        yy = s * s * i.xx + 2.0 * (c * s * i.xy) + c * c * i.yy
-        xy = cross + (c * c - s * s) * i.xy
+        # R A Rᵀ, one product after the other
+        first, second = (c * i.xx - s * i.xy, s * i.xx + c * i.xy), (c * i.xy - s * i.yy, s * i.xy + c * i.yy)
+        xx = first[0] * c - second[0] * s
+        xy = first[1] * c - second[1] * s
+        yy = first[1] * s + second[1] * c
         # shifted by the joint's place r: the moment of a force is that about the joint, plus r × force
         gx, gy = hx - self.y * xx + self.x * xy, hy - self.y * xy + self.x * yy
         ww = i.ww - self.y * hx + self.x * hy - self.y * gx + self.x * gy
@@ -126,7 +127,7 @@ def inverse_dynamics(
     rates: Sequence[Any],
     accelerations: Sequence[Any],
     *,
-    gravity: float,
+    gravity: Any,
     rounded: Callable[[float], Any],
 ) -> list[Spatial]:
     """RNEA: the spatial force through each joint in its link's frame; its first component is the torque [N m].
@@ -179,7 +180,7 @@ def forward_dynamics(
         if tree.links[i].parent != SUPPORT:
             parent = tree.links[i].parent
             reduced = _without_joint(inertia[i], _yields_exactly(tree, i))
-            share = -bias[i].w / inertia[i].ww
+            share = -bias[i].w * (1.0 / inertia[i].ww)
             column = Spatial(inertia[i].ww * share, inertia[i].wx * share, inertia[i].wy * share)
             left = bias[i] + reduced.times(coriolis[i]) + column
             inertia[parent] = inertia[parent] + turns[i].inertia(reduced)
@@ -209,11 +210,13 @@ def _without_joint(i: Inertia, exactly: bool) -> Inertia:
 
     That rounding stands beside the inertias of what carries the link, which may be far smaller.
     """
+    inverse = 1.0 / i.ww
+    wx, wy = i.wx * inverse, i.wy * inverse
     return Inertia(
-        0.0 if exactly else i.ww - (i.ww / i.ww) * i.ww,
-        i.wx - (i.wx / i.ww) * i.ww,
-        i.wy - (i.wy / i.ww) * i.ww,
-        i.xx - i.wx * (i.wx / i.ww),
-        i.xy - i.wx * (i.wy / i.ww),
-        i.yy - i.wy * (i.wy / i.ww),
+        0.0 if exactly else i.ww - (i.ww * inverse) * i.ww,
+        i.wx - wx * i.ww,
+        i.wy - wy * i.ww,
+        i.xx - wx * i.wx,
+        i.xy - wx * i.wy,
+        i.yy - wy * i.wy,
     )

@@ -19,19 +19,23 @@ POOL = 1 << 16  # random factors, drawn once: an operation takes a run of them f
 # Rounding to nearest errs by at most half a unit of the last digit, uniformly. A unit is between ε/2 and ε of the
 # number; for numbers whose logarithms are spread evenly its root mean square is 0.7355 ε.
 UNIT = 0.7355
+# The factors are so much coarser than rounding, and spreads are divided by as much: or double precision's own rounding
+# would undo most of the random one (a number just above a power of two is not moved by less than half an ε).
+MAGNIFIED = 2.0**8
 ONE_ROUNDING = UNIT / math.sqrt(12) * EPSILON  # root mean square of one operation's relative error
 
 
 class Noise:
-    """A source of factors 1 + u: the rounding to nearest of one operation.
+    """A source of factors 1 + u: the rounding to nearest of one operation, magnified.
 
     ``seed``: the same one gives the same factors; ``accuracy``: relative accuracy of one operation, ε by default.
     """
 
     def __init__(self, seed: int, accuracy: float = EPSILON) -> None:
         self._random = np.random.Generator(np.random.PCG64(seed))
-        self._size = UNIT * accuracy
+        self._size = UNIT * accuracy * MAGNIFIED
         self._pool = self._factors(POOL)
+        self._at = seed
 
     def _factors(self, count: int) -> Array:
         return np.asarray(1.0 + self._random.uniform(-0.5, 0.5, count) * self._size)
@@ -41,7 +45,8 @@ class Noise:
         size = values.size
         if size > self._pool.size // 2:
             self._pool = self._factors(4 * size)
-        start = int(self._random.random() * (self._pool.size - size))
+        self._at = (self._at * 1103515245 + 12345) % 2147483648  # where to take them, at random enough
+        start = self._at % (self._pool.size - size)
         return Noisy(values * self._pool[start : start + size].reshape(values.shape), self)
 
 
@@ -105,4 +110,4 @@ def _value(number: Noisy | float) -> Array | float:
 
 def spread(samples: Array, exact: Array) -> Array:
     """Root mean square of the samples' distance from the exact values: (…) from (samples, …)."""
-    return np.asarray(np.sqrt(np.mean((samples - exact) ** 2, axis=0)))
+    return np.asarray(np.sqrt(np.mean((samples - exact) ** 2, axis=0)) / MAGNIFIED)

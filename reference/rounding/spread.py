@@ -21,7 +21,8 @@ exactly zero (at rest, stretched out straight) has a spread unless the engine ad
 
 from __future__ import annotations
 
-from typing import Protocol
+from dataclasses import dataclass
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +34,7 @@ from .entries import entries, reach
 from .lever_arms import from_support
 from .maximal_elimination import maximal_spread
 from .monte_carlo import ONE_ROUNDING
-from .sampled import aba_accelerations, rnea_forces, rnea_torques
+from .sampled import aba_accelerations, crba_matrix, rnea
 
 Array = NDArray[np.float64]
 
@@ -82,41 +83,76 @@ def bias(system: Mechanism, amplitude: Amplitudes, theta: Array, omega: Array) -
     return np.asarray((velocity + _weights(system, theta)) @ amplitude.to_absolute)
 
 
-def mass_entries(how: Formulation, system: Mechanism, amplitude: Amplitudes, theta: Array) -> Array:
-    """Spread of the absolute mass matrix, column by column from inverse dynamics, (B, n, n) [kg m²]."""
-    if how.inverse == "rnea":
-        return _columns(how, system, theta, accelerate=True)
-    met = entries(how, system, amplitude, theta, mass_matrix(system, theta))
-    back = amplitude.from_absolute
-    own = np.sqrt(met**2 @ back**2)  # of each row of the engine's coordinates, for each unit acceleration
-    return _rows(how, amplitude, theta, own)
+@dataclass(frozen=True)
+class Terms:
+    """Spreads of the terms of the equations of motion that inverse dynamics gives, in absolute angles.
+
+    ``mass``, (B, n, n) [kg m²]; ``coriolis``: coefficients of the squared rates, (B, n, n) [kg m²]; ``gravity``, (B, n)
+    [N m]; ``velocity``: the velocity terms with all rates at once, (B, n) [N m].
+    """
+
+    mass: Array
+    coriolis: Array
+    gravity: Array
+    velocity: Array
 
 
-def velocity_entries(how: Formulation, system: Mechanism, amplitude: Amplitudes, theta: Array) -> Array:
-    """Spread of the coefficients of the squared rates, (B, n, n) [kg m²]."""
+def terms(how: Formulation, system: Mechanism, amplitude: Amplitudes, theta: Array, omega: Array) -> Terms:
+    """What rounding does to each entry of the terms in states (B, n), each row asked for by itself.
+
+    Added to what the algorithm does: one rounding of each entry with every sine and cosine one. An angle is known to ε,
+    so that a cosine near zero is not known better.
+    """
+    known = ONE_ROUNDING * _coarser(how) * np.abs(mass_matrix(system, np.zeros_like(theta[:1])))
+    weights = ONE_ROUNDING * _coarser(how) * _weights(system, theta)
+    found = _terms_unknown(how, system, amplitude, theta, omega) if how.inverse == "matrix" else _terms(how, system, theta, omega)
+    last = Terms(known, known, weights, omega**2 @ known[0].T)
+    more = turns(theta)
+    return Terms(
+        np.hypot(found.mass, last.mass) * more[:, None, None],
+        np.hypot(found.coriolis, last.coriolis) * more[:, None, None],
+        np.hypot(found.gravity, last.gravity) * more[:, None],
+        np.hypot(found.velocity, last.velocity) * more[:, None],
+    )
+
+
+def _terms(how: Formulation, system: Mechanism, theta: Array, omega: Array) -> Terms:
+    """Of an algorithm that is sampled: every row of inverse dynamics at once, unit rates and accelerations among them."""
+    (count, n), tree = theta.shape, system.tree()
+    facts: dict[str, Any] = {"accuracy": how.accuracy, "placed": how.placed, "moments": how.moments}
+    units = np.tile(np.eye(n), (count, 1))
+    rest, idle = np.zeros_like(units), np.zeros_like(theta)
+    columns = np.repeat(theta, n, axis=0)
+    # angles, rates, accelerations, and whether there is gravity, of each part
+    parts = [(columns, units, rest, 0.0), (theta, omega, idle, 0.0), (theta, idle, idle, 1.0)]
     if how.inverse == "rnea":
-        return _columns(how, system, theta, accelerate=False)
+        parts.append((columns, rest, units, 0.0))
+    at, rates, accelerations = (np.concatenate([part[k] for part in parts]) for k in range(3))
+    pulled = np.concatenate([np.full(len(part[0]), system.gravity * part[3]) for part in parts])
+    found, _ = rnea(tree, at, rates, accelerations, gravity=pulled, **facts)
+    coriolis, velocity, gravity, *mass = np.split(found, np.cumsum([len(part[0]) for part in parts[:-1]]))
+    return Terms(
+        _columns(mass[0], count) if mass else crba_matrix(tree, theta, **facts),
+        _columns(coriolis, count),
+        gravity,
+        velocity,
+    )
+
+
+def _terms_unknown(
+    how: Formulation, system: Mechanism, amplitude: Amplitudes, theta: Array, omega: Array
+) -> Terms:
+    """Where it is not known how they are computed: magnitudes in rows of the engine's coordinates, put together."""
     n = system.n
+    met = np.abs(amplitude.own_matrix(mass_matrix(system, theta)))
+    mass = np.sqrt(met**2 @ amplitude.from_absolute**2)  # of each row, for each unit acceleration
     units = np.broadcast_to(np.eye(n), (len(theta), n, n))
-    own = np.stack([velocity_bias(how, system, amplitude, theta, units[:, k]) for k in range(n)], axis=-1)
-    return _rows(how, amplitude, theta, own)
-
-
-def velocity_terms(how: Formulation, system: Mechanism, amplitude: Amplitudes, theta: Array, omega: Array) -> Array:
-    """Spread of the velocity terms with all rates at once, (B, n) [N m]."""
-    if how.inverse == "rnea":
-        return _torques(how, system, theta, omega, np.zeros_like(theta), gravity=False)
-    own = velocity_bias(how, system, amplitude, theta, omega)
-    return _rows(how, amplitude, theta, own[..., None])[..., 0]
-
-
-def gravity_terms(how: Formulation, system: Mechanism, amplitude: Amplitudes, theta: Array) -> Array:
-    """Spread of the gravity terms, (B, n) [N m]."""
-    rest = np.zeros_like(theta)
-    if how.inverse == "rnea":
-        return _torques(how, system, theta, rest, rest, gravity=True)
-    levers = reach(how, system, amplitude, theta)
-    return _rows(how, amplitude, theta, (levers @ (amplitude.mass * system.gravity))[..., None])[..., 0]
+    coriolis = np.stack([velocity_bias(how, system, amplitude, theta, units[:, k]) for k in range(n)], axis=-1)
+    gravity = reach(how, system, amplitude, theta) @ (amplitude.mass * system.gravity)
+    velocity = velocity_bias(how, system, amplitude, theta, omega)
+    rows = (_rows(how, amplitude, own) for own in (mass, coriolis, gravity[..., None], velocity[..., None]))
+    mass, coriolis, gravity, velocity = rows
+    return Terms(mass, coriolis, gravity[..., 0], velocity[..., 0])
 
 
 def joint_forces(
@@ -125,8 +161,9 @@ def joint_forces(
     """Spread of the length of each joint's force, (B, n) [N], in the true motion."""
     if how.coordinates == "maximal":
         found = maximal_spread(system, theta, omega)[1] * _coarser(how)
-    elif how.inverse == "rnea":
-        found = rnea_forces(system.tree(), theta, omega, alpha, accuracy=how.accuracy, placed=how.placed)
+    elif how.inverse != "matrix":
+        facts: dict[str, Any] = {"accuracy": how.accuracy, "placed": how.placed, "moments": how.moments}
+        found = rnea(system.tree(), theta, omega, alpha, gravity=np.full(len(theta), system.gravity), **facts)[1]
     else:
         levers = reach(how, system, amplitude, theta)
         rates = np.abs(amplitude.own(omega))
@@ -163,29 +200,16 @@ def velocity_bias(how: Formulation, system: Mechanism, amplitude: Amplitudes, th
     return np.asarray(force + (amplitude.mass * speed**2 + amplitude.inertia * felt**2) @ amplitude.carried)
 
 
-def _columns(how: Formulation, system: Mechanism, theta: Array, *, accelerate: bool) -> Array:
-    """Spread of RNEA's answers to a unit acceleration, or a unit rate, of each angle alone, (B, n, n)."""
-    count, n = theta.shape
-    units = np.tile(np.eye(n), (count, 1))
-    rest = np.zeros_like(units)
-    omega, alpha = (rest, units) if accelerate else (units, rest)
-    found = _torques(how, system, np.repeat(theta, n, axis=0), omega, alpha, gravity=False)
-    return np.asarray(found.reshape(count, n, n).swapaxes(1, 2))
+def _columns(responses: Array, count: int) -> Array:
+    """The matrix whose column k is the response to a unit of angle k, (B, n, n) from (B n, n)."""
+    n = responses.shape[-1]
+    return np.asarray(responses.reshape(count, n, n).swapaxes(1, 2))
 
 
-def _torques(
-    how: Formulation, system: Mechanism, theta: Array, omega: Array, alpha: Array, *, gravity: bool
-) -> Array:
-    found = rnea_torques(
-        system.tree(), theta, omega, alpha, gravity=gravity, accuracy=how.accuracy, placed=how.placed
-    )
-    return np.asarray(found * turns(theta)[:, None])
-
-
-def _rows(how: Formulation, amplitude: Amplitudes, theta: Array, own: Array) -> Array:
+def _rows(how: Formulation, amplitude: Amplitudes, own: Array) -> Array:
     """Spreads of rows of absolute angles, (B, n, m), from magnitudes in rows of the engine's coordinates, (B, n, m)."""
     found = np.sqrt(amplitude.from_absolute.T**2 @ own**2)
-    return np.asarray(ONE_ROUNDING * _coarser(how) * found * turns(theta)[:, None, None])
+    return np.asarray(ONE_ROUNDING * _coarser(how) * found)
 
 
 def _squared(matrix: Array, vector: Array) -> Array:
