@@ -60,7 +60,8 @@ class Result(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag="r
 
     ``measured`` and ``allowed`` are in ``unit`` (``ε``: multiples of 2⁻⁵² of the sum of the terms' magnitudes); None
     where nothing was measured. ``cause``: a stable code, where one is known. ``reason``: a sentence: why it differs,
-    was skipped or failed, or where the bound comes from. ``details``: further figures, check by check.
+    was skipped or failed, or where the bound comes from. ``loose``: it agrees, being within the proven bound, but is
+    further off than rounding explains in this state. ``details``: further figures, check by check.
     """
 
     scene: str
@@ -74,6 +75,7 @@ class Result(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag="r
     cause: str | None = None
     reason: str = ""
     seconds: float = 0.0
+    loose: bool = False
     kept: bool = False  # from an earlier run with the very same inputs
     details: dict[str, Any] = {}
 
@@ -85,6 +87,7 @@ class Footer(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag="f
     differs: int
     skipped: int
     error: int
+    loose: int = 0  # of those that agree
     seconds: float = 0.0
 
 

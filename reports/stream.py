@@ -50,6 +50,7 @@ class StreamWriter:
         self._header = header
         self._file: FileIO | None = None
         self._counts: Counter[Outcome] = Counter()
+        self._loose = 0
         self._size = 0
 
     def __enter__(self) -> StreamWriter:
@@ -65,6 +66,7 @@ class StreamWriter:
         written = _finite(result)
         self._line(written)
         self._counts[written.outcome] += 1
+        self._loose += written.loose
         return written
 
     def finish(self, seconds: float = 0.0) -> Footer:
@@ -74,6 +76,7 @@ class StreamWriter:
             differs=self._counts["differs"],
             skipped=self._counts["skipped"],
             error=self._counts["error"],
+            loose=self._loose,
             seconds=seconds,
         )
         self._line(footer)

@@ -54,6 +54,7 @@ Array = NDArray[np.float64]
 
 EPSILON = 2.0**-52
 SMALLEST = 2.0**-1022  # normal number
+CACHED = 400_000  # numbers
 BLOCK = 32  # columns eliminated one by one before the others follow
 
 # Roundings that a term passes on its way through one link: sine and cosine (1 each) and their error's effect (1), a
@@ -244,9 +245,13 @@ def interchanged(matrix: Array) -> Array:
 
     Its backward error is so much (Higham, theorem 9.3). Rows are interchanged by the size of their entries, so that a
     row of small entries may be added to one of large ones, and share in its rounding. A block of columns at a time, so
-    that most of the work is products of matrices.
+    that most of the work is products of matrices, and no more matrices at a time than a processor's cache holds.
     """
-    work, (count, n) = matrix.copy(), matrix.shape[:2]
+    count, n = matrix.shape[:2]
+    together = max(1, CACHED // (n * n))
+    if count > together:
+        return np.concatenate([interchanged(matrix[i : i + together]) for i in range(0, count, together)])
+    work = matrix.copy()
     states, order = np.arange(count), np.tile(np.arange(n), (count, 1))
     for start in range(0, n, BLOCK):
         stop = min(start + BLOCK, n)

@@ -1,4 +1,4 @@
-"""RNEA and ABA of a planar tree in spatial algebra and link frames, as engines compute them (Featherstone 2008, 5.3, 7.3).
+"""RNEA and ABA of a planar tree in spatial algebra and link frames, as engines compute them (Featherstone 2008).
 
 One text for any numbers that add, multiply and divide: it is run in :mod:`.monte_carlo`'s arithmetic to see what
 rounding does. A link's frame has its origin at the joint that carries it, its first axis along the link. A spatial
@@ -206,9 +206,10 @@ def _yields_exactly(tree: PlanarTree, i: int) -> bool:
 
 
 def _without_joint(i: Inertia, exactly: bool) -> Inertia:
-    """What is left of an articulated inertia once its joint yields: I - U Uᵀ / D. Its first row is zero but for rounding.
+    """I - U Uᵀ / D: what is left of an articulated inertia once its joint yields.
 
-    That rounding stands beside the inertias of what carries the link, which may be far smaller.
+    Its first row is zero but for rounding, which stands beside the inertias of what carries the link. These may be far
+    smaller.
     """
     inverse = 1.0 / i.ww
     wx, wy = i.wx * inverse, i.wy * inverse

@@ -26,7 +26,8 @@ Array = NDArray[np.float64]
 
 ORDERS = 16  # random ones, for the proven bound
 SPREAD_ORDERS = 3  # random ones, for the spread, besides link by link from the tips and as the unknowns stand
-WORK = 3e9  # multiplications, of which elimination makes about so many in a second
+WORK = 6e8  # multiplications, of which elimination makes about so many in a second
+ASIDE = 3e7  # what else a state costs, in the same unit
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,7 @@ class _Equations:
 
 def states_within_a_second(n: int, orders: int = ORDERS) -> int:
     """In how many states of n links the elimination can be looked at in about a second, at least in one."""
-    return max(1, int(WORK / (orders * (5.0 * n) ** 3 + orders * 2e4 * (5 * n))))
+    return max(1, int(WORK / (orders * (5.0 * n) ** 3 + ASIDE)))
 
 
 def elimination(system: Mechanism, theta: Array, omega: Array) -> tuple[Array, Array]:
@@ -61,7 +62,7 @@ def _one(system: Mechanism, theta: Array, omega: Array) -> tuple[Array, Array]:
     units, matrix = equations.units, equations.matrix
     inverse = np.linalg.inv(matrix)
     unknowns = np.abs(np.linalg.solve(matrix, equations.right))
-    size = (_met(matrix, _random_orders(5 * n, ORDERS)) * unknowns).sum(axis=-1).max(axis=0)
+    size = (_met(matrix[None], _random_orders(5 * n, ORDERS))[0] * unknowns).sum(axis=-1).max(axis=0)
     by_angle = np.abs(mass_matrix(system, theta) / units.inertia @ inverse[2 : 3 * n : 3])
     by_force = np.abs(inverse[3 * n :])
     forces = np.linalg.norm((by_force @ size).reshape(n, 2), axis=-1)
@@ -74,18 +75,18 @@ def maximal_spread(system: Mechanism, theta: Array, omega: Array) -> tuple[Array
     Every entry of |L||U| and of the right-hand side moved by one rounding, independently of the others. The right-hand
     side is G q̇, differentiated along the motion: velocities meet there before they cancel.
     """
-    pairs = [_spread(system, t, w) for t, w in zip(theta, omega, strict=True)]
+    n = system.n
+    equations = [_equations(system, t, w) for t, w in zip(theta, omega, strict=True)]
+    orders = np.vstack([_from_the_tips(n), np.arange(5 * n), _random_orders(5 * n, SPREAD_ORDERS)])
+    met = _met(np.stack([state.matrix for state in equations]), orders).max(axis=1)
+    pairs = [_spread(n, state, entries) for state, entries in zip(equations, met, strict=True)]
     alpha, forces = (np.array(values) for values in zip(*pairs, strict=True))
     return alpha, forces
 
 
-def _spread(system: Mechanism, theta: Array, omega: Array) -> tuple[Array, Array]:
-    n, equations = system.n, _equations(system, theta, omega)
-    matrix, units = equations.matrix, equations.units
-    inverse = np.linalg.inv(matrix)
-    orders = np.vstack([_from_the_tips(n), np.arange(5 * n), _random_orders(5 * n, SPREAD_ORDERS)])
-    met = _met(matrix, orders).max(axis=0)
-    rows = met**2 @ (inverse @ equations.right) ** 2 + equations.rounded**2
+def _spread(n: int, state: _Equations, met: Array) -> tuple[Array, Array]:
+    inverse, units = np.linalg.inv(state.matrix), state.units
+    rows = met**2 @ (inverse @ state.right) ** 2 + state.rounded**2
     found = ONE_ROUNDING * np.sqrt(inverse**2 @ rows)
     forces = np.linalg.norm(found[3 * n :].reshape(n, 2), axis=-1)
     return found[2 : 3 * n : 3] / units.time**2, forces * units.force
@@ -110,11 +111,12 @@ def _equations(system: Mechanism, theta: Array, omega: Array) -> _Equations:
     return _Equations(bodies.saddle(G), right, rounded, units)
 
 
-def _met(matrix: Array, orders: NDArray[np.intp]) -> Array:
-    """|L||U| of the matrix for each order of the unknowns, columns where they were, (orders, 5n, 5n)."""
-    factors = interchanged(np.stack([matrix[:, order] for order in orders]))
+def _met(matrices: Array, orders: NDArray[np.intp]) -> Array:
+    """|L||U| of each matrix for each order of the unknowns, columns where they were, (B, orders, 5n, 5n)."""
+    ordered = np.stack([matrices[:, :, order] for order in orders], axis=1)
+    factors = interchanged(ordered.reshape(-1, *matrices.shape[1:])).reshape(ordered.shape)
     found = np.empty_like(factors)
-    np.put_along_axis(found, orders[:, None, :], factors, axis=2)
+    np.put_along_axis(found, orders[None, :, None, :], factors, axis=-1)
     return found
 
 

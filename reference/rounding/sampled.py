@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from ...models import PlanarTree
 from ...models.tree import SUPPORT
-from .lever_arms import from_support
 from . import tree_frame
 from .composite import about_centre_of_mass, in_link_frames
+from .lever_arms import from_support
 from .link_frames import Inertia, Turn, forward_dynamics, in_world, inverse_dynamics, joint_turns, rigid_inertia
 from .monte_carlo import Noise, Noisy, spread
 
@@ -65,9 +65,7 @@ class _Run:
 
     def values(self, numbers: list[Any]) -> Array:
         """(samples, B, n)."""
-        return np.stack(
-            [x.value if isinstance(x, Noisy) else np.full(self.shape, float(x)) for x in numbers], axis=-1
-        )
+        return np.stack([x.value if isinstance(x, Noisy) else np.full(self.shape, float(x)) for x in numbers], axis=-1)
 
     def turns(self, theta: Array, placed: str) -> list[Turn]:
         """The joints' transformations from link to link."""
@@ -119,7 +117,9 @@ def rnea(
 ) -> tuple[Array, Array]:
     """Of generalised forces of absolute angles [N m] and of the length of each joint's force [N], (B, n) each.
 
-    ``gravity`` [m/s²], (B,). ``moments``: taken about each link's own ``hinge``, in its frame, or about the ``tree``'s centre of mass.
+    ``gravity`` [m/s²], (B,).
+
+    ``moments``: about each link's own ``hinge``, in its frame, or about the ``tree``'s centre of mass.
     """
     run = _Run(tree, len(theta), accuracy)
     rates, accelerations = run.relative(omega), run.relative(alpha)

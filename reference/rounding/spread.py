@@ -100,12 +100,16 @@ class Terms:
 def terms(how: Formulation, system: Mechanism, amplitude: Amplitudes, theta: Array, omega: Array) -> Terms:
     """What rounding does to each entry of the terms in states (B, n), each row asked for by itself.
 
-    Added to what the algorithm does: one rounding of each entry with every sine and cosine one. An angle is known to ε,
-    so that a cosine near zero is not known better.
+    Added to what the algorithm does: two roundings of each entry with every sine and cosine one. An angle is known
+    to ε, so that a cosine near zero is not known better.
     """
-    known = ONE_ROUNDING * _coarser(how) * np.abs(mass_matrix(system, np.zeros_like(theta[:1])))
+    known = 2 * ONE_ROUNDING * _coarser(how) * np.abs(mass_matrix(system, np.zeros_like(theta[:1])))
     weights = ONE_ROUNDING * _coarser(how) * _weights(system, theta)
-    found = _terms_unknown(how, system, amplitude, theta, omega) if how.inverse == "matrix" else _terms(how, system, theta, omega)
+    found = (
+        _terms_unknown(how, system, amplitude, theta, omega)
+        if how.inverse == "matrix"
+        else _terms(how, system, theta, omega)
+    )
     last = Terms(known, known, weights, omega**2 @ known[0].T)
     more = turns(theta)
     return Terms(
@@ -117,7 +121,7 @@ def terms(how: Formulation, system: Mechanism, amplitude: Amplitudes, theta: Arr
 
 
 def _terms(how: Formulation, system: Mechanism, theta: Array, omega: Array) -> Terms:
-    """Of an algorithm that is sampled: every row of inverse dynamics at once, unit rates and accelerations among them."""
+    """Of an algorithm that is sampled: all rows of inverse dynamics at once, unit rates and accelerations too."""
     (count, n), tree = theta.shape, system.tree()
     facts: dict[str, Any] = {"accuracy": how.accuracy, "placed": how.placed, "moments": how.moments}
     units = np.tile(np.eye(n), (count, 1))
@@ -139,9 +143,7 @@ def _terms(how: Formulation, system: Mechanism, theta: Array, omega: Array) -> T
     )
 
 
-def _terms_unknown(
-    how: Formulation, system: Mechanism, amplitude: Amplitudes, theta: Array, omega: Array
-) -> Terms:
+def _terms_unknown(how: Formulation, system: Mechanism, amplitude: Amplitudes, theta: Array, omega: Array) -> Terms:
     """Where it is not known how they are computed: magnitudes in rows of the engine's coordinates, put together."""
     n = system.n
     met = np.abs(amplitude.own_matrix(mass_matrix(system, theta)))

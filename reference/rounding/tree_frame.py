@@ -21,7 +21,9 @@ class Placed:
     """
 
     def __init__(self, tree: PlanarTree, half: Sequence[tuple[Any, Any]]) -> None:
-        hinges, centres, turns = [], [], []
+        hinges: list[tuple[Any, Any]] = []
+        centres: list[tuple[Any, Any]] = []
+        turns: list[tuple[Any, Any]] = []
         for link, (sin, cos) in zip(tree.links, half, strict=True):
             if link.parent == SUPPORT:
                 turn, (x, y) = (cos, sin), link.hinge
@@ -66,8 +68,7 @@ def inverse_dynamics(
         if tree.links[i].parent != SUPPORT:
             forces[tree.links[i].parent] = forces[tree.links[i].parent] + forces[i]
     torques = [
-        axis.w * force.w + axis.x * force.x + axis.y * force.y
-        for axis, force in zip(placed.axes, forces, strict=True)
+        axis.w * force.w + axis.x * force.x + axis.y * force.y for axis, force in zip(placed.axes, forces, strict=True)
     ]
     return torques, forces
 
