@@ -73,6 +73,17 @@ def places(tree: PlanarTree, theta: Array) -> tuple[NDArray[np.complex128], NDAr
     return hinge, centre
 
 
+def speeds(tree: PlanarTree, theta: Array, omega: Array) -> tuple[Array, Array]:
+    """Of each link's hinge and centre of mass, (B, n) each [m/s]."""
+    turning = omega * np.exp(1j * theta)
+    hinge, centre = np.zeros_like(turning), np.empty_like(turning)
+    for i, link in enumerate(tree.links):
+        if link.parent != SUPPORT:
+            hinge[:, i] = hinge[:, link.parent] + complex(*link.hinge) * turning[:, link.parent]
+        centre[:, i] = hinge[:, i] + complex(*link.com) * turning[:, i]
+    return np.abs(hinge), np.abs(centre)
+
+
 def _cholesky(own: Array) -> Array:
     """|L|ᵀ|L| of M = LᵀL, eliminated from the tips, as engines do it."""
     try:

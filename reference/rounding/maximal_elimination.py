@@ -32,9 +32,13 @@ ASIDE = 3e7  # what else a state costs, in the same unit
 
 @dataclass(frozen=True)
 class _Equations:
-    """The system in one state: matrix (5n, 5n), right-hand side, and magnitudes that meet in the latter, (5n,)."""
+    """The system in one state: matrix (5n, 5n), right-hand side, and magnitudes that meet in the latter, (5n,).
+
+    ``levers``: of each entry of the matrix that is a lever's component, the lever's length, (5n, 5n).
+    """
 
     matrix: Array
+    levers: Array
     right: Array
     rounded: Array
     units: Units
@@ -72,8 +76,8 @@ def _one(system: Mechanism, theta: Array, omega: Array) -> tuple[Array, Array]:
 def maximal_spread(system: Mechanism, theta: Array, omega: Array) -> tuple[Array, Array]:
     """Root mean squares of what rounding does to accelerations, (B, n) [rad/s²], and to joints' forces, (B, n) [N].
 
-    Every entry of |L||U| and of the right-hand side moved by one rounding, independently of the others. The right-hand
-    side is G q̇, differentiated along the motion: velocities meet there before they cancel.
+    Every entry of |L||U| and of the right-hand side moved by one rounding, independently of the others; an angle is
+    known to ε, hence a lever's component to ε of the lever. The right-hand side is G q̇, differentiated along the motion: velocities meet there before they cancel.
     """
     n = system.n
     equations = [_equations(system, t, w) for t, w in zip(theta, omega, strict=True)]
@@ -86,7 +90,7 @@ def maximal_spread(system: Mechanism, theta: Array, omega: Array) -> tuple[Array
 
 def _spread(n: int, state: _Equations, met: Array) -> tuple[Array, Array]:
     inverse, units = np.linalg.inv(state.matrix), state.units
-    rows = met**2 @ (inverse @ state.right) ** 2 + state.rounded**2
+    rows = (met**2 + state.levers**2) @ (inverse @ state.right) ** 2 + state.rounded**2
     found = ONE_ROUNDING * np.sqrt(inverse**2 @ rows)
     forces = np.linalg.norm(found[3 * n :].reshape(n, 2), axis=-1)
     return found[2 : 3 * n : 3] / units.time**2, forces * units.force
@@ -108,7 +112,9 @@ def _equations(system: Mechanism, theta: Array, omega: Array) -> _Equations:
     carrier = np.array([0.0 if parent == SUPPORT else turning[parent] for parent in tree.parents])
     meets = (speed + held + lever @ turning) * (turning + carrier)
     rounded = np.concatenate([np.zeros(3 * n), np.repeat(meets, 2)])
-    return _Equations(bodies.saddle(G), right, rounded, units)
+    levers = np.zeros((5 * n, 5 * n))
+    levers[3 * n :, 2 : 3 * n : 3] = np.repeat(lever, 2, axis=0)
+    return _Equations(bodies.saddle(G), levers + levers.T, right, rounded, units)
 
 
 def _met(matrices: Array, orders: NDArray[np.intp]) -> Array:

@@ -11,7 +11,8 @@ random number of the size that it has in this very state, so that errors add up 
 
   β is the sum over all that a joint carries of the bias' terms in absolute angles, Σ_j W_ij ω_j² + g-terms, with every
   sine one (an angle known to ε makes a sine near zero known to ε, not to ε of itself), diagonal included: in relative
-  coordinates v × I v leaves it as a difference.
+  coordinates v × I v leaves it as a difference. There m v_h v_c comes besides, with v_h and v_c the speeds of a link's
+  hinge and centre of mass: in the moment of v × m v about the hinge it cancels but for its rounding.
 * Maximal coordinates: the same with the matrix (M, Gᵀ; G, 0), :mod:`.maximal_elimination`.
 
 No entry is known better than the last digits of what is summed up for it: the relative accelerations on the way, and
@@ -30,7 +31,7 @@ from numpy.typing import NDArray
 from .. import gravity_vector, mass_matrix
 from ..documents.equations_of_motion import Mechanism
 from .bounds import EPSILON, Amplitudes, turns
-from .entries import entries, reach
+from .entries import entries, reach, speeds
 from .lever_arms import from_support
 from .maximal_elimination import maximal_spread
 from .monte_carlo import ONE_ROUNDING
@@ -69,17 +70,20 @@ def accelerations(
         found = aba_accelerations(system.tree(), theta, omega, alpha, accuracy=how.accuracy, placed=how.placed)
     else:
         met = entries(how, system, amplitude, theta, mass)
-        rows = _squared(met, amplitude.own(alpha)) + bias(system, amplitude, theta, omega) ** 2
+        rows = _squared(met, amplitude.own(alpha)) + bias(how, system, amplitude, theta, omega) ** 2
         found = np.sqrt(_squared(amplitude.solution(mass), np.sqrt(rows))) * ONE_ROUNDING * _coarser(how)
     summed = ONE_ROUNDING * _coarser(how) * amplitude.felt(alpha)
     lost = amplitude.answers(mass, EPSILON * amplitude.lost(omega, alpha) + 0 * theta)
     return np.sqrt(found**2 + summed**2) * turns(theta)[:, None] + lost
 
 
-def bias(system: Mechanism, amplitude: Amplitudes, theta: Array, omega: Array) -> Array:
+def bias(how: Formulation, system: Mechanism, amplitude: Amplitudes, theta: Array, omega: Array) -> Array:
     """β: the magnitudes of velocity and gravity terms in rows of the engine's coordinates, (B, n) [N m]."""
     straight = np.zeros_like(theta[:1])
     velocity = omega**2 @ np.abs(mass_matrix(system, straight)[0]).T
+    if how.coordinates == "relative":
+        hinge, centre = speeds(system.tree(), theta, omega)
+        velocity = velocity + amplitude.mass * hinge * centre
     return np.asarray((velocity + _weights(system, theta)) @ amplitude.to_absolute)
 
 
