@@ -77,7 +77,8 @@ def maximal_spread(system: Mechanism, theta: Array, omega: Array) -> tuple[Array
     """Root mean squares of what rounding does to accelerations, (B, n) [rad/s²], and to joints' forces, (B, n) [N].
 
     Every entry of |L||U| and of the right-hand side moved by one rounding, independently of the others; an angle is
-    known to ε, hence a lever's component to ε of the lever. The right-hand side is G q̇, differentiated along the motion: velocities meet there before they cancel.
+    known to ε, hence a lever's component to ε of the lever. The right-hand side is G q̇, differentiated along the
+    motion: velocities meet there before they cancel.
     """
     n = system.n
     equations = [_equations(system, t, w) for t, w in zip(theta, omega, strict=True)]

@@ -104,9 +104,7 @@ def test_a_small_error_in_any_entry_is_loose(make_cell, engine, scene):
     moving = np.array(["random" in label for label in cell.states.labels])
     cell = replace(cell, states=cell.states.only(moving), facts=cell.facts.only(moving))
     facts, system = cell.facts, cell.scene.system
-    size = spread.accelerations(
-        cell.info, system, cell.amplitude, cell.states.theta, cell.states.omega, facts.high
-    )
+    size = spread.accelerations(cell.info, system, cell.amplitude, cell.states.theta, cell.states.omega, facts.high)
     factor = sharp.MAXIMAL if cell.info.coordinates == "maximal" else sharp.ACCELERATIONS
     line = factor * size / np.abs(facts.high)  # relative, of each entry
     for entry in (0, system.n // 2, system.n - 1):
