@@ -45,6 +45,10 @@ class EngineInfo:
       difference of two places in the ``world``.
     * ``interchanges``: whether its linear solver interchanges rows (partial pivoting, without scaling them).
     * ``accuracy``: relative accuracy of one operation, with ``accuracy_reason`` where it is not the unit roundoff.
+    * ``algorithm``: how accelerations are solved for: articulated bodies (``aba``), or a mass matrix that is formed and
+      factorised (``crba``); ``inverse``: how inverse dynamics and joint forces are computed: link by link
+      (``rnea``), link by link but for a mass matrix of composite bodies times the accelerations (``crba``), or in a
+      way that is not known (``matrix``). They tell the usual rounding, not the worst.
     """
 
     name: str
@@ -67,3 +71,5 @@ class EngineInfo:
     moments: Literal["hinge", "tree"] = "hinge"
     placed: Literal["parent", "world"] = "parent"
     interchanges: bool = False
+    algorithm: Literal["aba", "crba"] = "crba"
+    inverse: Literal["rnea", "crba", "matrix"] = "matrix"

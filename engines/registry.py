@@ -17,6 +17,7 @@ _PINOCCHIO: dict[str, Any] = {
     "package": "pin",
     "homepage": "https://github.com/stack-of-tasks/pinocchio",
     "coordinates": "relative",
+    "inverse": "rnea",
     "missing": {"trajectory": "Pinocchio computes dynamics; it has no integrator of its own"},
     "largest_n": 300,
     "least_mass": 2.0**-52,
@@ -40,6 +41,7 @@ ENGINES: dict[str, EngineInfo] = {
             package="mujoco",
             homepage="https://github.com/google-deepmind/mujoco",
             coordinates="relative",
+            inverse="crba",
             moments="tree",  # mjData.cinert, cdof, cvel and cacc are "com-based", about subtree_com of the root body
             integrators=(Integrator("Euler", 1), Integrator("implicitfast", 1), Integrator("RK4", 4)),
             largest_n=1000,
@@ -52,6 +54,7 @@ ENGINES: dict[str, EngineInfo] = {
             name="pinocchio-aba",
             formulation="articulated-body algorithm; model from URDF",
             adapter="furiko.engines.pinocchio:PinocchioAba",
+            algorithm="aba",
             **_PINOCCHIO,
         ),
         EngineInfo(
@@ -59,6 +62,7 @@ ENGINES: dict[str, EngineInfo] = {
             formulation="articulated-body algorithm; model from MJCF",
             adapter="furiko.engines.pinocchio:PinocchioAbaMjcf",
             placed="world",
+            algorithm="aba",
             **_PINOCCHIO,
         ),
         EngineInfo(
@@ -73,6 +77,7 @@ ENGINES: dict[str, EngineInfo] = {
             adapter="furiko.engines.exudyn_tree:ExudynTree",
             coordinates="relative",
             interchanges=True,
+            inverse="crba",
             integrators=(
                 Integrator("RK44", 4),
                 Integrator("RK67", 6),

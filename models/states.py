@@ -30,6 +30,10 @@ class States:
     def __len__(self) -> int:
         return len(self.labels)
 
+    def at(self, rows: NDArray[np.intp]) -> States:
+        """Those with these numbers."""
+        return States(tuple(self.labels[row] for row in rows), self.theta[rows], self.omega[rows])
+
     def only(self, chosen: NDArray[np.bool_]) -> States:
         """The states where ``chosen`` (B,) is true."""
         labels = tuple(label for label, taken in zip(self.labels, chosen, strict=True) if taken)

@@ -76,6 +76,27 @@ class Skip(msgspec.Struct, frozen=True, kw_only=True):
     seconds_without: float
 
 
+class Sharpness(msgspec.Struct, frozen=True, kw_only=True):
+    """Smallest relative error in an entry that a run notices, for one scene, engine and quantity, at its worst entry.
+
+    ``noticed``: an error of so much of the entry, in every state, is loose or differs; ``own``: the 99th percentile,
+    over states, of the engine's own relative error there (one ε at least); ``ratio`` of the two. ``entry``: the worst,
+    counted from one. ``planted``: faults of twice what is noticed, planted in the first, a middle and the last entry;
+    ``found``: how many of them a run noticed.
+    """
+
+    scene: str
+    engine: str
+    quantity: str
+    states: int
+    noticed: float
+    own: float
+    ratio: float
+    entry: list[int]
+    planted: int
+    found: int
+
+
 class Bench(msgspec.Struct, frozen=True, kw_only=True):
     """One run of ``furiko bench``."""
 

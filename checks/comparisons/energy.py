@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 from ...models.tree import SUPPORT, PlanarTree
 from ...records.check import Result
 from ...reference import energies
+from ...reference.rounding import spread
 from ...reference.rounding.bounds import EPSILON, Amplitudes, allowed, turns
+from .. import sharp
 from ..cell import Cell, quotient, worst
 
 Array = NDArray[np.float64]
@@ -31,17 +33,23 @@ def compare(cell: Cell) -> Iterator[Result]:
     state, part = found.index
     agrees = found.value <= bound
     word = ("kinetic", "potential")[part]
+    at = sharp.chosen(quotient(got - expected, scale).max(axis=-1), sharp.states_for_energy(system.n))
+    looked_at = states.at(at)
+    size = spread.energy(cell.info, system, cell.amplitude, looked_at.theta, looked_at.omega)
+    line = sharp.line((got - expected)[at], size, sharp.ENERGY, looked_at, len(states))
+    reason = (
+        f"worst in the {word} energy"
+        if agrees
+        else f"the {word} energy in state {states.labels[state]!r} is {got[state, part]:.9g} J, "
+        f"the documents' {expected[state, part]:.9g} J"
+    )
     yield cell.result(
         NAME,
-        "agrees" if agrees else "differs",
+        **sharp.verdict(agrees, line, reason),
         measured=found.value,
         allowed=bound,
         unit="ε",
-        reason=f"worst in the {word} energy"
-        if agrees
-        else f"the {word} energy in state {states.labels[state]!r} is {got[state, part]:.9g} J, "
-        f"the documents' {expected[state, part]:.9g} J",
-        details={"part": word, "state": states.labels[state], "states": len(states)},
+        details={"part": word, "state": states.labels[state], "states": len(states)} | line.details(),
     )
 
 

@@ -15,7 +15,9 @@ from numpy.typing import NDArray
 from ...models.states import States
 from ...records.check import Result
 from ...reference import centrifugal_matrix, gravity_vector, mass_matrix
+from ...reference.rounding import spread
 from ...reference.rounding.bounds import EPSILON, allowed, turns
+from .. import sharp
 from ..cell import Cell, quotient, worst
 
 Array = NDArray[np.float64]
@@ -33,25 +35,43 @@ def compare(cell: Cell) -> Iterator[Result]:
     states = cell.states
     states = States(states.labels[::-1][chosen], states.theta[::-1][chosen], states.omega[::-1][chosen])
     theta, omega = states.theta, states.omega
-    entries = cell.amplitude.entries()
-    yield _result(cell, "M", columns(cell, theta, "alpha") - mass_matrix(cell.scene.system, theta), entries, states)
+    mass = columns(cell, theta, "alpha") - mass_matrix(cell.scene.system, theta)
+    looked_at, sizes = _spreads(cell, states, np.abs(mass).reshape(len(theta), -1).max(axis=-1))
+
+    def result(term: str, error: Array, scale: Array) -> Result:
+        line = None
+        if sizes is not None:
+            size: Array = getattr(sizes, SAYS[term][1])
+            line = sharp.line(error[looked_at], size, sharp.TERMS, states.at(looked_at), len(states))
+        return _result(cell, term, error, scale, states, line)
+
+    yield result("M", mass, cell.amplitude.entries())
     if cell.scene.system.gravity:
         rest = np.zeros_like(theta)
         error = cell.torques(theta, rest, rest, gravity=True) - gravity_vector(cell.scene.system, theta)
-        yield _result(cell, "G", error, cell.amplitude.absolute_rows(cell.amplitude.weights), states)
+        yield result("G", error, cell.amplitude.absolute_rows(cell.amplitude.weights))
     else:
         yield cell.result(f"{NAME} G", "skipped", reason="the scene has no gravity")
     if cell.states.omega.any():
         centrifugal = centrifugal_matrix(cell.scene.system, theta)
         entries = cell.amplitude.absolute_rows(cell.amplitude.velocity_terms(np.eye(cell.scene.system.n))).T
-        yield _result(cell, "C", columns(cell, theta, "omega") - centrifugal, entries, states)
+        yield result("C", columns(cell, theta, "omega") - centrifugal, entries)
         error = cell.torques(theta, omega, np.zeros_like(theta), gravity=False)
         error -= (centrifugal @ (omega**2)[..., None])[..., 0]
-        scale = cell.amplitude.absolute_rows(cell.amplitude.velocity_terms(omega))
-        yield _result(cell, "velocity", error, scale, states)
+        yield result("velocity", error, cell.amplitude.absolute_rows(cell.amplitude.velocity_terms(omega)))
     else:
         for term in ("C", "velocity"):
             yield cell.result(f"{NAME} {term}", "skipped", reason="every state of the scene is at rest")
+
+
+def _spreads(cell: Cell, states: States, excess: Array) -> tuple[NDArray[np.intp], spread.Terms | None]:
+    """What rounding does to each term, in as many of the states as is affordable; None where in none."""
+    system, most = cell.scene.system, sharp.states_for_terms(cell.scene.system.n)
+    at = sharp.chosen(excess, most)
+    if not most:
+        return at, None
+    chosen = states.at(at)
+    return at, spread.terms(cell.info, system, cell.amplitude, chosen.theta, chosen.omega)
 
 
 def columns(cell: Cell, theta: Array, unit: str) -> Array:
@@ -65,30 +85,31 @@ def columns(cell: Cell, theta: Array, unit: str) -> Array:
     return np.asarray(response.reshape(count, n, n).swapaxes(1, 2))
 
 
+# In words, and the name of its spread.
 SAYS = {
-    "M": "mass matrix",
-    "C": "coefficients of the squared rates",
-    "G": "gravity terms",
-    "velocity": "velocity terms with all rates at once",
+    "M": ("mass matrix", "mass"),
+    "C": ("coefficients of the squared rates", "coriolis"),
+    "G": ("gravity terms", "gravity"),
+    "velocity": ("velocity terms with all rates at once", "velocity"),
 }
 
 
-def _result(cell: Cell, term: str, error: Array, scale: Array, states: States) -> Result:
+def _result(cell: Cell, term: str, error: Array, scale: Array, states: States, line: sharp.Line | None) -> Result:
     raised = turns(states.theta).reshape(-1, *[1] * (error.ndim - 1))
     found = worst(quotient(error, EPSILON * raised * scale))
     bound = allowed(cell.scene.system.n)
     entry = f"{term}[{','.join(str(i + 1) for i in found.index[1:])}]"
     agrees = found.value <= bound
-    reason = f"{SAYS[term]}: worst at {entry}"
+    reason = f"{SAYS[term][0]}: worst at {entry}"
     if not agrees:
         size, label = float(np.abs(error[found.index])), states.labels[found.index[0]]
-        reason = f"{SAYS[term]}: {entry} is off by {size:.3g} in state {label!r}"
+        reason = f"{SAYS[term][0]}: {entry} is off by {size:.3g} in state {label!r}"
     return cell.result(
         f"{NAME} {term}",
-        "agrees" if agrees else "differs",
+        **sharp.verdict(agrees, line, reason),
         measured=found.value,
         allowed=bound,
         unit="ε",
-        reason=reason,
-        details={"entry": entry, "state": states.labels[found.index[0]], "states": len(states)},
+        details={"entry": entry, "state": states.labels[found.index[0]], "states": len(states)}
+        | (line.details() if line else {}),
     )

@@ -54,6 +54,8 @@ Array = NDArray[np.float64]
 
 EPSILON = 2.0**-52
 SMALLEST = 2.0**-1022  # normal number
+CACHED = 400_000  # numbers
+BLOCK = 32  # columns eliminated one by one before the others follow
 
 # Roundings that a term passes on its way through one link: sine and cosine (1 each) and their error's effect (1), a
 # rotation and a shift of a spatial vector or inertia (6), its product with the inertia (3), its addition (1), and as
@@ -105,12 +107,12 @@ class Amplitudes:
         """
         factors = self.products if mass is None else self.factors(mass)
         solution = (factors @ np.abs(self.own(alpha))[..., None])[..., 0]
-        underflow = self._growth * self.underflow(omega, alpha)
+        underflow = self.solution_underflow(omega, alpha)
         return np.asarray(solution + underflow + self.velocity_terms(omega) + self.weights)
 
     def factors(self, mass: Array) -> Array:
         """Σ|terms| of each entry of the mass matrix and its factors, (B, n, n), or (n, n) for all states."""
-        return self.products + interchanged(self._own_matrix(mass)) if self.interchanges else self.products
+        return self.products + interchanged(self.own_matrix(mass)) if self.interchanges else self.products
 
     def regular(self, mass: Array, accuracy: float) -> NDArray[np.bool_]:
         """Whether each mass matrix (B, n, n) is further from singular than rounding, (B,).
@@ -122,12 +124,13 @@ class Amplitudes:
         root = np.sqrt(np.diag(self.products))
         scale = np.outer(root, root)
         off = EPSILON * allowed(len(root), accuracy) * (self.factors(mass) / scale).sum(axis=-1).max(axis=-1)
-        least = self._own_matrix(mass) / scale - np.multiply.outer(np.broadcast_to(off, len(mass)), np.eye(len(root)))
+        least = self.own_matrix(mass) / scale - np.multiply.outer(np.broadcast_to(off, len(mass)), np.eye(len(root)))
         if _positive_definite(least):  # all of them, as nearly always
             return np.ones(len(least), dtype=np.bool_)
         return np.array([_positive_definite(matrix) for matrix in least], dtype=np.bool_)
 
-    def _own_matrix(self, mass: Array) -> Array:
+    def own_matrix(self, mass: Array) -> Array:
+        """The mass matrix of these coordinates, from that of absolute angles, (B, n, n)."""
         return np.asarray(self.to_absolute.T @ mass @ self.to_absolute)
 
     @cached_property
@@ -170,7 +173,7 @@ class Amplitudes:
 
     def own(self, absolute: Array) -> Array:
         """Absolute accelerations (or rates) in these coordinates, (B, n)."""
-        return np.asarray(absolute @ self._from_absolute.T)
+        return np.asarray(absolute @ self.from_absolute.T)
 
     def path_sums(self, absolute: Array) -> Array:
         """Magnitudes that add up to each absolute rate or acceleration, (B, n): all those on its path."""
@@ -182,8 +185,15 @@ class Amplitudes:
 
     def acceleration_errors(self, mass: Array, rows: Array) -> Array:
         """|M⁻¹ S⁻ᵀ| times magnitudes in rows of these coordinates: the accelerations that they may cause, (B, n)."""
-        spread = np.abs(np.linalg.inv(mass) @ self._from_absolute.T)
-        return np.asarray((spread @ rows[..., None])[..., 0])
+        return np.asarray((np.abs(self.solution(mass)) @ rows[..., None])[..., 0])
+
+    def solution(self, mass: Array) -> Array:
+        """M⁻¹ S⁻ᵀ: absolute accelerations for torques in these coordinates, (B, n, n)."""
+        return np.asarray(np.linalg.inv(mass) @ self.from_absolute.T)
+
+    def solution_underflow(self, omega: Array, alpha: Array | None = None) -> Array:
+        """The same as :meth:`underflow` in the rows of a solution, where the factors multiply it, (B, 1)."""
+        return np.asarray(self._growth * self.underflow(omega, alpha))
 
     def entries(self) -> Array:
         """Σ|terms| of each entry of the absolute mass matrix, (n, n)."""
@@ -191,10 +201,11 @@ class Amplitudes:
 
     def absolute_rows(self, own: Array) -> Array:
         """Magnitudes in rows of these coordinates as magnitudes in rows of absolute ones, (..., n)."""
-        return np.asarray(own @ np.abs(self._from_absolute))
+        return np.asarray(own @ np.abs(self.from_absolute))
 
     @cached_property
-    def _from_absolute(self) -> Array:
+    def from_absolute(self) -> Array:
+        """S⁻¹, (n, n)."""
         return np.asarray(np.linalg.inv(self.to_absolute), dtype=np.float64)
 
     @cached_property
@@ -236,21 +247,31 @@ def interchanged(matrix: Array) -> Array:
     """|L||U| of Gaussian elimination with partial pivoting, rows where they were, (B, n, n).
 
     Its backward error is so much (Higham, theorem 9.3). Rows are interchanged by the size of their entries, so that a
-    row of small entries may be added to one of large ones, and share in its rounding.
+    row of small entries may be added to one of large ones, and share in its rounding. A block of columns at a time, so
+    that most of the work is products of matrices, and no more matrices at a time than a processor's cache holds.
     """
-    upper, lower = matrix.copy(), np.zeros_like(matrix)
     count, n = matrix.shape[:2]
+    together = max(1, CACHED // (n * n))
+    if count > together:
+        return np.concatenate([interchanged(matrix[i : i + together]) for i in range(0, count, together)])
+    work = matrix.copy()
     states, order = np.arange(count), np.tile(np.arange(n), (count, 1))
-    for k in range(n):
-        pivot = np.abs(upper[:, k:, k]).argmax(axis=1) + k
-        for rows in (upper, lower, order):
-            kept = rows[states, k].copy()
-            rows[states, k], rows[states, pivot] = rows[states, pivot], kept
-        below, by = upper[:, k + 1 :, k], upper[:, k, None, k]
-        lower[:, k + 1 :, k] = np.divide(below, by, out=np.zeros_like(below), where=by != 0)
-        upper[:, k + 1 :, k:] -= lower[:, k + 1 :, k, None] * upper[:, k, None, k:]
+    for start in range(0, n, BLOCK):
+        stop = min(start + BLOCK, n)
+        for k in range(start, stop):
+            pivot = np.abs(work[:, k:, k]).argmax(axis=1) + k
+            for rows in (work, order):
+                kept = rows[states, k].copy()
+                rows[states, k], rows[states, pivot] = rows[states, pivot], kept
+            below, by = work[:, k + 1 :, k], work[:, k, None, k]
+            below[:] = np.divide(below, by, out=np.zeros_like(below), where=by != 0)
+            work[:, k + 1 :, k + 1 : stop] -= below[..., None] * work[:, k, None, k + 1 : stop]
+        for k in range(start + 1, stop):
+            work[:, k, None, stop:] -= work[:, k, None, start:k] @ work[:, start:k, stop:]
+        work[:, stop:, stop:] -= work[:, stop:, start:stop] @ work[:, start:stop, stop:]
     found = np.empty_like(matrix)
-    np.put_along_axis(found, order[..., None], np.abs(lower + np.eye(n)) @ np.abs(np.triu(upper)), axis=1)
+    factors = np.abs(np.tril(work, -1) + np.eye(n)) @ np.abs(np.triu(work))
+    np.put_along_axis(found, order[..., None], factors, axis=1)
     return found
 
 

@@ -9,18 +9,44 @@ orders is taken.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ...models import DocumentSystem
-from ...models.units import in_units, units_of
+from ...models.tree import SUPPORT
+from ...models.units import Units, in_units, units_of
 from .. import mass_matrix
 from ..maximal_coordinates import MaximalCoordinates
 from .bounds import interchanged
+from .monte_carlo import ONE_ROUNDING
 
 Array = NDArray[np.float64]
 
-ORDERS = 16
+ORDERS = 16  # random ones, for the proven bound
+SPREAD_ORDERS = 3  # random ones, for the spread, besides link by link from the tips and as the unknowns stand
+WORK = 6e8  # multiplications, of which elimination makes about so many in a second
+ASIDE = 3e7  # what else a state costs, in the same unit
+
+
+@dataclass(frozen=True)
+class _Equations:
+    """The system in one state: matrix (5n, 5n), right-hand side, and magnitudes that meet in the latter, (5n,).
+
+    ``levers``: of each entry of the matrix that is a lever's component, the lever's length, (5n, 5n).
+    """
+
+    matrix: Array
+    levers: Array
+    right: Array
+    rounded: Array
+    units: Units
+
+
+def states_within_a_second(n: int, orders: int = ORDERS) -> int:
+    """In how many states of n links the elimination can be looked at in about a second, at least in one."""
+    return max(1, int(WORK / (orders * (5.0 * n) ** 3 + ASIDE)))
 
 
 def elimination(system: DocumentSystem, theta: Array, omega: Array) -> tuple[Array, Array]:
@@ -28,6 +54,7 @@ def elimination(system: DocumentSystem, theta: Array, omega: Array) -> tuple[Arr
 
     For states (B, n). In the rows of the document's equations: M times the change of the angular accelerations that a
     residual |L||U||x| of the KKT system makes, and its change of the multipliers.
+    Long mechanisms take seconds a state: see :func:`states_within_a_second`.
     """
     pairs = [_one(system, t, w) for t, w in zip(theta, omega, strict=True)]
     rows, forces = (np.array(values) for values in zip(*pairs, strict=True))
@@ -35,23 +62,77 @@ def elimination(system: DocumentSystem, theta: Array, omega: Array) -> tuple[Arr
 
 
 def _one(system: DocumentSystem, theta: Array, omega: Array) -> tuple[Array, Array]:
-    tree, n = system.tree(), system.n
-    units = units_of(tree).fitting(system.gravity, omega)
-    bodies = MaximalCoordinates(in_units(tree, units))
-    q, v = bodies.state(theta, omega * units.time)
-    matrix = bodies.kkt_matrix(bodies.jacobian(q))
-    right = np.concatenate([bodies.force, -bodies.constraint_bias(q, v)]).astype(np.float64)
+    n, equations = system.n, _equations(system, theta, omega)
+    units, matrix = equations.units, equations.matrix
     inverse = np.linalg.inv(matrix)
-    size = _residual_bound(matrix, np.abs(np.linalg.solve(matrix, right)))
+    unknowns = np.abs(np.linalg.solve(matrix, equations.right))
+    size = (_met(matrix[None], _random_orders(5 * n, ORDERS))[0] * unknowns).sum(axis=-1).max(axis=0)
     by_angle = np.abs(mass_matrix(system, theta) / units.inertia @ inverse[2 : 3 * n : 3])
     by_force = np.abs(inverse[3 * n :])
     forces = np.linalg.norm((by_force @ size).reshape(n, 2), axis=-1)
     return by_angle @ size * units.energy, forces * units.force
 
 
-def _residual_bound(matrix: Array, unknowns: Array) -> Array:
-    """|L||U||x| of each equation in the worst of ORDERS orders of the unknowns."""
+def maximal_spread(system: DocumentSystem, theta: Array, omega: Array) -> tuple[Array, Array]:
+    """Root mean squares of what rounding does to accelerations, (B, n) [rad/s²], and to joints' forces, (B, n) [N].
+
+    Every entry of |L||U| and of the right-hand side moved by one rounding, independently of the others; an angle is
+    known to ε, hence a lever's component to ε of the lever. The right-hand side is G q̇, differentiated along the
+    motion: velocities meet there before they cancel.
+    """
+    n = system.n
+    equations = [_equations(system, t, w) for t, w in zip(theta, omega, strict=True)]
+    orders = np.vstack([_from_the_tips(n), np.arange(5 * n), _random_orders(5 * n, SPREAD_ORDERS)])
+    met = _met(np.stack([state.matrix for state in equations]), orders).max(axis=1)
+    pairs = [_spread(n, state, entries) for state, entries in zip(equations, met, strict=True)]
+    alpha, forces = (np.array(values) for values in zip(*pairs, strict=True))
+    return alpha, forces
+
+
+def _spread(n: int, state: _Equations, met: Array) -> tuple[Array, Array]:
+    inverse, units = np.linalg.inv(state.matrix), state.units
+    rows = (met**2 + state.levers**2) @ (inverse @ state.right) ** 2 + state.rounded**2
+    found = ONE_ROUNDING * np.sqrt(inverse**2 @ rows)
+    forces = np.linalg.norm(found[3 * n :].reshape(n, 2), axis=-1)
+    return found[2 : 3 * n : 3] / units.time**2, forces * units.force
+
+
+def _equations(system: DocumentSystem, theta: Array, omega: Array) -> _Equations:
+    tree, n = system.tree(), system.n
+    units = units_of(tree).fitting(system.gravity, omega)
+    bodies = MaximalCoordinates(in_units(tree, units))
+    rates = omega * units.time
+    q, v = bodies.state(theta, rates)
+    G = bodies.jacobian(q)
+    right = np.concatenate([bodies.force, -bodies.constraint_bias(q, v)]).astype(np.float64)
+    # Of each joint: the velocities of both bodies' points there, and the rates with which they turn.
+    turning = np.abs(rates)
+    lever = np.hypot(*np.abs(G).astype(np.float64).reshape(n, 2, n, 3)[..., 2].swapaxes(0, 1))
+    speed = np.hypot(*v.astype(np.float64).reshape(n, 3)[:, :2].T)
+    held = np.array([0.0 if parent == SUPPORT else speed[parent] for parent in tree.parents])
+    carrier = np.array([0.0 if parent == SUPPORT else turning[parent] for parent in tree.parents])
+    meets = (speed + held + lever @ turning) * (turning + carrier)
+    rounded = np.concatenate([np.zeros(3 * n), np.repeat(meets, 2)])
+    levers = np.zeros((5 * n, 5 * n))
+    levers[3 * n :, 2 : 3 * n : 3] = np.repeat(lever, 2, axis=0)
+    return _Equations(bodies.kkt_matrix(G), levers + levers.T, right, rounded, units)
+
+
+def _met(matrices: Array, orders: NDArray[np.intp]) -> Array:
+    """|L||U| of each matrix for each order of the unknowns, columns where they were, (B, orders, 5n, 5n)."""
+    ordered = np.stack([matrices[:, :, order] for order in orders], axis=1)
+    factors = interchanged(ordered.reshape(-1, *matrices.shape[1:])).reshape(ordered.shape)
+    found = np.empty_like(factors)
+    np.put_along_axis(found, orders[None, :, None, :], factors, axis=-1)
+    return found
+
+
+def _random_orders(size: int, count: int) -> NDArray[np.intp]:
     generator = np.random.Generator(np.random.PCG64(1))
-    orders = np.array([generator.permutation(len(matrix)) for _ in range(ORDERS)])
-    factors = interchanged(np.stack([matrix[:, order] for order in orders]))
-    return np.asarray((factors * unknowns[orders][:, None]).sum(axis=-1).max(axis=0))
+    return np.array([generator.permutation(size) for _ in range(count)])
+
+
+def _from_the_tips(n: int) -> NDArray[np.intp]:
+    """Each link's three coordinates, then the two forces of the joint that carries it, from the last to the first."""
+    links = np.arange(n)[::-1, None]
+    return np.hstack([3 * links + np.arange(3), 3 * n + 2 * links + np.arange(2)]).ravel()
