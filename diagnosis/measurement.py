@@ -27,7 +27,7 @@ LEAST_STATES = 32
 ANGLE_QUANTUM = 2.0**-30  # [rad], and [rad/s] of rates
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Measurement:
     """States, accelerations and the generalised forces that belong to them, according to the engine.
 

@@ -17,6 +17,8 @@ from .measurement import Array
 def findings_of_fit(found: FittedHypothesis, m: Mechanism, p: Parameters, who: str) -> list[Finding]:
     """One finding, or one for each hinge or link where all values of a kind were free; ``p``: what was expected."""
     hypothesis = found.hypothesis
+    if hypothesis.tell is not None:
+        return hypothesis.tell(float(found.values[0]), float(found.uncertainty[0]), p, who)
     if hypothesis.relative:
         return [_factor(found, m, p, who)]
     if hypothesis.cause == "gravity-turned":
@@ -127,6 +129,12 @@ def _factor(found: FittedHypothesis, m: Mechanism, p: Parameters, who: str) -> F
         says = f"{who}: gravity: found {rounded(size * factor, size * error)}, expected {rounded(size)} m/s²"
         return Finding("gravity", "gravity", size * factor, size, says)
     place = "every link" if i < 0 else link_label(m, i)
+    if hypothesis.cause == "mass" and i >= 0 and abs(factor) <= max(1e-9, 30 * error):
+        return Finding("massless-link", place, 0.0, float(p.mass[i]), f"{who}: {place} has no mass")
+    if hypothesis.cause == "density":
+        cause = "density" if np.all(p.inertia > 0) else "mass"
+        says = f"{who}: every mass and inertia (the density): found {rounded(factor, error)} times the expected value"
+        return Finding(cause, place, factor, 1.0, says)
     if hypothesis.cause == "mass" and i >= 0:
         wanted = float(p.mass[i])
         says = (
@@ -134,7 +142,7 @@ def _factor(found: FittedHypothesis, m: Mechanism, p: Parameters, who: str) -> F
         )
         return Finding("mass", place, wanted * factor, wanted, says)
     if hypothesis.cause == "continuous-joint-not-normalised":
-        place = joint_label(m, i)
+        place = "every joint" if i < 0 else joint_label(m, i)
         says = f"{who}: {place}: length of the pair (cos, sin): found {rounded(factor, error)}, expected 1"
         return Finding(hypothesis.cause, place, factor, 1.0, says)
     cause = hypothesis.cause

@@ -17,7 +17,7 @@ from .engines import engine_version
 from .engines.workers.processes import Workers, worker_processes
 from .models import Scene, catalogue
 from .records import provenance
-from .records.check import OUTCOMES, EngineEntry, Footer, Header, Result, SceneEntry
+from .records.check import OUTCOMES, Diagnosis, EngineEntry, Footer, Header, Result, SceneEntry
 from .reports import Report, StreamWriter, open_report, prepare_reports, write_reports
 
 SEED = "sha256 of the scene's name, PCG64"
@@ -50,6 +50,7 @@ def check(
     plan = make_plan(given, engines, profile)
     cache = user_cache() if use_cache else Cache(None)
     results: list[Result] = []
+    diagnoses: list[Diagnosis] = []
     with ExitStack() as open_until_done:
         workers = source or open_until_done.enter_context(worker_processes(modules=MODULES))
         ledger = Ledger(plan)
@@ -64,12 +65,15 @@ def check(
             if watch is not None:
                 watch(plan, results[-1])
 
-        for result in running:
-            take(result)
+        for record in running:
+            if isinstance(record, Diagnosis):
+                diagnoses.append(record if stream is None else stream.write_diagnosis(record))
+            else:
+                take(record)
         for result in ledger.missing(results):
             take(result)
         footer = _footer(stream, results, time.monotonic() - begun)
-    report = Report(header, tuple(results), footer)
+    report = Report(header, tuple(results), footer, tuple(diagnoses))
     if out is not None:
         write_reports(out, report)
     return report

@@ -1,4 +1,4 @@
-"""The result stream's records: one header, a result for each comparison, one footer.
+"""The result stream's records: one header, a result for each comparison, diagnoses, one footer.
 
 The checks make them and the reports read them; neither imports the other.
 """
@@ -8,6 +8,8 @@ from __future__ import annotations
 from typing import Any, Literal
 
 import msgspec
+
+from .findings import Difference
 
 FORMAT = 2  # 2: a result carries `comparison`
 Outcome = Literal["agrees", "differs", "skipped", "error"]
@@ -78,6 +80,21 @@ class Result(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag="r
     details: dict[str, Any] = {}
 
 
+class Diagnosis(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag="diagnosis"):
+    """Why one engine differs in one scene: everything that was found.
+
+    All of ``findings`` hold together. Where ``alternatives`` has entries, exactly one of them holds besides: the
+    measurements cannot tell which. ``explains``: the ``check`` of each result that these causes explain together. A
+    finding whose cause is ``unexplained`` describes what is left.
+    """
+
+    scene: str
+    engine: str
+    findings: list[Difference] = []
+    alternatives: list[Difference] = []
+    explains: list[str] = []
+
+
 class Footer(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag="footer"):
     """Last line of a stream. A stream without it was cut off."""
 
@@ -88,7 +105,7 @@ class Footer(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag="f
     seconds: float = 0.0
 
 
-Record = Header | Result | Footer
+Record = Header | Result | Diagnosis | Footer
 
 
 class CheckReport(msgspec.Struct, frozen=True, kw_only=True):
@@ -97,3 +114,4 @@ class CheckReport(msgspec.Struct, frozen=True, kw_only=True):
     header: Header
     results: list[Result]
     footer: Footer | None  # None: the run was cut off
+    diagnoses: list[Diagnosis] = []

@@ -28,7 +28,7 @@ from .arithmetic import Arithmetic, Array, arithmetic_of
 Floats = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Parameters:
     """A mechanism's numbers, the last axis counting links, with any axes before it.
 

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from ..records.check import OUTCOMES, EngineEntry, Footer, Header, Outcome, Result, SceneEntry
+from ..records.check import OUTCOMES, Diagnosis, EngineEntry, Footer, Header, Outcome, Result, SceneEntry
 from ..records.exit_status import AGREES, DIFFERS, INCOMPLETE
 from .words import count, few, figure, last_line
 
@@ -66,6 +66,7 @@ class Report:
     header: Header
     results: tuple[Result, ...]
     footer: Footer | None = None
+    diagnoses: tuple[Diagnosis, ...] = ()
 
     @property
     def complete(self) -> bool:

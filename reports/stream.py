@@ -19,7 +19,7 @@ from typing import Any, BinaryIO
 import msgspec
 
 from ..models.errors import InvalidInput
-from ..records.check import FORMAT, Footer, Header, Outcome, Record, Result
+from ..records.check import FORMAT, Diagnosis, Footer, Header, Outcome, Record, Result
 from .report import Report
 
 STREAM = "report.jsonl"
@@ -30,7 +30,7 @@ LARGEST_LINE = 8_000_000  # bytes
 LARGEST_STREAM = 256_000_000  # bytes
 LONGEST_REASON = 20_000  # characters; a traceback fits
 
-_decoder = msgspec.json.Decoder(Header | Result | Footer)
+_decoder = msgspec.json.Decoder(Record)
 
 
 class _Head(msgspec.Struct):
@@ -74,6 +74,11 @@ class StreamWriter:
         self._line(written)
         self._counts[written.outcome] += 1
         return written
+
+    def write_diagnosis(self, diagnosis: Diagnosis) -> Diagnosis:
+        """Append one diagnosis, on disk when this returns. Returns it as it was written."""
+        self._line(diagnosis)
+        return diagnosis
 
     def finish(self, seconds: float = 0.0) -> Footer:
         """Append the footer, with the counts of what was written, and close. ``seconds``: how long the run took."""
@@ -145,6 +150,7 @@ def _read(file: BinaryIO, name: str) -> Report:
     header: Header | None = None
     footer: Footer | None = None
     results: list[Result] = []
+    diagnoses: list[Diagnosis] = []
     for number, line in enumerate(_whole_lines(file, name), start=1):
         where = f"{name}, line {number}"
         if number == 1:
@@ -160,11 +166,13 @@ def _read(file: BinaryIO, name: str) -> Report:
             raise InvalidInput(f"{where}: something follows the footer, which is the last line of a run")
         elif isinstance(record, Footer):
             footer = record
+        elif isinstance(record, Diagnosis):
+            diagnoses.append(record)
         else:
             results.append(record)
     if header is None:
         raise InvalidInput(f"{name}: empty, or cut off within its header; it holds no result")
-    return Report(header, tuple(results), footer)
+    return Report(header, tuple(results), footer, tuple(diagnoses))
 
 
 def _whole_lines(file: BinaryIO, name: str) -> Iterator[bytes]:

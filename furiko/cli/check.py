@@ -64,7 +64,14 @@ def check(
     if as_json:
         from ..records.check import CheckReport
 
-        print_json(CheckReport(header=report.header, results=list(report.results), footer=report.footer))
+        print_json(
+            CheckReport(
+                header=report.header,
+                results=list(report.results),
+                footer=report.footer,
+                diagnoses=list(report.diagnoses),
+            )
+        )
     else:
         from ..reports.terminal.check import print_report
 

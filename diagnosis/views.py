@@ -1,0 +1,58 @@
+"""Another convention, or a buffer that is not renewed, together with a wrong number or a wrong term."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import chain, islice
+
+import numpy as np
+
+from .buffers import Buffer, buffers
+from .conventions import Convention, conventions
+from .explanation import Explanation, with_more
+from .fitting import screen
+from .hypotheses import Hypothesis, singles
+from .parameter_faults import wrong_numbers
+from .question import Question
+
+MOST_LINKS = 20
+MOST_VIEWS = 400  # looked at roughly
+LIKELY_VIEWS = 24  # looked at with one wrong number
+FITTED_VIEWS = 4  # fitted in full
+CLEAR = 0.1  # of the residual as measured: what a view and one number must leave no more of
+
+
+def another_view(q: Question) -> Explanation:
+    """The first of the views that leaves what one number or term explains."""
+    if q.m.n > MOST_LINKS:
+        return Explanation()
+    before = _size(q)
+    candidates: list[tuple[float, Convention | Buffer]] = []
+    known: Iterator[Convention | Buffer] = chain(buffers(q.measured), conventions(q.engine, q.m))
+    for view in islice(known, MOST_VIEWS):
+        size = _size(q.seen_as(view.view))
+        if np.isfinite(size):
+            candidates.append((size, view))
+    candidates.sort(key=lambda found: found[0])
+    hypotheses = singles(q.m, q.p)
+    likely = [(_after(q.seen_as(view.view), hypotheses), view) for _, view in candidates[:LIKELY_VIEWS]]
+    likely.sort(key=lambda found: found[0])
+    for after, view in likely[:FITTED_VIEWS]:
+        if after > CLEAR * before:
+            break
+        found = wrong_numbers(q.seen_as(view.view))
+        if found.explained:
+            return with_more(found, [view.finding(q.who)])
+    return Explanation()
+
+
+def _size(q: Question) -> float:
+    """The median of the residuals over what rounding explains."""
+    with np.errstate(all="ignore"):
+        return float(np.median(np.abs(q.measured.residuals(q.p, q.measured.tolerances(q.p)))))
+
+
+def _after(q: Question, hypotheses: list[Hypothesis]) -> float:
+    """What is left after one step of the best of the hypotheses."""
+    ranked = screen(hypotheses, q.p, q.measured).ranked()
+    return ranked[0][0] if ranked else np.inf
