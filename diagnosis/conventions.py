@@ -54,6 +54,19 @@ class Convention:
                 alpha=forward.alpha @ self.answers.T,
             )
 
+    def view_of_all(self, measured: Measurement) -> Measurement:
+        """The same, with inverse dynamics in the same convention."""
+        seen, inverse = self.view(measured), measured.only(~measured.forward)
+        with np.errstate(all="ignore"):
+            return replace(
+                measured,
+                theta=np.concatenate([seen.theta, inverse.theta @ self.angles.T + self.offset]),
+                omega=np.concatenate([seen.omega, inverse.omega @ self.rates.T]),
+                alpha=np.concatenate([seen.alpha, inverse.alpha @ self.answers.T]),
+                torque=np.concatenate([seen.torque, inverse.torque @ np.linalg.inv(self.answers)]),
+                forward=np.concatenate([seen.forward, inverse.forward]),
+            )
+
     def finding(self, who: str) -> Finding:
         """The convention as the cause of what this engine does."""
         return Finding(self.cause, who, self.measured, self.expected, f"{who}: {self.says}")

@@ -21,7 +21,7 @@ BATCH_NUMBERS = 400_000  # numbers in one batch of perturbed mechanisms
 PARALLEL = 1e-9  # squared sine of the angle of two hypotheses that cannot be told apart
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FittedHypothesis:
     """A hypothesis with its best values (d,), their uncertainty from rounding (d,), and the largest residual torque in
     units of what rounding explains."""
@@ -30,6 +30,7 @@ class FittedHypothesis:
     values: Array
     uncertainty: Array
     residual: float
+    moving: bool = False  # its terms are those of its own numbers, not of the expected ones
 
     @property
     def explains(self) -> bool:
@@ -48,7 +49,7 @@ class FittedHypothesis:
     def worst(self, p: Parameters, measured: Measurement) -> float:
         """The largest residual of another measurement with these values, over its tolerance."""
         at = self.hypothesis.apply(p, self.values)
-        basis = basis_of(self.hypothesis, p, measured)
+        basis = basis_of(self.hypothesis, at if self.moving else p, measured)
         with np.errstate(all="ignore"):
             left = _residuals([at], self.values[None], measured, measured.tolerances(at), basis)
         return float(np.max(np.abs(left), initial=0.0))
@@ -68,23 +69,37 @@ def fit(hypothesis: Hypothesis, p: Parameters, measured: Measurement) -> FittedH
         return _gauss_newton(hypothesis, p, measured)
 
 
-def _gauss_newton(hypothesis: Hypothesis, p: Parameters, measured: Measurement) -> FittedHypothesis:
-    x, sizes = np.zeros(hypothesis.d), hypothesis.sizes
+def refit(found: FittedHypothesis, p: Parameters, measured: Measurement) -> FittedHypothesis:
+    """A fit of numbers and terms at once, continued with the terms that belong to the other numbers.
+
+    A sign that is wrong is −1 times the term of the mechanism that the engine has, not of the one expected.
+    """
+    with np.errstate(all="ignore"):
+        return _gauss_newton(found.hypothesis, p, measured, found.values, moving=True)
+
+
+def _gauss_newton(
+    hypothesis: Hypothesis, p: Parameters, measured: Measurement, start: Array | None = None, *, moving: bool = False
+) -> FittedHypothesis:
+    """``moving``: terms are those of the numbers as they are fitted, not of the expected ones."""
+    x, sizes = np.zeros(hypothesis.d) if start is None else start, hypothesis.sizes
     basis = basis_of(hypothesis, p, measured)
     best: FittedHypothesis | None = None
     without_gain = 0
     for _ in range(MOST_STEPS):
         at = hypothesis.apply(p, x)
         scale = measured.tolerances(at)
+        if moving:
+            basis = basis_of(hypothesis, at, measured)
         residuals = _residuals([at], x[None], measured, scale, basis)[0]
         worst = float(np.max(np.abs(residuals)))
-        columns = _columns(hypothesis, p, x, measured, scale, basis)
+        columns = _columns(hypothesis, p, x, measured, scale, basis, moving=moving)
         if not (np.isfinite(worst) and np.isfinite(columns).all()):
             break
         step, spread = _solve(columns, residuals)
         without_gain = without_gain + 1 if best is not None and worst > 0.5 * best.residual else 0
         if best is None or worst < best.residual:
-            best = FittedHypothesis(hypothesis, x.copy(), spread * sizes, worst)
+            best = FittedHypothesis(hypothesis, x.copy(), spread * sizes, worst, moving)
         if without_gain > (0 if best.explains else 2):
             break
         x = x + step * sizes
@@ -219,12 +234,24 @@ def _residuals(at: Sequence[Parameters], x: Array, measured: Measurement, scale:
 
 
 def _columns(
-    hypothesis: Hypothesis, p: Parameters, x: Array, measured: Measurement, scale: Array, basis: Array | None
+    hypothesis: Hypothesis,
+    p: Parameters,
+    x: Array,
+    measured: Measurement,
+    scale: Array,
+    basis: Array | None,
+    *,
+    moving: bool,
 ) -> Array:
     sizes = hypothesis.sizes
     points = [x + sign * sizes[k] * 1e-3 * np.eye(hypothesis.d)[k] for k in range(hypothesis.d) for sign in (1.0, -1.0)]
     at = [hypothesis.apply(p, point) for point in points]
-    found = _residuals(at, np.array(points), measured, scale, basis)
+    if moving:
+        each = zip(at, points, strict=True)
+        bases = [(one, point, basis_of(hypothesis, one, measured)) for one, point in each]
+        found = np.concatenate([_residuals([one], point[None], measured, scale, b) for one, point, b in bases])
+    else:
+        found = _residuals(at, np.array(points), measured, scale, basis)
     return np.asarray((found[0::2] - found[1::2]).T / 2e-3)
 
 
@@ -240,4 +267,4 @@ def _solve(columns: Array, residuals: Array) -> tuple[Array, Array]:
 
 def _stack(parameters: Sequence[Parameters]) -> Parameters:
     """Mechanisms along a new first axis, broadcast against states."""
-    return Parameters(**{name: np.stack([p.items()[name] for p in parameters])[:, None, :] for name in NAMES})
+    return Parameters(**{name: np.stack([getattr(p, name) for p in parameters])[:, None, :] for name in NAMES})

@@ -14,7 +14,7 @@ import numpy as np
 from ..reference.planar_tree import Parameters
 from .explanation import Explanation
 from .finding import Finding
-from .fitting import FittedHypothesis, fit, screen, screened
+from .fitting import FittedHypothesis, fit, refit, screen, screened
 from .hypotheses import Hypothesis, combined, factors, groups, singles
 from .measurement import has_inverse_dynamics
 from .question import Question
@@ -23,6 +23,7 @@ from .wording import findings_of_fit
 
 FITTED = 14  # hypotheses fitted in full, out of all that were screened
 FITTED_PAIRS = 24
+REFITTED = 10  # of those, at most, with the terms of the numbers fitted
 FITTED_BESIDE_OTHERS = 5  # the same when one is added to others
 MOST_AT_ONCE = 4  # hypotheses in one explanation
 MOST_ALTERNATIVES = 6  # pairs that are named where several explain the same
@@ -83,7 +84,7 @@ def two_at_once(q: Question) -> Explanation:
         return Explanation()
     hypotheses = [*singles(q.m, q.p), *factors(q.m, q.p), *term_hypotheses(q.m, _two_ways(q))]
     pairs = screen(hypotheses, q.p, q.measured).pairs(FITTED_PAIRS)
-    fits = _explaining((fit(combined(pair), q.p, q.measured) for pair in pairs), q)
+    fits = _explaining(_refitted([fit(combined(pair), q.p, q.measured) for pair in pairs], q), q)
     clear = [f for f in fits if all(_any_clearly_changed(part) for part in f.parts())]
     good = _named_first(_as_good(clear), q.p)
     place = {id(hypothesis): i for i, hypothesis in enumerate(hypotheses)}
@@ -112,6 +113,13 @@ def several_at_once(q: Question) -> Explanation:
         chosen = list(best.hypothesis.parts)
         at = best.hypothesis.apply(q.p, best.values)
     return Explanation()
+
+
+def _refitted(fits: list[FittedHypothesis], q: Question) -> list[FittedHypothesis]:
+    """The fits, the best of those of a number and a term continued."""
+    mixed = [f for f in fits if len({part.basis is None for part in f.hypothesis.parts}) == 2]
+    promising = sorted(mixed, key=lambda f: f.residual)[:REFITTED]
+    return [refit(f, q.p, q.measured) if f in promising else f for f in fits]
 
 
 def _two_ways(q: Question) -> bool:

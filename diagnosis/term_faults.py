@@ -42,13 +42,16 @@ class TermFault:
     whole: bool = False
 
 
-def term_hypotheses(m: Mechanism, scopes: bool) -> list[Hypothesis]:
-    """Every hypothesis, likelier ones first. ``scopes``: the engine has forward and inverse dynamics, which may differ
-    in them."""
-    return [_hypothesis(fault, m) for fault in _faults(m.n, scopes)]
+def term_hypotheses(m: Mechanism, scopes: bool, shapes: bool = True) -> list[Hypothesis]:
+    """Every hypothesis, likelier ones first.
+
+    ``scopes``: forward and inverse dynamics, both of which the engine has, may differ in them; ``shapes``: also other
+    functions in a term.
+    """
+    return [_hypothesis(fault, m) for fault in _faults(m.n, scopes, shapes)]
 
 
-def _faults(n: int, scopes: bool) -> Iterator[TermFault]:
+def _faults(n: int, scopes: bool, shapes: bool) -> Iterator[TermFault]:
     every = (EVERYWHERE, FORWARD, INVERSE) if scopes else (EVERYWHERE,)
     for scope in every:
         yield TermFault("the velocity terms", "velocity terms", _velocity, scope=scope, whole=True)
@@ -73,7 +76,7 @@ def _faults(n: int, scopes: bool) -> Iterator[TermFault]:
     yield from _of_one_acceleration(n, every)
     for scope in every if n <= MOST_LINKS_BY_SHAPE else every[:1]:
         yield from _entries(n, scope)
-        if n <= MOST_LINKS_BY_SHAPE:
+        if shapes and n <= MOST_LINKS_BY_SHAPE:
             yield from _shapes(n, scope)
 
 
@@ -176,11 +179,11 @@ def _swapped_rate(i: int, j: int, sign: float) -> Rows:
 
 
 def _mass_of_sum(i: int, j: int) -> Rows:
-    return _in_row(i, lambda t, s: (t.mass_sum[:, i, j] - t.mass[:, i, j]) * s.alpha[:, j])
+    return _in_row(i, lambda t, s: (t.sums[0][:, i, j] - t.mass[:, i, j]) * s.alpha[:, j])
 
 
 def _rate_of_sum(i: int, j: int, sign: float) -> Rows:
-    return _in_row(i, lambda t, s: (sign * t.velocity_sum[:, i, j] - t.velocity[:, i, j]) * s.omega[:, j] ** 2)
+    return _in_row(i, lambda t, s: (sign * t.sums[1][:, i, j] - t.velocity[:, i, j]) * s.omega[:, j] ** 2)
 
 
 def _other_rate(i: int, j: int, rate: Callable[[Array], Array]) -> Rows:

@@ -8,7 +8,7 @@ in the fault's size.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -19,39 +19,57 @@ from .measurement import Array, Measurement
 
 @dataclass(frozen=True, eq=False)
 class Terms:
-    """``mass``, ``velocity``: M and C in each state, (S, n, n); ``mass_turned``, ``velocity_turned``: the same with the
-    row's own angle a quarter turn on, which makes cosines of sines; ``gravity``, ``gravity_turned``: G, (S, n);
-    ``by_gravity``, ``by_rates``: the parts of the true accelerations, (S, n) [rad/s²]."""
+    """The terms of the mechanism ``p`` in states ``theta``, ``omega`` (S, n)."""
 
-    mass: Array
-    velocity: Array
-    mass_sum: Array
-    velocity_sum: Array
-    gravity: Array
-    gravity_turned: Array
-    by_gravity: Array
-    by_rates: Array
+    parents: tuple[int, ...]
+    p: Parameters
+    theta: Array
+    omega: Array
+
+    @cached_property
+    def mass(self) -> Array:
+        """M, (S, n, n)."""
+        return planar.mass_matrix(self.parents, self.p, self.theta)
+
+    @cached_property
+    def velocity(self) -> Array:
+        """C, (S, n, n)."""
+        return _velocity_matrix(self.parents, self.p, self.theta)
+
+    @cached_property
+    def gravity(self) -> Array:
+        """G, (S, n)."""
+        return planar.gravity_terms(self.parents, self.p, self.theta)
+
+    @cached_property
+    def gravity_turned(self) -> Array:
+        """G with every angle a quarter turn on, which makes cosines of sines."""
+        return planar.gravity_terms(self.parents, self.p, self.theta + np.pi / 2)
+
+    @cached_property
+    def sums(self) -> tuple[Array, Array]:
+        """M and C with the sum of two angles in place of their difference."""
+        return _with_sums(self.parents, self.p, self.theta)
+
+    @cached_property
+    def by_gravity(self) -> Array:
+        """The part of the true accelerations that gravity makes, (S, n) [rad/s²]."""
+        return -np.asarray((self._inverse @ self.gravity[..., None])[..., 0])
+
+    @cached_property
+    def by_rates(self) -> Array:
+        """The part that the rates make."""
+        return -np.asarray((self._inverse @ (self.velocity @ (self.omega**2)[..., None]))[..., 0])
+
+    @cached_property
+    def _inverse(self) -> Array:
+        return _inverse(self.mass)
 
 
 @lru_cache(maxsize=8)
 def terms_of(measured: Measurement, p: Parameters) -> Terms:
     """Every term of the mechanism ``p`` in the measurement's states."""
-    parents, theta, omega = measured.parents, measured.theta, measured.omega
-    mass = planar.mass_matrix(parents, p, theta)
-    velocity = _velocity_matrix(parents, p, theta)
-    gravity = planar.gravity_terms(parents, p, theta)
-    inverse = _inverse(mass)
-    mass_sum, velocity_sum = _with_sums(parents, p, theta)
-    return Terms(
-        mass=mass,
-        velocity=velocity,
-        mass_sum=mass_sum,
-        velocity_sum=velocity_sum,
-        gravity=gravity,
-        gravity_turned=planar.gravity_terms(parents, p, theta + np.pi / 2),
-        by_gravity=-np.asarray((inverse @ gravity[..., None])[..., 0]),
-        by_rates=-np.asarray((inverse @ (velocity @ (omega**2)[..., None]))[..., 0]),
-    )
+    return Terms(measured.parents, p, measured.theta, measured.omega)
 
 
 def _inverse(mass: Array) -> Array:

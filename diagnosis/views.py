@@ -11,13 +11,14 @@ from .buffers import Buffer, buffers
 from .conventions import Convention, conventions
 from .explanation import Explanation, with_more
 from .fitting import screen
-from .hypotheses import Hypothesis, singles
+from .hypotheses import Hypothesis, factors, singles
 from .parameter_faults import wrong_numbers
-from .question import Question
+from .question import Question, View
+from .term_faults import term_hypotheses
 
 MOST_LINKS = 20
 MOST_VIEWS = 400  # looked at roughly
-LIKELY_VIEWS = 24  # looked at with one wrong number
+LIKELY_VIEWS = 12  # looked at with one wrong number
 FITTED_VIEWS = 4  # fitted in full
 CLEAR = 0.1  # of the residual as measured: what a view and one number must leave no more of
 
@@ -27,22 +28,23 @@ def another_view(q: Question) -> Explanation:
     if q.m.n > MOST_LINKS:
         return Explanation()
     before = _size(q)
-    candidates: list[tuple[float, Convention | Buffer]] = []
+    candidates: list[tuple[float, View, Convention | Buffer]] = []
     known: Iterator[Convention | Buffer] = chain(buffers(q.measured), conventions(q.engine, q.m))
-    for view in islice(known, MOST_VIEWS):
-        size = _size(q.seen_as(view.view))
-        if np.isfinite(size):
-            candidates.append((size, view))
+    for each in islice(known, MOST_VIEWS):
+        for view in [each.view_of_all, each.view] if isinstance(each, Convention) else [each.view]:
+            size = _size(q.seen_as(view))
+            if np.isfinite(size):
+                candidates.append((size, view, each))
     candidates.sort(key=lambda found: found[0])
-    hypotheses = singles(q.m, q.p)
-    likely = [(_after(q.seen_as(view.view), hypotheses), view) for _, view in candidates[:LIKELY_VIEWS]]
+    hypotheses = [*singles(q.m, q.p), *factors(q.m, q.p), *term_hypotheses(q.m, scopes=False, shapes=False)]
+    likely = [(_after(q.seen_as(view), hypotheses), view, each) for _, view, each in candidates[:LIKELY_VIEWS]]
     likely.sort(key=lambda found: found[0])
-    for after, view in likely[:FITTED_VIEWS]:
+    for after, view, each in likely[:FITTED_VIEWS]:
         if after > CLEAR * before:
             break
-        found = wrong_numbers(q.seen_as(view.view))
+        found = wrong_numbers(q.seen_as(view))
         if found.explained:
-            return with_more(found, [view.finding(q.who)])
+            return with_more(found, [each.finding(q.who)])
     return Explanation()
 
 

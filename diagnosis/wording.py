@@ -125,9 +125,7 @@ def _factor(found: FittedHypothesis, m: Mechanism, p: Parameters, who: str) -> F
     factor, error = 1 + float(found.values[0]), float(found.uncertainty[0])
     i = hypothesis.links[0]
     if hypothesis.cause == "gravity":
-        size = float(np.hypot(p.gravity_along[0], p.gravity_across[0]))
-        says = f"{who}: gravity: found {rounded(size * factor, size * error)}, expected {rounded(size)} m/s²"
-        return Finding("gravity", "gravity", size * factor, size, says)
+        return _strength(factor, error, p, who)
     place = "every link" if i < 0 else link_label(m, i)
     if hypothesis.cause == "mass" and i >= 0 and abs(factor) <= max(1e-9, 30 * error):
         return Finding("massless-link", place, 0.0, float(p.mass[i]), f"{who}: {place} has no mass")
@@ -151,6 +149,16 @@ def _factor(found: FittedHypothesis, m: Mechanism, p: Parameters, who: str) -> F
     word = hypothesis.names[0] if i < 0 else f"{hypothesis.cause.removesuffix('-displaced')} of {place}"
     says = f"{who}: {word}: found {rounded(factor, error)} times the expected value"
     return Finding(cause, place, factor, 1.0, says)
+
+
+def _strength(factor: float, error: float, p: Parameters, who: str) -> Finding:
+    """Gravity times a factor."""
+    size = float(np.hypot(p.gravity_along[0], p.gravity_across[0]))
+    if abs(factor + 1) <= max(1e-9, 30 * error):
+        says = f"{who}: gravity has the opposite sign, or angles are counted from the upward vertical"
+        return Finding("angle-convention", who, math.pi, 0.0, says)
+    says = f"{who}: gravity: found {rounded(size * factor, size * error)}, expected {rounded(size)} m/s²"
+    return Finding("gravity", "gravity", size * factor, size, says)
 
 
 def _gravity(found: FittedHypothesis, p: Parameters, who: str) -> Finding:

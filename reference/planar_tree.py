@@ -53,7 +53,7 @@ class Parameters:
 
     def items(self) -> dict[str, Array]:
         """Every parameter by its name."""
-        return {f.name: getattr(self, f.name) for f in fields(self)}
+        return {name: getattr(self, name) for name in NAMES}
 
 
 NAMES = tuple(f.name for f in fields(Parameters))

