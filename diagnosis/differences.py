@@ -108,7 +108,8 @@ def _links(
     density = _density(found, expected)
     if density is not None:
         yield _other_density(density, expected, who)
-        return
+        denser = [replace(k, mass=k.mass * density, inertia=k.inertia * density) for k in expected.links]
+        expected = replace(expected, links=tuple(denser))
     other_lengths = dict(_lengths(found, expected, who, expectation))
     for i, (got, wanted) in enumerate(zip(found.links, expected.links, strict=True)):
         if i in other_lengths:
@@ -183,25 +184,30 @@ def _same_bodies(found: Mechanism, other: Mechanism) -> bool:
 
 
 def _density(found: Mechanism, expected: Mechanism) -> float | None:
-    """The one factor by which all masses and inertias differ, where that is all that differs in two links or more."""
+    """The one factor of all masses and inertias, in two links or more, of which one may differ in something besides."""
     if expected.n < 2 or not all(link.mass for link in expected.links):
         return None
-    factor = found.links[0].mass / expected.links[0].mass
-    if not factor or abs(factor - 1) <= NUMBER_TOLERANCE:
-        return None
-    pairs = zip(found.links, expected.links, strict=True)
-    return factor if all(_same_but_density(got, wanted, factor) for got, wanted in pairs) else None
+    pairs = list(zip(found.links, expected.links, strict=True))
+    for got, wanted in pairs[:2]:
+        factor = got.mass / wanted.mass
+        if factor and abs(factor - 1) > NUMBER_TOLERANCE:
+            heavier = sum(_heavier_by(factor, *pair) for pair in pairs)
+            if heavier >= max(expected.n - 1, 2 if expected.n > 2 else 1) and _masses_by(factor, pairs):
+                return factor
+    return None
 
 
-def _same_but_density(got: Link, wanted: Link, factor: float) -> bool:
-    reach = max(math.hypot(*wanted.com), math.hypot(*got.com), 1e-300)
-    room = NUMBER_TOLERANCE * max(reach, *map(abs, wanted.hinge))
-    about_hinge = wanted.inertia + wanted.mass * reach**2
-    return (
-        max(math.dist(got.com, wanted.com), math.dist(got.hinge, wanted.hinge)) <= room
-        and abs(got.mass / factor - wanted.mass) <= PATTERN_TOLERANCE * wanted.mass
-        and abs(got.inertia / factor - wanted.inertia) <= PATTERN_TOLERANCE * wanted.inertia + 1e-13 * about_hinge
-    )
+def _masses_by(factor: float, pairs: list[tuple[Link, Link]]) -> bool:
+    alike = sum(abs(got.mass / factor - wanted.mass) <= PATTERN_TOLERANCE * wanted.mass for got, wanted in pairs)
+    return alike >= max(len(pairs) - 1, 2)
+
+
+def _heavier_by(factor: float, got: Link, wanted: Link) -> bool:
+    """Whether mass and inertia are both a factor of the expected ones."""
+    about_hinge = wanted.inertia + wanted.mass * math.hypot(*wanted.com) ** 2
+    room = PATTERN_TOLERANCE * wanted.inertia + 1e-13 * about_hinge
+    mass_alike = abs(got.mass / factor - wanted.mass) <= PATTERN_TOLERANCE * wanted.mass
+    return mass_alike and abs(got.inertia / factor - wanted.inertia) <= room
 
 
 def _other_density(factor: float, expected: Mechanism, who: str) -> Finding:

@@ -27,6 +27,7 @@ from .explanation import Explanation, together, with_more
 from .finding import Finding, joint_label
 from .limits_and_contacts import limits_and_contacts
 from .measurement import Measurement, measure
+from .one_acceleration import one_acceleration
 from .parameter_faults import several_at_once, slight_fault, two_at_once, wrong_numbers
 from .question import Question
 from .single_precision import single_precision, visible_single_precision
@@ -42,7 +43,7 @@ ONE_CAUSE: tuple[Attempt, ...] = (
     wrong_numbers,
     single_precision,
 )
-MORE_CAUSES: tuple[Attempt, ...] = (two_at_once, another_view, several_at_once)
+MORE_CAUSES: tuple[Attempt, ...] = (one_acceleration, two_at_once, another_view, several_at_once)
 
 
 def explain(

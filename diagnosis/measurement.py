@@ -132,6 +132,18 @@ def measure(engine: Any, mechanism: Mechanism, accuracy: float = EPSILON, seed: 
     return Measurement(mechanism.parents, theta, omega, alpha, torque, forward, accuracy)
 
 
+def acceleration_error(parents: tuple[int, ...], p: Parameters, theta: Array, omega: Array, alpha: Array) -> Array:
+    """The error of an engine's accelerations by rounding [rad/s²], (S, n)."""
+    zero = np.zeros_like(theta)
+    scale = Measurement(parents, theta, omega, alpha, zero, np.ones(len(theta), dtype=bool)).tolerances(p)
+    inverse = np.linalg.inv(planar.mass_matrix(parents, p, theta))
+    spread = scale.copy()
+    for i, parent in enumerate(parents):
+        if parent != SUPPORT:
+            spread[:, parent] += scale[:, i]
+    return np.asarray((np.abs(inverse) @ spread[..., None])[..., 0])
+
+
 def has_inverse_dynamics(engine: Any) -> bool:
     """Whether the engine has inverse dynamics."""
     info = getattr(engine, "info", None)

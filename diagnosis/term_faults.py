@@ -48,10 +48,11 @@ def term_hypotheses(m: Mechanism, scopes: bool, shapes: bool = True) -> list[Hyp
     ``scopes``: forward and inverse dynamics, both of which the engine has, may differ in them; ``shapes``: also other
     functions in a term.
     """
-    return [_hypothesis(fault, m) for fault in _faults(m.n, scopes, shapes)]
+    return [_hypothesis(fault, m) for fault in _faults(m, scopes, shapes)]
 
 
-def _faults(n: int, scopes: bool, shapes: bool) -> Iterator[TermFault]:
+def _faults(m: Mechanism, scopes: bool, shapes: bool) -> Iterator[TermFault]:
+    n, partners = m.n, [len(_on_one_way(m, i)) - 1 for i in range(m.n)]
     every = (EVERYWHERE, FORWARD, INVERSE) if scopes else (EVERYWHERE,)
     for scope in every:
         yield TermFault("the velocity terms", "velocity terms", _velocity, scope=scope, whole=True)
@@ -69,7 +70,7 @@ def _faults(n: int, scopes: bool, shapes: bool) -> Iterator[TermFault]:
     for i in range(n):
         for scope in every:
             yield TermFault(f"row {i + 1}, G[{i + 1}]", f"G[{i + 1}]", _only(lambda t, _: t.gravity, i), scope=scope)
-            if n > 1:
+            if partners[i] > 1:
                 yield TermFault(
                     f"row {i + 1}, the velocity terms", f"row {i + 1}", _only(_velocity, i), scope=scope, whole=True
                 )
@@ -95,6 +96,14 @@ def _of_one_acceleration(n: int, every: tuple[str, ...]) -> Iterator[TermFault]:
                 whole=word == "velocity",
             )
         yield TermFault(f"θ̈{k + 1} alone", f"θ̈{k + 1}", _response("", k), "accelerations-scaled", scope=scope)
+
+
+def _on_one_way(m: Mechanism, i: int) -> set[int]:
+    """The links whose motion is in row i: itself, those on the way to it and those that it carries."""
+    ways: list[set[int]] = []
+    for k, parent in enumerate(m.parents):
+        ways.append({k} | (ways[parent] if parent >= 0 else set()))
+    return {k for k in range(m.n) if i in ways[k]} | ways[i]
 
 
 def _entries(n: int, scope: str) -> Iterator[TermFault]:

@@ -20,14 +20,14 @@ MOST_LINKS = 20
 MOST_VIEWS = 400  # looked at roughly
 LIKELY_VIEWS = 12  # looked at with one wrong number
 FITTED_VIEWS = 4  # fitted in full
-CLEAR = 0.1  # of the residual as measured: what a view and one number must leave no more of
+CLEAR = 0.3  # of the residual as measured: what a view and one number must leave no more of
 
 
 def another_view(q: Question) -> Explanation:
     """The first of the views that leaves what one number or term explains."""
     if q.m.n > MOST_LINKS:
         return Explanation()
-    before = _size(q)
+    before = float(np.sqrt(np.mean(q.measured.residuals(q.p, q.measured.tolerances(q.p)) ** 2)))
     candidates: list[tuple[float, View, Convention | Buffer]] = []
     known: Iterator[Convention | Buffer] = chain(buffers(q.measured), conventions(q.engine, q.m))
     for each in islice(known, MOST_VIEWS):
