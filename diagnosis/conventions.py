@@ -17,7 +17,6 @@ from ..models.mechanism import Mechanism
 from ..models.tree import SUPPORT
 from ..reference import planar_tree as planar
 from ..reference.planar_tree import Parameters
-from .explanation import Explanation, one_of
 from .finding import DEGREE, Finding
 from .measurement import Array, Measurement, has_inverse_dynamics
 from .question import Question
@@ -72,18 +71,18 @@ class Convention:
         return Finding(self.cause, who, self.measured, self.expected, f"{who}: {self.says}")
 
 
-def wrong_convention(q: Question) -> Explanation:
+def fitting_conventions(q: Question) -> list[Convention]:
     """The conventions, at most two, that explain the engine's accelerations."""
     forward = q.measured.only(q.measured.forward)
     if forward.worst(q.p) < LARGE_RESIDUAL:
-        return Explanation()
+        return []
     found = []
     for convention in conventions(q.engine, q.m):
         if _fits(convention, q.measured, q.p) and _fits(convention, q.again, q.p):
-            found.append(convention.finding(q.who))
+            found.append(convention)
         if len(found) == MOST_ALIKE:
             break
-    return one_of(found)
+    return found
 
 
 def _fits(convention: Convention, measured: Measurement, p: Parameters) -> bool:

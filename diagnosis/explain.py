@@ -21,7 +21,6 @@ from ..reference.planar_tree import Parameters
 from ..reference.rounding.bounds import EPSILON
 from .buffers import stale_answers
 from .compiled import compiled_by, compiled_differences, mechanism_from
-from .conventions import wrong_convention
 from .differences import differences
 from .explanation import Explanation, together, with_more
 from .finding import Finding, joint_label
@@ -31,7 +30,7 @@ from .one_acceleration import one_acceleration
 from .parameter_faults import several_at_once, slight_fault, two_at_once, wrong_numbers
 from .question import Question
 from .single_precision import single_precision, visible_single_precision
-from .views import another_view
+from .views import another_view, wrong_convention
 
 Attempt = Callable[[Question], Explanation]
 ONE_CAUSE: tuple[Attempt, ...] = (

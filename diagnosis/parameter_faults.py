@@ -33,6 +33,7 @@ MOST_LINKS = 60  # up to which parameters are fitted; the cost grows with their 
 MOST_LINKS_OF_PAIRS = 20
 IMPLAUSIBLE_FACTOR = 1e-6  # a factor beyond this or its inverse leaves another mechanism, not a faulty one
 CLEAR_IMPROVEMENT = 8.0  # by this factor one number must lessen the residual to be no accident
+BLUNTER = 100.0  # a fit with tolerances larger by more than this shows nothing
 CLEARLY_CHANGED = 30  # standard deviations by which a value is off
 
 
@@ -133,7 +134,14 @@ def _best(hypotheses: Sequence[Hypothesis], q: Question) -> list[FittedHypothesi
 def _explaining(fits: Iterable[FittedHypothesis], q: Question) -> list[FittedHypothesis]:
     """Those that are possible and leave nothing, in the states of the fit and in others."""
     possible = [f for f in fits if f.explains and not _impossible(f, q.p)]
-    return [f for f in possible if f.worst(q.p, q.again) <= 1]
+    return [f for f in possible if _as_sharp(f, q) and f.worst(q.p, q.again) <= 1]
+
+
+def _as_sharp(f: FittedHypothesis, q: Question) -> bool:
+    """Whether rounding explains about as much as before: with numbers large enough it explains any difference."""
+    with np.errstate(all="ignore"):
+        scale = float(np.median(q.measured.tolerances(f.hypothesis.apply(q.p, f.values))))
+    return scale <= BLUNTER * q.scale
 
 
 def _as_good(fits: list[FittedHypothesis]) -> list[FittedHypothesis]:

@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
 from ..models.mechanism import Mechanism
 from ..reference import planar_tree as planar
 from ..reference.planar_tree import Parameters
@@ -33,6 +35,7 @@ class Question:
     compiled: Mechanism | None
     who: str
     view: View = as_measured
+    scale_before: float = 0.0
 
     @cached_property
     def p(self) -> Parameters:
@@ -44,9 +47,15 @@ class Question:
         """The same in other states: a cause that is one removes the difference there, too."""
         return self.view(measure(self.engine, self.m, self.measured.accuracy, AGAIN))
 
+    @cached_property
+    def scale(self) -> float:
+        """The median of what rounding explains [N m] with the numbers expected, as it was measured."""
+        with np.errstate(all="ignore"):
+            return self.scale_before or float(np.median(self.measured.tolerances(self.p)))
+
     def seen_as(self, view: View) -> Question:
         """The same question with another view of what was measured."""
-        return replace(self, measured=view(self.measured), view=view)
+        return replace(self, measured=view(self.measured), view=view, scale_before=self.scale)
 
     def against(self, other: Mechanism) -> Question:
         """The same question with another mechanism expected."""
