@@ -115,6 +115,7 @@ IN_CONVENTION = {
     "stale-derived-state": late_buffer,
 }
 KINDS = {"mechanism": IN_MECHANISM, "code": IN_CODE, "convention": IN_CONVENTION}
+ALL_VELOCITY_TERMS = {"velocity-terms-sign", "velocity-terms-forgotten"}  # of terms that are missing, no sign is wrong
 ONLY_TERM_BY_TERM = {"damping", "armature"}  # real engines are built from trees, whose hinges are ideal
 
 
@@ -139,7 +140,7 @@ def drawn(rng, how_many):
         kinds.append(str(rng.choice(left)))
     names: list[str] = []
     for kind in kinds:
-        left = [name for name in KINDS[kind] if name not in names]
+        left = [name for name in KINDS[kind] if name not in names and not ALL_VELOCITY_TERMS <= {name, *names}]
         names.append(str(rng.choice(left)))
     mechanism, changes = wanted, []
     for kind, name in zip(kinds, names, strict=True):
