@@ -13,6 +13,7 @@ import contextlib
 import hashlib
 import os
 import random
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -20,7 +21,7 @@ import msgspec
 
 from ..engines import ENGINES
 from ..models import Scene
-from ..records.check import Result
+from ..records.check import Diagnosis, Result
 from .foundations import own_foundation, package_foundation
 from .plan import Task
 
@@ -31,9 +32,18 @@ DIGEST = 32
 class _Entry(msgspec.Struct, frozen=True):
     count: int
     results: list[Result]
+    diagnoses: list[Diagnosis]
 
 
 _entries = msgspec.json.Decoder(_Entry)
+
+
+@dataclass(frozen=True)
+class Kept:
+    """What an earlier run of a task gave."""
+
+    results: list[Result]
+    diagnoses: list[Diagnosis]
 
 
 @dataclass(frozen=True)
@@ -53,8 +63,8 @@ class Cache:
     folder: Path | None
     largest: int = LARGEST
 
-    def results(self, task: Task) -> list[Result] | None:
-        """The results of an earlier run of this very task, marked as kept; None where it has to run."""
+    def results(self, task: Task) -> Kept | None:
+        """The results and diagnoses of an earlier run of this very task, marked as kept; None where it has to run."""
         content = self._load("results", _results_key(task) if self.folder else None)
         if content is None:
             return None
@@ -65,12 +75,13 @@ class Cache:
         compared = {result.comparison for result in entry.results}
         if entry.count != len(entry.results) or compared != set(task.checks):
             return None
-        return [msgspec.structs.replace(result, kept=True, seconds=0.0) for result in entry.results]
+        results = [msgspec.structs.replace(result, kept=True, seconds=0.0) for result in entry.results]
+        return Kept(results, entry.diagnoses)
 
-    def keep_results(self, task: Task, results: list[Result]) -> None:
-        """Keep all of a task's results, unless one is a failure: that may have passed by next time."""
+    def keep_results(self, task: Task, results: list[Result], diagnoses: Sequence[Diagnosis] = ()) -> None:
+        """Keep all of a task's results and diagnoses, unless one is a failure: that may have passed by next time."""
         if self.folder and all(result.outcome != "error" for result in results):
-            entry = _Entry(len(results), results)
+            entry = _Entry(len(results), results, list(diagnoses))
             self._save("results", _results_key(task), msgspec.json.encode(entry))
 
     def facts(self, scene: Scene, random_states: int) -> bytes | None:

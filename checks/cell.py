@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -9,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..diagnosis.explanation import Explanation
 from ..diagnosis.finding import Finding
 from ..engines import AnyShape, EngineInfo, Integrator
 from ..models import Scene
@@ -56,14 +58,29 @@ class Cell:
         return self if kept.all() else replace(self, states=self.states.only(kept), facts=self.facts.only(kept))
 
     @cached_property
-    def findings(self) -> list[Finding]:
-        """Why this engine differs, by what it was measured to do; none where it cannot be measured either."""
-        from ..diagnosis.explain import explain
+    def explanation(self) -> Explanation:
+        """Why this engine differs, by what it was measured to do; empty where it cannot be measured either."""
+        from ..diagnosis.explain import explanation
 
         try:
-            return explain(self.engine, self.scene.system, who=self.info.name, accuracy=self.info.accuracy)
+            return explanation(self.engine, self.scene.system, who=self.info.name, accuracy=self.info.accuracy)
         except Exception:
-            return []  # an engine that fails here has failed, or will, in a check of its own
+            return Explanation()  # an engine that fails here has failed, or will, in a check of its own
+
+    def motion_causes(self, integrator: Integrator) -> list[Finding]:
+        """Why runs with this integrator differ, given that the accelerations agree; measured once."""
+        if integrator.name not in self._motion_causes:
+            from ..diagnosis.explain_motion import explain_motion
+
+            found: list[Finding] = []
+            with suppress(Exception):
+                found = explain_motion(self.engine, self.scene.system, integrator, who=self.info.name, diverged=True)
+            self._motion_causes[integrator.name] = found
+        return self._motion_causes[integrator.name]
+
+    @cached_property
+    def _motion_causes(self) -> dict[str, list[Finding]]:
+        return {}
 
     def accelerations(self) -> Array:
         """The engine's accelerations in all states, (B, n)."""

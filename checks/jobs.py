@@ -13,16 +13,16 @@ import msgspec
 from ..engines.workers.messages import Send, Step
 from ..engines.workers.worker import one_line
 from ..models import Scene, System
-from ..records.check import Result
 from .check import Check
 from .plan import Task
 from .registry import CHECKS
 
 if TYPE_CHECKING:
+    from .causes import Causes
     from .cell import Cell
 
 # Most jobs need them: a worker imports them while its first job is still being decided on.
-MODULES = ("furiko.checks.facts", "furiko.checks.cell")
+MODULES = ("furiko.checks.facts", "furiko.checks.causes")
 
 
 @dataclass(frozen=True)
@@ -63,18 +63,24 @@ class CellJob:
     facts: bytes
 
     def run(self, send: Send) -> None:
+        from .causes import Causes
+
         check = self.task.checks[0]
         send(Step(check))
         cell = self._cell(lambda asked: send(Step(check, engine=asked)))
+        causes = Causes(cell)
         differs = False
         for check in self.task.checks:
             send(Step(check))
             results = 0
-            for result in self._results(CHECKS[check], cell, differs):
+            for result in self._results(CHECKS[check], cell, differs, causes):
                 differs = differs or (check == "accelerations" and result.outcome == "differs")
                 send(msgspec.structs.replace(result, comparison=check))
                 results += 1
             send(Compared(check, results))
+        diagnosis = causes.diagnosis()
+        if diagnosis is not None:
+            send(diagnosis)
 
     def _cell(self, announce: Callable[[bool], None]) -> Cell:
         from ..engines import AnyShape, engine_info, load_engine
@@ -91,7 +97,7 @@ class CellJob:
         facts = SceneFacts.from_bytes(self.facts)
         return Cell(task.scene, info, cast(AnyShape, Announced(engine, announce)), looked_at, facts)
 
-    def _results(self, check: Check, cell: Cell, differs: bool) -> Any:
+    def _results(self, check: Check, cell: Cell, differs: bool, causes: Causes) -> Any:
         """The results of one check; a failure ends this check alone."""
         if check.moves and differs:
             yield cell.result(check.name, "skipped", reason="the accelerations differ already: no trajectory can agree")
@@ -100,7 +106,7 @@ class CellJob:
         try:
             for result in check.compare(cell):
                 now = time.perf_counter()
-                yield msgspec.structs.replace(explained(result, check, cell), seconds=now - begun)
+                yield msgspec.structs.replace(causes.named(result, check), seconds=now - begun)
                 begun = now
         except Exception as error:
             details = {"traceback": traceback.format_exc()}
@@ -137,11 +143,3 @@ class Announced:
                 self._announce(False)
 
         return call
-
-
-def explained(result: Result, check: Check, cell: Cell) -> Result:
-    """A result that differs with the cause that measurements name; anything else as it is."""
-    if result.outcome != "differs" or not check.explained or result.cause is not None or not cell.findings:
-        return result
-    first = cell.findings[0]
-    return msgspec.structs.replace(result, cause=first.cause, reason=f"{result.reason}; {first.cause}: {first.says}")

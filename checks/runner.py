@@ -16,7 +16,7 @@ from itertools import chain
 from ..engines.workers.messages import Failed
 from ..engines.workers.pool import Event, Finished, Lost, Pool, Worker
 from ..engines.workers.processes import Workers
-from ..records.check import Result
+from ..records.check import Diagnosis, Result
 from .cache import Cache
 from .jobs import CellJob, Compared, Facts, TruthJob
 from .ledger import Ledger
@@ -34,23 +34,26 @@ def run(
     jobs: int | None = None,
     timeout: float = TIMEOUT,
     ledger: Ledger | None = None,
-) -> Iterator[Result]:
-    """Every result of the plan: first what is settled or kept already, then the others in the order in which they come.
+) -> Iterator[Result | Diagnosis]:
+    """Every result of the plan, and a diagnosis after those of a cell that differs.
+
+    First what is settled or kept already, then the others in the order in which they come.
 
     Workers are busy from the call on, before the first result is asked for; they end with their ``source``, if not by
     themselves. ``source``: where workers come from; ``jobs``: how many, as many as there are cores for None;
     ``timeout``: seconds for one call of an engine; ``ledger`` is told how many results each check has given.
     """
-    known, tasks = [*plan.settled], []
+    known: list[Result | Diagnosis] = [*plan.settled]
+    tasks = []
     ledger = ledger or Ledger(plan)
     for task in plan.tasks:
         kept = cache.results(task)
         if kept is None:
             tasks.append(task)
         else:
-            known += kept
+            known += [*kept.results, *kept.diagnoses]
             for check in task.checks:
-                given = sum(result.comparison == check for result in kept)
+                given = sum(result.comparison == check for result in kept.results)
                 ledger.promise(task.scene.name, task.engine, check, given)
     if not tasks:
         return iter(known)
@@ -64,6 +67,7 @@ class _Progress:
     """What has come of a cell so far."""
 
     results: list[Result] = field(default_factory=list)
+    diagnoses: list[Diagnosis] = field(default_factory=list)
     compared: set[str] = field(default_factory=set)
 
 
@@ -96,7 +100,7 @@ class _Run:
         self.pool = Pool(self.source, self.size)
         self._employ(self.pool)
 
-    def results(self) -> Iterator[Result]:
+    def results(self) -> Iterator[Result | Diagnosis]:
         assert self.pool is not None
         try:
             while self._employ(self.pool):
@@ -127,7 +131,7 @@ class _Run:
             return job
         return self.truths.popleft() if self.truths else None
 
-    def _on(self, event: Event) -> Iterator[Result]:
+    def _on(self, event: Event) -> Iterator[Result | Diagnosis]:
         progress, job = self.progress[event.worker], event.job
         if isinstance(event, Lost):
             self.imported.pop(event.worker, None)
@@ -137,6 +141,9 @@ class _Run:
                 yield from self._finished(job, progress)
         elif isinstance(event.message, Result):
             progress.results.append(event.message)
+            yield event.message
+        elif isinstance(event.message, Diagnosis):
+            progress.diagnoses.append(event.message)
             yield event.message
         elif isinstance(event.message, Compared) and isinstance(job, CellJob):
             progress.compared.add(event.message.check)
@@ -156,7 +163,7 @@ class _Run:
         for check in missing:
             yield _error(job.task, check, "the check was planned, and no result of it arrived")
         if not missing:
-            self.cache.keep_results(job.task, progress.results)
+            self.cache.keep_results(job.task, progress.results, progress.diagnoses)
 
     def _lost(self, job: object, event: Lost, progress: _Progress) -> Iterator[Result]:
         """A worker is gone with the job it had: say so, and let a fresh one resume what is left of it."""

@@ -9,10 +9,9 @@ from ..engines import ModelFields
 from ..models import Link, PlanarTree
 from ..models.mechanism import Hinge, Mechanism, mechanism_of
 from ..reference import planar_tree as planar
-from ..reference.planar_tree import Parameters
 from .differences import differences
-from .finding import Finding
-from .measurement import Measurement
+from .explanation import Explanation, together
+from .question import Question
 
 
 def mechanism_from(expected: Any) -> Mechanism:
@@ -59,10 +58,14 @@ def mechanism_of_fields(fields: ModelFields, like: Mechanism) -> Mechanism:
     return Mechanism(links, hinges, (-z, x), link_names, tuple(map(float, fields.gravity)))
 
 
-def compiled_differences(
-    engine: Any, m: Mechanism, p: Parameters, measured: Measurement, compiled: Mechanism | None, who: str
-) -> list[Finding]:
-    """How the mechanism that the engine holds differs from ``m``, where it explains the engine's motion."""
-    if compiled is None or measured.worst(planar.parameters(compiled)) > 1:
-        return []
-    return differences(compiled, m, who)
+def compiled_differences(q: Question) -> Explanation:
+    """How the mechanism that the engine holds differs from the one expected, where it explains the engine's motion."""
+    if q.compiled is None or not explains(q.compiled, q):
+        return Explanation()
+    return together(differences(q.compiled, q.m, q.who))
+
+
+def explains(other: Mechanism, q: Question) -> bool:
+    """Whether the engine moves as another mechanism."""
+    p = planar.parameters(other)
+    return q.measured.worst(p) <= 1 and q.again.worst(p) <= 1

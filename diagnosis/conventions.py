@@ -20,51 +20,86 @@ from ..reference import planar_tree as planar
 from ..reference.planar_tree import Parameters
 from .finding import DEGREE, Finding
 from .measurement import Array, Measurement, has_inverse_dynamics
+from .question import Question
 
+MOST_ALIKE = 2  # conventions that are named where several explain the same
 LARGE_RESIDUAL = 1e5  # in units of what rounding explains; another convention leaves far more
 
 
 @dataclass(frozen=True)
-class _Convention:
-    """The engine is given ``angles``·θ and ``rates``·ω, and answers ``answers``⁻¹·θ̈; matrices (n, n)."""
+class Convention:
+    """The engine is given ``angles``·θ and ``rates``·ω, and answers ``answers``⁻¹·θ̈; matrices (n, n). Angles are
+    ``offset`` [rad] more besides."""
 
     cause: str
     says: str
     angles: Array
     rates: Array
     answers: Array
-    measured: str = ""
+    measured: str | float = ""
+    expected: str | float = "absolute angles in radians, in the links' order"
+    offset: float = 0.0
+
+    def view(self, measured: Measurement) -> Measurement:
+        """What was measured, in the coordinates that the engine means.
+
+        Inverse dynamics is left out: its rows may be in either convention, or in both at once.
+        """
+        forward = measured.only(measured.forward)
+        with np.errstate(all="ignore"):
+            return replace(
+                forward,
+                theta=forward.theta @ self.angles.T + self.offset,
+                omega=forward.omega @ self.rates.T,
+                alpha=forward.alpha @ self.answers.T,
+            )
+
+    def view_of_all(self, measured: Measurement) -> Measurement:
+        """The same, with inverse dynamics in the same convention."""
+        seen, inverse = self.view(measured), measured.only(~measured.forward)
+        with np.errstate(all="ignore"):
+            return replace(
+                measured,
+                theta=np.concatenate([seen.theta, inverse.theta @ self.angles.T + self.offset]),
+                omega=np.concatenate([seen.omega, inverse.omega @ self.rates.T]),
+                alpha=np.concatenate([seen.alpha, inverse.alpha @ self.answers.T]),
+                torque=np.concatenate([seen.torque, inverse.torque @ np.linalg.inv(self.answers)]),
+                forward=np.concatenate([seen.forward, inverse.forward]),
+            )
+
+    def finding(self, who: str) -> Finding:
+        """The convention as the cause of what this engine does."""
+        return Finding(self.cause, who, self.measured, self.expected, f"{who}: {self.says}")
 
 
-def wrong_convention(
-    engine: Any, m: Mechanism, p: Parameters, measured: Measurement, compiled: Mechanism | None, who: str
-) -> list[Finding]:
+def fitting_conventions(q: Question) -> list[Convention]:
     """The conventions, at most two, that explain the engine's accelerations."""
-    forward = measured.only(measured.forward)
-    if forward.worst(p) < LARGE_RESIDUAL:
+    forward = q.measured.only(q.measured.forward)
+    if forward.worst(q.p) < LARGE_RESIDUAL:
         return []
-    found = [convention for convention in _conventions(engine, m) if _fits(convention, forward, p)]
-    if not found:
-        return _other_zero_angle(engine, m, p, forward, who)
-    return [
-        Finding(c.cause, who, c.measured, "absolute angles in radians, in the links' order", f"{who}: {c.says}")
-        for c in found[:2]
-    ]
+    found = []
+    for convention in conventions(q.engine, q.m):
+        if _fits(convention, q.measured, q.p) and _fits(convention, q.again, q.p):
+            found.append(convention)
+        if len(found) == MOST_ALIKE:
+            break
+    return found
 
 
-def _fits(convention: _Convention, forward: Measurement, p: Parameters) -> bool:
+def _fits(convention: Convention, measured: Measurement, p: Parameters) -> bool:
     with np.errstate(all="ignore"):
-        taken = replace(
-            forward,
-            theta=forward.theta @ convention.angles.T,
-            omega=forward.omega @ convention.rates.T,
-            alpha=forward.alpha @ convention.answers.T,
-        )
+        seen = convention.view(measured)
         # Angles of many turns have lost digits; what that changes is rounding too.
-        return taken.worst(p) <= max(1.0, float(np.abs(taken.theta).max()))
+        return seen.worst(p) <= max(1.0, float(np.abs(seen.theta).max()))
 
 
-def _conventions(engine: Any, m: Mechanism) -> Iterator[_Convention]:
+def conventions(engine: Any, m: Mechanism) -> Iterator[Convention]:
+    """Every convention that is known, likelier ones first."""
+    yield from _conventions(engine, m)
+    yield from _other_zero_angles(m.n)
+
+
+def _conventions(engine: Any, m: Mechanism) -> Iterator[Convention]:
     n = m.n
     same: Array = np.eye(n)
     to_absolute = absolute_from_relative(m.parents)
@@ -79,21 +114,21 @@ def _conventions(engine: Any, m: Mechanism) -> Iterator[_Convention]:
             ):
                 sentence = f"{which}: {says}"
                 a, b, c = (turned if mask & bit else same for bit in (1, 2, 4))
-                yield _Convention("angle-convention", sentence, a, b, c, sentence)
+                yield Convention("angle-convention", sentence, a, b, c, sentence)
     for mask in (7, 1, 2, 4, 3, 5, 6):
         which = " and ".join(words[bit] for bit in (1, 2, 4) if mask & bit)
         for factor in (DEGREE, 1 / DEGREE):
             a, b, c = (same * (factor if mask & bit else 1.0) for bit in (1, 2, 4))
             units = "found radians, expected degrees" if factor < 1 else "found degrees, expected radians"
-            yield _Convention("degree-vs-radian", f"{which}: {units}", a, b, c, f"{which} × {factor:.7g}")
+            yield Convention("degree-vs-radian", f"{which}: {units}", a, b, c, f"{which} × {factor:.7g}")
         if mask != 7:
             a, b, c = (same * (-1.0 if mask & bit else 1.0) for bit in (1, 2, 4))
-            yield _Convention("angle-convention", f"{which} have the opposite sign", a, b, c, f"−({which})")
+            yield Convention("angle-convention", f"{which} have the opposite sign", a, b, c, f"−({which})")
     for order in _orders(engine, m, to_absolute):
         shuffled = same[order]
         for matrix, kind in ((to_absolute @ shuffled @ to_relative, "relative "), (shuffled, "")):
             numbers, expected = [i + 1 for i in order], list(range(1, n + 1))
-            yield _Convention(
+            yield Convention(
                 "joint-order",
                 f"order of its {kind}joint coordinates: found {numbers}, expected {expected}",
                 matrix,
@@ -165,12 +200,11 @@ def _depth_first(m: Mechanism) -> list[int]:
     return order
 
 
-def _other_zero_angle(engine: Any, m: Mechanism, p: Parameters, forward: Measurement, who: str) -> list[Finding]:
+def _other_zero_angles(n: int) -> Iterator[Convention]:
     """Angles counted from the upward vertical or from the horizontal, in either sense."""
-    turned = replace(forward, theta=-forward.theta, omega=-forward.omega, alpha=-forward.alpha)
-    for view, sense in ((forward, ""), (turned, " and clockwise")):
+    same: Array = np.eye(n)
+    for sign, sense in ((1.0, ""), (-1.0, " and clockwise")):
         for offset, words in ((math.pi, "the upward vertical"), (math.pi / 2, "+x"), (-math.pi / 2, "−x")):
-            if replace(view, theta=view.theta + offset).worst(p) <= 1:
-                says = f"{who}: its angles are counted from {words}{sense}, expected from the downward vertical"
-                return [Finding("angle-convention", who, offset, 0.0, says)]
-    return []
+            says = f"its angles are counted from {words}{sense}, expected from the downward vertical"
+            turned = sign * same
+            yield Convention("angle-convention", says, turned, turned, turned, offset, 0.0, offset)

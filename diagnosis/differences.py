@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
 from ..models import Link
 from ..models.mechanism import Mechanism
 from .finding import Finding, degrees_for_radians, joint_label, link_label, rounded
+from .hypotheses import bodies_finding
 from .reader_faults import FAULT_SENTENCES, PATTERN_TOLERANCE, ReaderFaults, matching_fault
 
 NUMBER_TOLERANCE = 1e-13  # relative: some hundred roundings
@@ -33,6 +35,10 @@ def differences(
     if findings:
         return findings
     findings += _gravity(found, expected, who, expectation)
+    for cause, other in _other_bodies(expected):
+        if _same_bodies(found, other) and not _same_bodies(found, expected):
+            findings.append(bodies_finding(cause, who))
+            expected = other
     findings += _links(found, expected, who, expectation, faults or {})
     findings += _hinges(found, expected, who, expectation)
     return findings
@@ -99,6 +105,11 @@ def _gravity(found: Mechanism, expected: Mechanism, who: str, expectation: str) 
 def _links(
     found: Mechanism, expected: Mechanism, who: str, expectation: str, faults: ReaderFaults
 ) -> Iterator[Finding]:
+    density = None if faults else _density(found, expected)  # what readers of files do has names of its own
+    if density is not None:
+        yield _other_density(density, expected, who)
+        denser = [replace(k, mass=k.mass * density, inertia=k.inertia * density) for k in expected.links]
+        expected = replace(expected, links=tuple(denser))
     other_lengths = dict(_lengths(found, expected, who, expectation))
     for i, (got, wanted) in enumerate(zip(found.links, expected.links, strict=True)):
         if i in other_lengths:
@@ -118,6 +129,10 @@ def _links(
         cause = matching_fault(i, got, faults)
         if cause is not None:
             yield Finding(cause, name, _inertial(got), _inertial(wanted), f"{who}: {name}: {FAULT_SENTENCES[cause]}")
+        if wanted.mass and not got.mass:
+            says = f"{who}: {name} has no mass, {expectation} {rounded(wanted.mass)} kg"
+            yield Finding("massless-link", name, 0.0, wanted.mass, says)
+            continue
         ratio = got.mass / wanted.mass if wanted.mass else math.inf
         if other_mass:
             extra = _ratio(got.mass, wanted.mass)
@@ -142,6 +157,65 @@ def _links(
             )
         if other_inertia and not scaled_along and i not in other_lengths:
             yield _inertia(name, got.inertia, wanted.inertia, who, expectation)
+
+
+def _other_bodies(expected: Mechanism) -> Iterator[tuple[str, Mechanism]]:
+    """The same links as point masses at their ends, where they have inertias; or as rods, where they are points."""
+    links = expected.links
+    if all(link.inertia for link in links):
+        points = tuple(replace(link, com=(link.length, 0.0), inertia=0.0) for link in links)
+        yield "rods-as-point-masses", replace(expected, links=points)
+    elif not any(link.inertia for link in links):
+        rods = tuple(
+            replace(link, com=(link.length / 2, 0.0), inertia=link.mass * link.length**2 / 12) for link in links
+        )
+        yield "point-masses-as-rods", replace(expected, links=rods)
+
+
+def _same_bodies(found: Mechanism, other: Mechanism) -> bool:
+    """Whether all centres of mass, and all squared radii of gyration, are the same."""
+    for got, wanted in zip(found.links, other.links, strict=True):
+        reach = max(math.hypot(*wanted.com), math.hypot(*got.com), 1e-300)
+        if not got.mass or not wanted.mass or math.dist(got.com, wanted.com) > PATTERN_TOLERANCE * reach:
+            return False
+        if abs(got.inertia / got.mass - wanted.inertia / wanted.mass) > PATTERN_TOLERANCE * reach**2:
+            return False
+    return True
+
+
+def _density(found: Mechanism, expected: Mechanism) -> float | None:
+    """The one factor of all masses and inertias, in two links or more, of which one may differ in something besides."""
+    if expected.n < 2 or not all(link.mass for link in expected.links):
+        return None
+    pairs = list(zip(found.links, expected.links, strict=True))
+    for got, wanted in pairs[:2]:
+        factor = got.mass / wanted.mass
+        if factor and abs(factor - 1) > NUMBER_TOLERANCE:
+            heavier = sum(_heavier_by(factor, *pair) for pair in pairs)
+            if heavier >= max(expected.n - 1, 2 if expected.n > 2 else 1) and _masses_by(factor, pairs):
+                return factor
+    return None
+
+
+def _masses_by(factor: float, pairs: list[tuple[Link, Link]]) -> bool:
+    alike = sum(abs(got.mass / factor - wanted.mass) <= PATTERN_TOLERANCE * wanted.mass for got, wanted in pairs)
+    return alike >= max(len(pairs) - 1, 2)
+
+
+def _heavier_by(factor: float, got: Link, wanted: Link) -> bool:
+    """Whether mass and inertia are both a factor of the expected ones."""
+    about_hinge = wanted.inertia + wanted.mass * math.hypot(*wanted.com) ** 2
+    room = PATTERN_TOLERANCE * wanted.inertia + 1e-13 * about_hinge
+    mass_alike = abs(got.mass / factor - wanted.mass) <= PATTERN_TOLERANCE * wanted.mass
+    return mass_alike and abs(got.inertia / factor - wanted.inertia) <= room
+
+
+def _other_density(factor: float, expected: Mechanism, who: str) -> Finding:
+    if all(link.inertia for link in expected.links):
+        says = f"{who}: density: every mass and inertia: found {rounded(factor)} times the expected value"
+        return Finding("density", "every link", factor, 1.0, says)
+    says = f"{who}: every mass: found {rounded(factor)} times the expected value"
+    return Finding("mass", "every link", factor, 1.0, says)
 
 
 def _lengths(found: Mechanism, expected: Mechanism, who: str, expectation: str) -> Iterator[tuple[int, Finding]]:

@@ -24,7 +24,7 @@ from ..reference.planar_tree import Parameters
 from ..reference.rounding.bounds import EPSILON
 from .compiled import mechanism_from
 from .finding import Finding
-from .measurement import Array, Measurement, probe_states
+from .measurement import Array, acceleration_error, probe_states
 
 STATE_COUNT = 4
 RELATIVE_STEP = 0.06  # times the fastest rate
@@ -110,24 +110,11 @@ def _run(engine: Any, m: Mechanism, p: Parameters, integrator: Integrator) -> _R
     for steps in (1, 2):
         rows = [engine.trajectory(t, w, integrator.name, step, steps) for t, w in zip(theta, omega, strict=True)]
         ends.append(np.array(rows).swapaxes(0, 1))
-    rounding = _acceleration_error(m, p, theta, omega, alpha)
+    rounding = acceleration_error(m.parents, p, theta, omega, alpha)
     iterations = 1e-11 * step * np.abs(alpha).max(axis=1, keepdims=True)  # where an implicit scheme stops
     rates = ROUNDING_MARGIN * step * rounding + iterations + 64 * EPSILON * np.abs(omega)
     bound = np.stack([step * rates + 64 * EPSILON * np.abs(theta), rates])
     return _Runs(step, np.stack([theta, omega]), ends[0], ends[1], bound)
-
-
-def _acceleration_error(m: Mechanism, p: Parameters, theta: Array, omega: Array, alpha: Array) -> Array:
-    """The error of an engine's accelerations by rounding [rad/s²], (S, n)."""
-    zero = np.zeros_like(theta)
-    one = Measurement(m.parents, theta, omega, alpha, zero, np.ones(len(theta), dtype=bool))
-    scale = one.tolerances(p)
-    inverse = np.linalg.inv(planar.mass_matrix(m.parents, p, theta))
-    spread = scale.copy()
-    for i, parent in enumerate(m.parents):
-        if parent >= 0:
-            spread[:, parent] += scale[:, i]
-    return np.asarray((np.abs(inverse) @ spread[..., None])[..., 0])
 
 
 def _matching_scheme(runs: _Runs, accelerations: Any, order: int) -> Scheme | None:

@@ -12,10 +12,13 @@ import numpy as np
 
 from ..models.mechanism import Mechanism
 from ..reference.planar_tree import NAMES, Parameters
-from .measurement import Array
+from .finding import Finding
+from .measurement import Array, Measurement
+
+Basis = Callable[[Parameters, Measurement], Array]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Hypothesis:
     """Other values for some of a mechanism's parameters.
 
@@ -30,6 +33,10 @@ class Hypothesis:
     sizes: Array
     relative: bool = False  # x is a factor minus one
     parts: tuple[Hypothesis, ...] = ()  # of a combined hypothesis, whose values are theirs side by side
+    basis: Basis | None = None  # torques (d, S, n) that the engine has besides, for values of one
+    tell: Callable[[float, float, Parameters, str], list[Finding]] | None = None  # from value and uncertainty
+    wanted: float | None = None  # the one value that means anything
+    known: Callable[[float, Parameters], bool] | None = None  # whether a value has a name
 
     @property
     def d(self) -> int:
@@ -93,6 +100,54 @@ def unnormalised(link: int, n: int, parents: tuple[int, ...]) -> Hypothesis:
     )
 
 
+def all_unnormalised(parents: tuple[int, ...]) -> Hypothesis:
+    """Every joint has a pair (cos, sin) of length 1 + x."""
+    n = len(parents)
+    each = [unnormalised(i, n, parents) for i in range(n)]
+
+    def apply(base: Parameters, x: Array) -> Parameters:
+        for hypothesis in each:
+            base = hypothesis.apply(base, x)
+        return base
+
+    return Hypothesis(
+        "continuous-joint-not-normalised", apply, ("length of (cos, sin)",), (-1,), np.array([0.05]), relative=True
+    )
+
+
+def other_bodies(mechanism: Mechanism, p: Parameters) -> list[Hypothesis]:
+    """Point masses at the links' ends in place of bodies, and uniform rods in place of point masses."""
+    lengths = np.array([link.length for link in mechanism.links])
+    kinds = (
+        ("rods-as-point-masses", lengths, np.zeros_like(lengths)),
+        ("point-masses-as-rods", lengths / 2, lengths**2 / 12),
+    )
+    return [_bodies(cause, reach, square) for cause, reach, square in kinds]
+
+
+def _bodies(cause: str, reach: Array, square: Array) -> Hypothesis:
+    """A share x of the way to centres of mass at ``reach`` [m] and inertias of ``square`` [m²] times the mass."""
+
+    def apply(base: Parameters, x: Array) -> Parameters:
+        share, items = x[..., 0, None], dict(base.items())
+        items["com_along"] = items["com_along"] + share * (reach - base.com_along)
+        items["com_across"] = items["com_across"] * (1 - share)
+        items["inertia"] = items["inertia"] + share * (square * base.mass - base.inertia)
+        return Parameters(**items)
+
+    def tell(value: float, spread: float, p: Parameters, who: str) -> list[Finding]:
+        return [bodies_finding(cause, who)]
+
+    return Hypothesis(cause, apply, ("bodies",), (-1,), np.array([0.1]), tell=tell, wanted=1.0)
+
+
+def bodies_finding(cause: str, who: str) -> Finding:
+    """The finding of other bodies than expected."""
+    points, rods = "point masses at the links' ends", "uniform rods"
+    found, expected = (points, rods) if cause == "rods-as-point-masses" else (rods, points)
+    return Finding(cause, "every link", found, expected, f"{who}: {found} found, {expected} expected")
+
+
 def _in_subtree(j: int, link: int, parents: tuple[int, ...]) -> bool:
     while j >= 0:
         if j == link:
@@ -142,21 +197,32 @@ def singles(mechanism: Mechanism, p: Parameters) -> list[Hypothesis]:
     return [hypothesis for hypothesis in hypotheses if _acts(hypothesis, p)]
 
 
-def groups(mechanism: Mechanism, p: Parameters) -> list[Hypothesis]:
-    """Every hypothesis of one kind everywhere: all armatures, all masses, all lengths by one factor …"""
-    n = mechanism.n
-    every = range(n)
-    inertia, damping, torque = _sizes(p)
-    length = float(np.max(np.hypot(p.com_along, p.com_across), initial=0.0)) or 1.0
+def factors(mechanism: Mechanism, p: Parameters) -> list[Hypothesis]:
+    """Every hypothesis of one factor for all links: density, lengths, pairs (cos, sin) …"""
+    every = range(mechanism.n)
     lengths: dict[str, tuple[Sequence[int], int]] = dict.fromkeys(
         ("com_along", "com_across", "hinge_along", "hinge_across"), (every, 1)
     )
     hypotheses = [
+        scaled("density", {"mass": (every, 1), "inertia": (every, 1)}, -1, "every mass"),
         scaled("length", lengths, -1, "every length"),
         scaled("length", lengths | {"inertia": (every, 2)}, -1, "every length"),
-        scaled("mass", {"mass": (every, 1), "inertia": (every, 1)}, -1, "every mass"),
+        scaled("length", lengths | {"mass": (every, 1), "inertia": (every, 3)}, -1, "every length"),
         scaled("mass", {"mass": (every, 1)}, -1, "every mass"),
         scaled("inertia", {"inertia": (every, 1)}, -1, "every inertia"),
+        all_unnormalised(mechanism.parents),
+        *other_bodies(mechanism, p),
+    ]
+    return [hypothesis for hypothesis in hypotheses if _acts(hypothesis, p)] if mechanism.n > 1 else []
+
+
+def groups(mechanism: Mechanism, p: Parameters) -> list[Hypothesis]:
+    """Every hypothesis of one kind everywhere, each with a value of its own: all armatures, all masses …"""
+    n = mechanism.n
+    every = range(n)
+    inertia, damping, torque = _sizes(p)
+    length = float(np.max(np.hypot(p.com_along, p.com_across), initial=0.0)) or 1.0
+    hypotheses = [
         added("armature", [("armature", i) for i in every], p, inertia),
         added("damping", [("damping", i) for i in every], p, damping),
         added("dry-friction", [("friction", i) for i in every], p, torque),
@@ -183,8 +249,14 @@ def combined(hypotheses: Sequence[Hypothesis]) -> Hypothesis:
             start += hypothesis.d
         return base
 
+    def basis(base: Parameters, measured: Measurement) -> Array:
+        blank = np.zeros_like(measured.theta)
+        parts = [h.basis(base, measured) if h.basis else np.stack([blank] * h.d) for h in hypotheses]
+        return np.concatenate(parts)
+
     return Hypothesis(
         cause="several",
+        basis=basis if any(h.basis for h in hypotheses) else None,
         apply=apply,
         names=tuple(name for h in hypotheses for name in h.names),
         links=tuple(i for h in hypotheses for i in h.links),

@@ -12,24 +12,24 @@ from ..models.mechanism import Mechanism
 from ..reference import planar_tree as planar
 from ..reference.planar_tree import Parameters
 from .conventions import LARGE_RESIDUAL
+from .explanation import Explanation, together
 from .finding import Finding, joint_label
 from .measurement import Array, Measurement, probe_states
+from .question import Question
 
 
-def limits_and_contacts(
-    engine: Any, m: Mechanism, p: Parameters, measured: Measurement, compiled: Mechanism | None, who: str
-) -> list[Finding]:
+def limits_and_contacts(q: Question) -> Explanation:
     """A residual torque in some states and none in the others: a joint limit, or a contact."""
-    forward = measured.only(measured.forward)
-    residuals = np.abs(forward.residuals(p, forward.tolerances(p)))
+    forward = q.measured.only(q.measured.forward)
+    residuals = np.abs(forward.residuals(q.p, forward.tolerances(q.p)))
     bad = residuals > 1
     states = bad.any(axis=1)
     if not states.any() or float(np.median(residuals.max(axis=1)[states])) < LARGE_RESIDUAL:
-        return []
+        return Explanation()
     if states.all() or (~states).sum() < 2:
         # Too few states without a residual to be no accident: try smaller angles, where limits do not act.
-        return _beyond_small_angles(engine, m, p, who)
-    return _limits_or_contacts(engine, m, forward, bad, who)
+        return together(_beyond_small_angles(q.engine, q.m, q.p, q.who))
+    return together(_limits_or_contacts(q.engine, q.m, forward, bad, q.who))
 
 
 def _beyond_small_angles(engine: Any, m: Mechanism, p: Parameters, who: str) -> list[Finding]:

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from ..models.coordinates import forces_to_relative, to_absolute, to_relative
 from ..models.mechanism import Mechanism
+from ..models.tree import SUPPORT
 from ..reference import planar_tree as planar
 from ..reference.planar_tree import Parameters
 from ..reference.rounding.bounds import EPSILON, allowed
@@ -28,7 +29,7 @@ LEAST_STATES = 32
 ANGLE_QUANTUM = 2.0**-30  # [rad], and [rad/s] of rates
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Measurement:
     """States, accelerations and the generalised forces that belong to them, according to the engine.
 
@@ -113,6 +114,18 @@ def measure(engine: Any, mechanism: Mechanism, accuracy: float = EPSILON, seed: 
     theta, omega, alpha, torque = (np.concatenate([part[k] for part in parts]) for k in range(4))
     forward = np.concatenate([np.full(len(part[0]), k == 0) for k, part in enumerate(parts)])
     return Measurement(mechanism.parents, theta, omega, alpha, torque, forward, accuracy)
+
+
+def acceleration_error(parents: tuple[int, ...], p: Parameters, theta: Array, omega: Array, alpha: Array) -> Array:
+    """The error of an engine's accelerations by rounding [rad/s²], (S, n)."""
+    zero = np.zeros_like(theta)
+    scale = Measurement(parents, theta, omega, alpha, zero, np.ones(len(theta), dtype=bool)).tolerances(p)
+    inverse = np.linalg.inv(planar.mass_matrix(parents, p, theta))
+    spread = scale.copy()
+    for i, parent in enumerate(parents):
+        if parent != SUPPORT:
+            spread[:, parent] += scale[:, i]
+    return np.asarray((np.abs(inverse) @ spread[..., None])[..., 0])
 
 
 def has_inverse_dynamics(engine: Any) -> bool:

@@ -2,38 +2,33 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from ..models.coordinates import to_relative
 from ..models.mechanism import Mechanism
-from ..reference.planar_tree import Parameters
 from ..reference.rounding.bounds import EPSILON
+from .explanation import Explanation, together
 from .finding import Finding
 from .measurement import Measurement
+from .question import Question
 
 SINGLE_OVER_DOUBLE = 2.0**-23 / EPSILON  # machine epsilon of single precision over that of double
 LEAST_SHARE = 1e-4  # of that: a smaller residual is not single precision's
 
 
-def visible_single_precision(
-    engine: Any, m: Mechanism, p: Parameters, measured: Measurement, compiled: Mechanism | None, who: str
-) -> list[Finding]:
+def visible_single_precision(q: Question) -> Explanation:
     """Single precision where the accelerations themselves are numbers of 24 bits."""
-    return single_precision(engine, m, p, measured, compiled, who) if _has_24_bits(m, measured) else []
+    return single_precision(q) if _has_24_bits(q.m, q.measured) else Explanation()
 
 
-def single_precision(
-    engine: Any, m: Mechanism, p: Parameters, measured: Measurement, compiled: Mechanism | None, who: str
-) -> list[Finding]:
+def single_precision(q: Question) -> Explanation:
     """Single precision where all agrees as well as numbers of 24 bits can."""
-    worst, visible = measured.worst(p), _has_24_bits(m, measured)
+    worst, visible = q.measured.worst(q.p), _has_24_bits(q.m, q.measured)
     if worst > SINGLE_OVER_DOUBLE or (not visible and worst < LEAST_SHARE * SINGLE_OVER_DOUBLE):
-        return []
+        return Explanation()
     why = "its accelerations are numbers of 24 bits" if visible else "the residual is that of numbers of 24 bits"
-    says = f"{who}: single precision: {why}; {worst:.3g} times the residual of double precision"
-    return [Finding("float32", who, worst * EPSILON, EPSILON, says)]
+    says = f"{q.who}: single precision: {why}; {worst:.3g} times the residual of double precision"
+    return together([Finding("float32", q.who, worst * EPSILON, EPSILON, says)])
 
 
 def _has_24_bits(m: Mechanism, measured: Measurement) -> bool:

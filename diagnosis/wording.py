@@ -17,6 +17,8 @@ from .measurement import Array
 def findings_of_fit(found: FittedHypothesis, m: Mechanism, p: Parameters, who: str) -> list[Finding]:
     """One finding, or one for each hinge or link where all values of a kind were free; ``p``: what was expected."""
     hypothesis = found.hypothesis
+    if hypothesis.tell is not None:
+        return hypothesis.tell(float(found.values[0]), float(found.uncertainty[0]), p, who)
     if hypothesis.relative:
         return [_factor(found, m, p, who)]
     if hypothesis.cause == "gravity-turned":
@@ -123,10 +125,14 @@ def _factor(found: FittedHypothesis, m: Mechanism, p: Parameters, who: str) -> F
     factor, error = 1 + float(found.values[0]), float(found.uncertainty[0])
     i = hypothesis.links[0]
     if hypothesis.cause == "gravity":
-        size = float(np.hypot(p.gravity_along[0], p.gravity_across[0]))
-        says = f"{who}: gravity: found {rounded(size * factor, size * error)}, expected {rounded(size)} m/s²"
-        return Finding("gravity", "gravity", size * factor, size, says)
+        return _strength(factor, error, p, who)
     place = "every link" if i < 0 else link_label(m, i)
+    if hypothesis.cause == "mass" and i >= 0 and abs(factor) <= max(1e-9, 30 * error):
+        return Finding("massless-link", place, 0.0, float(p.mass[i]), f"{who}: {place} has no mass")
+    if hypothesis.cause == "density":
+        cause = "density" if np.all(p.inertia > 0) else "mass"
+        says = f"{who}: every mass and inertia (the density): found {rounded(factor, error)} times the expected value"
+        return Finding(cause, place, factor, 1.0, says)
     if hypothesis.cause == "mass" and i >= 0:
         wanted = float(p.mass[i])
         says = (
@@ -134,7 +140,7 @@ def _factor(found: FittedHypothesis, m: Mechanism, p: Parameters, who: str) -> F
         )
         return Finding("mass", place, wanted * factor, wanted, says)
     if hypothesis.cause == "continuous-joint-not-normalised":
-        place = joint_label(m, i)
+        place = "every joint" if i < 0 else joint_label(m, i)
         says = f"{who}: {place}: length of the pair (cos, sin): found {rounded(factor, error)}, expected 1"
         return Finding(hypothesis.cause, place, factor, 1.0, says)
     cause = hypothesis.cause
@@ -143,6 +149,16 @@ def _factor(found: FittedHypothesis, m: Mechanism, p: Parameters, who: str) -> F
     word = hypothesis.names[0] if i < 0 else f"{hypothesis.cause.removesuffix('-displaced')} of {place}"
     says = f"{who}: {word}: found {rounded(factor, error)} times the expected value"
     return Finding(cause, place, factor, 1.0, says)
+
+
+def _strength(factor: float, error: float, p: Parameters, who: str) -> Finding:
+    """Gravity times a factor."""
+    size = float(np.hypot(p.gravity_along[0], p.gravity_across[0]))
+    if abs(factor + 1) <= max(1e-9, 30 * error):
+        says = f"{who}: gravity has the opposite sign, or angles are counted from the upward vertical"
+        return Finding("angle-convention", who, math.pi, 0.0, says)
+    says = f"{who}: gravity: found {rounded(size * factor, size * error)}, expected {rounded(size)} m/s²"
+    return Finding("gravity", "gravity", size * factor, size, says)
 
 
 def _gravity(found: FittedHypothesis, p: Parameters, who: str) -> Finding:

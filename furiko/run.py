@@ -17,7 +17,7 @@ from .engines import engine_version
 from .engines.workers.processes import Workers, worker_processes
 from .models import InvalidInput, Scene, catalogue
 from .records import provenance
-from .records.check import EngineEntry, Footer, Header, Result, SceneEntry
+from .records.check import Diagnosis, EngineEntry, Footer, Header, Result, SceneEntry
 from .reports import Report, StreamWriter, footer_of, open_report, prepare_reports, write_reports
 
 SEED = "sha256 of the scene's name, PCG64"
@@ -60,6 +60,7 @@ def check(
     cache = user_cache() if use_cache else Cache(None)
     results: list[Result] = []
     unwritten: list[str] = []
+    diagnoses: list[Diagnosis] = []
     with ExitStack() as open_until_done:
         workers = source or open_until_done.enter_context(worker_processes(modules=MODULES))
         ledger = Ledger(plan)
@@ -74,12 +75,15 @@ def check(
             if watch is not None:
                 watch(plan, results[-1])
 
-        for result in running:
-            take(result)
+        for record in running:
+            if isinstance(record, Diagnosis):
+                diagnoses.append(_written_diagnosis(stream, record, unwritten))
+            else:
+                take(record)
         for result in ledger.missing(results):
             take(result)
-        footer = _footer(stream, results, time.monotonic() - begun, unwritten)
-    report = Report(header, tuple(results), footer)
+        footer = _footer(stream, results, diagnoses, time.monotonic() - begun, unwritten)
+    report = Report(header, tuple(results), footer, tuple(diagnoses))
     if out is not None:
         try:
             write_reports(out, report)
@@ -99,13 +103,30 @@ def _written(stream: StreamWriter, result: Result, unwritten: list[str]) -> Resu
         return result
 
 
-def _footer(stream: StreamWriter | None, results: Sequence[Result], seconds: float, unwritten: list[str]) -> Footer:
+def _written_diagnosis(stream: StreamWriter | None, diagnosis: Diagnosis, unwritten: list[str]) -> Diagnosis:
+    """The diagnosis as the stream has it; see :func:`_written`."""
+    if stream is None or unwritten:
+        return diagnosis
+    try:
+        return stream.write_diagnosis(diagnosis)
+    except InvalidInput as error:
+        unwritten.append(str(error))
+        return diagnosis
+
+
+def _footer(
+    stream: StreamWriter | None,
+    results: Sequence[Result],
+    diagnoses: Sequence[Diagnosis],
+    seconds: float,
+    unwritten: list[str],
+) -> Footer:
     if stream is not None and not unwritten:
         try:
             return stream.finish(seconds)
         except InvalidInput as error:
             unwritten.append(str(error))
-    return footer_of(results, seconds=seconds)
+    return footer_of(results, diagnoses, seconds)
 
 
 def make_header(plan: Plan, given: Sequence[str] | None, engines: Sequence[str] | None = None) -> Header:

@@ -31,7 +31,7 @@ from .arithmetic import Arithmetic, Array, arithmetic_of
 Floats = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Parameters:
     """A mechanism's numbers, the last axis counting links, with any axes before it.
 
@@ -56,7 +56,7 @@ class Parameters:
 
     def items(self) -> dict[str, Array]:
         """Every parameter by its name."""
-        return {f.name: getattr(self, f.name) for f in fields(self)}
+        return {name: getattr(self, name) for name in NAMES}
 
 
 NAMES = tuple(f.name for f in fields(Parameters))
@@ -223,6 +223,18 @@ def mass_matrix(parents: tuple[int, ...], p: Parameters, theta: Array) -> Array:
     units = rest[..., None, :] + arithmetic_of(theta).array(np.eye(len(parents)))
     repeated = theta[..., None, :] + units * 0
     return np.swapaxes(inverse_dynamics(parents, _one_more_axis(weightless), repeated, repeated * 0, units), -1, -2)
+
+
+def velocity_terms(parents: tuple[int, ...], p: Parameters, theta: Array, omega: Array) -> Array:
+    """Generalised forces quadratic in the rates, in absolute angles [N m], shape (…, n)."""
+    still = _without(p, "gravity_along", "gravity_across", "stiffness", "preload", "friction", "damping")
+    return inverse_dynamics(parents, still, theta, omega, omega * 0)
+
+
+def gravity_terms(parents: tuple[int, ...], p: Parameters, theta: Array) -> Array:
+    """Generalised forces of gravity, in absolute angles [N m], shape (…, n)."""
+    only = _without(p, "stiffness", "preload", "friction", "damping", "armature")
+    return inverse_dynamics(parents, only, theta, theta * 0, theta * 0)
 
 
 def magnitudes(parents: tuple[int, ...], p: Parameters, theta: Floats, omega: Floats, alpha: Floats) -> Floats:

@@ -2,9 +2,11 @@
 
 Run it from a checkout, where pytest imports it too:
 
-    python tests/score_causes.py [--plants 25] [--sound 500] [--json FILE]
+    python tests/score_causes.py [--plants 25] [--sound 500] [--pairs 600] [--json FILE]
 
-``--plants``: how many of each fault. Every random number follows from its index, so that a run can be repeated.
+``--plants``: how many of each fault; ``--pairs``: how many engines with two faults, and as many with one of the same
+kinds; 0 for all but pairs: ``--plants 0 --sound 0``. Every random number follows from its index, so that
+a run can be repeated.
 """
 
 from __future__ import annotations
@@ -20,11 +22,12 @@ import numpy as np
 from faults.engines import NAMES, OF_ENGINES, WrappedEngine
 from faults.mechanisms import Shape, free, with_link
 from faults.model_files import IN_FILES, diagnosed, planted_in_file, sound_model
+from faults.pairs import drawn
 from faults.readers import OF_READERS, misreading
 from faults.runs import OF_RUNS
 
 from furiko import diagnose
-from furiko.diagnosis.explain import explain
+from furiko.diagnosis.explain import explain, explanation
 from furiko.diagnosis.explain_motion import explain_motion
 from furiko.engines import load_engine
 from furiko.models import Link, PlanarTree
@@ -103,6 +106,37 @@ def false_alarms(count, seed=SEED):
     return alarmed
 
 
+# --- Pairs ------------------------------------------------------------------------------------------------------------
+
+
+@dataclass
+class PairScore:
+    """Of engines with one or two faults: how many, how many of which every fault is named, how many with a cause that
+    is said to be certain and is not one of them, and the seeds of those that are not right."""
+
+    drawn: int = 0
+    named: int = 0
+    misleading: list[int] = field(default_factory=list)
+    missed: dict[int, tuple[tuple[str, ...], list[str]]] = field(default_factory=dict)
+
+
+def score_of_pairs(seeds, how_many=2):
+    """The score over engines drawn with these seeds, with so many faults each."""
+    total = PairScore()
+    for seed in seeds:
+        planted = drawn(np.random.default_rng(seed), how_many)
+        found = explanation(planted.engine, planted.wanted)
+        causes = [finding.cause for finding in found.all]
+        total.drawn += 1
+        if set(planted.causes) <= set(causes):
+            total.named += 1
+        else:
+            total.missed[seed] = planted.causes, causes
+        if found.explained and {finding.cause for finding in found.findings} - set(planted.causes):
+            total.misleading.append(seed)
+    return total
+
+
 # --- Sensitivity ----------------------------------------------------------------------------------------------------
 
 
@@ -155,6 +189,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--plants", type=int, default=25)
     parser.add_argument("--sound", type=int, default=500)
+    parser.add_argument("--pairs", type=int, default=0)
     parser.add_argument("--json", type=Path)
     given = parser.parse_args()
     os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # engines announce instability there
@@ -168,9 +203,19 @@ def main():
             f"{precise.get(cause, 0):10.3f}  {instead}"
         )
     planted, detected, first = (sum(getattr(s, a) for s in scores.values()) for a in ("planted", "detected", "first"))
-    print(f"{planted} planted, {detected} detected, {first} named first ({first / planted:.1%})")
+    print(f"{planted} planted, {detected} detected, {first} named first ({first / max(planted, 1):.1%})")
     alarms = false_alarms(given.sound)
     print(f"{given.sound} sound models, {len(alarms)} false alarms {alarms[:5] or ''}")
+    for how_many in (1, 2) if given.pairs else ():
+        total = score_of_pairs(range(given.pairs), how_many)
+        print(
+            f"{total.drawn} engines with {how_many} faults: all named in {total.named / total.drawn:.1%}, misleading "
+            f"{len(total.misleading)} {total.misleading[:10] or ''}"
+        )
+        for seed, (causes, instead) in total.missed.items():
+            print(f"  {seed}: {' and '.join(causes)}: {', '.join(instead) or 'nothing'}")
+    if not given.plants:
+        return
     kinds = ("mass", "length", "inertia", "gravity")
     print("smallest relative change that is detected and estimated within a tenth (worst link)")
     print(f"{'engine':16}{'n':>3}" + "".join(f"{kind:>10}" for kind in kinds))

@@ -62,7 +62,8 @@ def _cache(plan: Plan) -> Skip:
 def _run(plan: Plan, cache: Cache) -> Verdicts:
     """The verdicts of a whole run, on worker processes of its own."""
     with worker_processes() as source:
-        return _verdicts(run(plan, cache=cache, source=source))
+        records = run(plan, cache=cache, source=source)
+        return _verdicts(record for record in records if isinstance(record, Result))
 
 
 def _truth(plan: Plan) -> Skip:

@@ -42,7 +42,7 @@ def cache(tmp_path):
 def test_results_are_found_again_and_marked(cache, task):
     assert cache.results(task) is None
     cache.keep_results(task, [RESULT])
-    (found,) = cache.results(task)
+    (found,) = cache.results(task).results
     assert found.kept
     assert (found.measured, found.outcome) == (1.5, "agrees")
 
@@ -72,13 +72,13 @@ def test_results_lost_from_an_entry_make_it_run_again(cache, task):
     both = replace(task, checks=("accelerations", "terms"))
     terms = [structs.replace(RESULT, check=f"terms {part}", comparison="terms") for part in "MCG"]
     cache.keep_results(both, [RESULT, *terms])
-    assert len(cache.results(both)) == 4
+    assert len(cache.results(both).results) == 4
     (path,) = cache.entries()
     for kept in ([RESULT], [RESULT, *terms[:1]], terms):
-        lost = json.encode({"count": 4, "results": kept})
+        lost = json.encode({"count": 4, "results": kept, "diagnoses": []})
         path.write_bytes(hashlib.sha256(lost).digest() + lost)
         assert cache.results(both) is None
-    whole_check = json.encode({"count": 1, "results": [RESULT]})
+    whole_check = json.encode({"count": 1, "results": [RESULT], "diagnoses": []})
     path.write_bytes(hashlib.sha256(whole_check).digest() + whole_check)
     assert cache.results(both) is None
 
@@ -238,7 +238,7 @@ def _write_and_read(folder, task, times):
         cache.keep_results(task, [RESULT] * 50)
         found = cache.results(task)
         assert found is not None
-        assert len(found) == 50
+        assert len(found.results) == 50
 
 
 def test_two_processes_at_once_never_see_half_an_entry(tmp_path, task):

@@ -261,10 +261,11 @@ def order(rng):
 
 
 class Unnormalised:
-    """Pinocchio with continuous joints, one of which is given a pair (cos, sin) that is not of length one."""
+    """Pinocchio with continuous joints, one or more of which are given a pair (cos, sin) that is not of length one."""
 
     def __init__(self, tree, joint, factor):
-        self.tree, self.joint, self.factor = tree, joint, factor
+        self.tree, self.factor = tree, factor
+        self.joints = {joint} if isinstance(joint, int) else set(joint)
         text = to_urdf(Shape(tree)).replace('type="revolute"', 'type="continuous"')
         self.model = pinocchio.buildModelFromXML(text)
         self.model.gravity.linear = np.array([0, 0, -tree.gravity])
@@ -279,7 +280,7 @@ class Unnormalised:
         for row, (phi, rate) in enumerate(zip(theta @ back.T, omega @ back.T, strict=True)):
             q, v = np.empty(self.model.nq), np.empty(self.model.nv)
             for i in range(self.tree.n):
-                r = self.factor if i == self.joint else 1.0
+                r = self.factor if i in self.joints else 1.0
                 q[self.q[i]], q[self.q[i] + 1] = r * math.cos(phi[i]), r * math.sin(phi[i])
                 v[self.v[i]] = rate[i]
             a = pinocchio.aba(self.model, self.data, q, v, np.zeros(self.model.nv))

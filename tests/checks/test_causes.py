@@ -1,0 +1,97 @@
+"""The causes of a cell's differences: all of them, once, and each row with the one that explains it."""
+
+from dataclasses import replace
+
+import pytest
+
+import furiko
+from furiko.checks.cache import Cache
+from furiko.checks.jobs import CellJob, Facts, TruthJob, messages_of
+from furiko.checks.plan import make_plan
+from furiko.records.check import Diagnosis, Result
+
+
+@pytest.fixture
+def diagnosed():
+    """Results by check, and diagnoses, of one fake engine on one scene."""
+
+    def run(engine, scene):
+        (task,) = make_plan([scene], [f"fake_causes:{engine}"], "quick").tasks
+        (truth,) = (m for m in messages_of(TruthJob(task.scene, 20)) if isinstance(m, Facts))
+        messages = messages_of(CellJob(replace(task, random_states=20), truth.content))
+        results = {m.check: m for m in messages if isinstance(m, Result)}
+        return results, [m for m in messages if isinstance(m, Diagnosis)]
+
+    return run
+
+
+def test_two_causes_at_once_are_both_named_once(diagnosed):
+    results, (found,) = diagnosed("DenseAndLight", "rods-3")
+    assert [(f.cause, f.where) for f in found.findings] == [("gravity", "gravity"), ("density", "every link")]
+    assert found.findings[0].measured == pytest.approx(9.80)
+    assert found.findings[1].measured == pytest.approx(1.25)
+    assert found.alternatives == []
+    assert {"model fields", "accelerations", "terms M", "terms G"} <= set(found.explains)
+    assert (results["terms M"].cause, results["terms G"].cause) == ("density", "gravity")
+    assert all("expected 9.81" not in result.reason for result in results.values())
+
+
+@pytest.mark.parametrize("engine", ["Dense", "SilentDense"])
+def test_a_density_is_one_cause_and_not_as_many_masses(diagnosed, engine):
+    _, (found,) = diagnosed(engine, "rods-3")
+    assert [f.cause for f in found.findings] == ["density"]
+    assert found.findings[0].measured == pytest.approx(1.25)
+
+
+def test_one_mass_is_named_once_in_a_scene(diagnosed):
+    results, (found,) = diagnosed("FirstMassHeavier", "n-leg-3")
+    assert [(f.cause, f.where) for f in found.findings] == [("mass", "link 1")]
+    assert sum(result.outcome == "differs" for result in results.values()) >= 5
+    assert {result.cause for result in results.values() if result.outcome == "differs"} <= {"mass", None}
+    assert all("1.001)" not in result.reason for check, result in results.items() if check != "model fields")
+
+
+@pytest.mark.parametrize(
+    ("engine", "words"), [("VelocitySign", ""), ("VelocitySignForward", "in its accelerations alone")]
+)
+def test_velocity_terms_of_the_wrong_sign_have_a_name(diagnosed, engine, words):
+    _, (found,) = diagnosed(engine, "rods-3")
+    (finding,) = found.findings
+    assert finding.cause == "velocity-terms-sign"
+    assert words in finding.says
+    assert ("alone" in finding.says) == bool(words)
+
+
+@pytest.mark.parametrize(
+    ("engine", "cause"), [("LowOrderRuns", "first-order-integrator"), ("LateRuns", "stale-derived-state")]
+)
+def test_the_causes_of_a_motion_are_reported(diagnosed, engine, cause):
+    results, (found,) = diagnosed(engine, "rods-2")
+    assert [f.cause for f in found.findings] == [cause]
+    assert results["accelerations"].outcome == "agrees"
+    assert results["trajectory RK4"].cause == cause
+    assert "trajectory RK4" in found.explains
+
+
+def test_nothing_is_said_of_an_engine_that_agrees():
+    assert furiko.check(["rods-2"], ["fake_engines:Right"], use_cache=False).diagnoses == ()
+
+
+def test_a_run_keeps_and_writes_its_diagnoses(tmp_path):
+    from furiko.reports.stream import read_stream
+
+    report = furiko.check(["rods-3"], ["fake_causes:DenseAndLight"], out=tmp_path, use_cache=False)
+    (found,) = report.diagnoses
+    assert found.engine == "fake_causes:DenseAndLight"
+    assert read_stream(tmp_path).diagnoses == report.diagnoses
+
+
+def test_kept_results_come_with_their_diagnosis(tmp_path):
+    (task,) = make_plan(["rods-2"], ["mujoco"], "smoke").tasks
+    result = Result(
+        scene="rods-2", engine="mujoco", check="accelerations", comparison="accelerations", outcome="differs"
+    )
+    found = Diagnosis(scene="rods-2", engine="mujoco", explains=["accelerations"])
+    cache = Cache(tmp_path)
+    cache.keep_results(task, [result], [found])
+    assert cache.results(task).diagnoses == [found]
