@@ -9,10 +9,10 @@ from pathlib import Path
 
 from . import __version__
 from .engines import engine_info, engine_names, engine_version
-from .models import EngineMissing, InvalidInput, Scene, find_scene
+from .models import EngineMissing, InvalidInput, Scene, find_scene, find_scenes
 from .models.benchmark_scenes import BENCHMARKS
 from .records import provenance
-from .records.bench import Bench, Motion, Skip, Speed
+from .records.bench import Bench, Motion, Sharpness, Skip, Speed
 
 SKIP_SCENES = ("double-pendulum", "rods-5")
 THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
@@ -34,13 +34,16 @@ def bench(
     *,
     budget: float = 60.0,
     skips: bool = False,
+    sharpness: bool = False,
     watch: Watch = lambda _: None,
 ) -> Bench:
     """Measure time against error: motions of ``scenes``, and accelerations where no scenes are named.
 
     ``scenes``: the benchmark's own motions, scenes of the catalogue or TOML files; None for all of the benchmark's.
     ``engines``: names, None for all that are installed. ``budget`` [s]: about the time of the run. ``skips``: measure
-    what a check skips instead, without a limit of time. ``watch`` is called with what is measured next.
+    what a check skips instead, without a limit of time. ``sharpness``: measure how small an error a check notices
+    instead, in the scenes of the catalogue that are named or in all of them. ``watch`` is called with what is measured
+    next.
 
     Raises :class:`InvalidInput` for unknown names and :class:`EngineMissing`, before anything runs.
     """
@@ -50,7 +53,14 @@ def bench(
     motions: list[Motion] = []
     speeds: list[Speed] = []
     skipped: list[Skip] = []
-    if skips:
+    sharp: list[Sharpness] = []
+    if sharpness:
+        from .studies.bench.sharpness import sharpness as measure_sharpness
+
+        for name in scenes or [scene.name for scene in find_scenes(None)]:
+            watch(f"smallest error that is noticed: {name}")
+            sharp += measure_sharpness([name], names)
+    elif skips:
         from .studies.bench.skips import skips as measure_skips
 
         skipped = list(measure_skips(list(scenes or SKIP_SCENES), names, watch))
@@ -75,6 +85,7 @@ def bench(
         motions=motions,
         speeds=speeds,
         skips=skipped,
+        sharpness=sharp,
     )
 
 

@@ -113,3 +113,4 @@ class Bench(msgspec.Struct, frozen=True, kw_only=True):
     motions: list[Motion] = []
     speeds: list[Speed] = []
     skips: list[Skip] = []
+    sharpness: list[Sharpness] = []

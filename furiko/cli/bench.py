@@ -23,6 +23,9 @@ from .progress import status_line
 @click.option(
     "--skips", is_flag=True, help="Measure what a check skips: the same verdicts with and without, and times."
 )
+@click.option(
+    "--sharpness", is_flag=True, help="Measure the smallest relative error of an entry that a check notices (minutes)."
+)
 @json_option
 def bench(
     scenes: tuple[str, ...],
@@ -30,6 +33,7 @@ def bench(
     out: Path,
     budget: float,
     skips: bool,
+    sharpness: bool,
     as_json: bool,
 ) -> int:
     """Measure time against error, for engines and for furiko itself.
@@ -46,7 +50,7 @@ def bench(
 
     make_folder(out)  # first: the benchmark takes a while
     with status_line() as watch:
-        found = run_bench(scenes or None, engines or None, budget=budget, skips=skips, watch=watch)
+        found = run_bench(scenes or None, engines or None, budget=budget, skips=skips, sharpness=sharpness, watch=watch)
     status = DIFFERS if any(not skip.same for skip in found.skips) else AGREES
     page = out / "bench.html"
     try:

@@ -8,7 +8,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import TextIO
 
-from ...records.bench import Bench, Motion, Reach, Skip, Speed
+from ...records.bench import Bench, Motion, Reach, Sharpness, Skip, Speed
 from ..words import SAME, batch, duration, figure, link_words, multiple
 from .console import PlainConsole
 
@@ -27,6 +27,8 @@ def print_bench(found: Bench, path: str | Path | None = None, file: TextIO | Non
         _speeds(list(rows), console)
     if found.skips:
         _skips(found.skips, console)
+    if found.sharpness:
+        _sharpness(found.sharpness, console)
     console.line()
     for note in found.notes if found.motions or found.speeds else ():
         console.line(note, "dim")
@@ -108,6 +110,25 @@ def _speeds(speeds: Sequence[Speed], console: PlainConsole) -> None:
         for speed in speeds
     ]
     console.table(("engine", "call", "states a call", "median", "minimum", "error", "× furiko's"), rows)
+
+
+def _sharpness(rows: Sequence[Sharpness], console: PlainConsole) -> None:
+    console.line("\nSmallest relative error of an entry that a check notices", "bold")
+    cells = [
+        (
+            row.scene,
+            row.engine,
+            row.quantity,
+            figure(row.noticed),
+            figure(row.own),
+            figure(row.ratio),
+            str(row.entry),
+            f"{row.found} of {row.planted}",
+        )
+        for row in rows
+    ]
+    heading = ("scene", "engine", "quantity", "noticed", "99 % of own", "ratio", "worst entry", "planted, found")
+    console.table(heading, cells)
 
 
 def _skips(skips: Sequence[Skip], console: PlainConsole) -> None:
