@@ -140,7 +140,7 @@ def drawn(rng, how_many):
         kinds.append(str(rng.choice(left)))
     names: list[str] = []
     for kind in kinds:
-        left = [name for name in KINDS[kind] if name not in names and not ALL_VELOCITY_TERMS <= {name, *names}]
+        left = [name for name in KINDS[kind] if name not in names and not {name, *names} >= ALL_VELOCITY_TERMS]
         names.append(str(rng.choice(left)))
     mechanism, changes = wanted, []
     for kind, name in zip(kinds, names, strict=True):
