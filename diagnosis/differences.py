@@ -11,7 +11,7 @@ import numpy as np
 from ..models import Link
 from ..models.mechanism import Mechanism
 from .finding import Finding, degrees_for_radians, joint_label, link_label, rounded
-from .hypotheses import bodies_finding
+from .fits.hypotheses import bodies_finding
 from .reader_faults import FAULT_SENTENCES, PATTERN_TOLERANCE, ReaderFaults, matching_fault
 
 NUMBER_TOLERANCE = 1e-13  # relative: some hundred roundings

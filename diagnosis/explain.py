@@ -25,10 +25,10 @@ from .compiled import compiled_by, compiled_differences, mechanism_from
 from .differences import differences
 from .explanation import Explanation, together, with_more
 from .finding import Finding, joint_label
+from .fits.parameter_faults import several_at_once, slight_fault, two_at_once, wrong_numbers
 from .limits_and_contacts import limits_and_contacts
 from .measurement import Measurement, measure
 from .one_acceleration import one_acceleration
-from .parameter_faults import several_at_once, slight_fault, two_at_once, wrong_numbers
 from .question import Question
 from .single_precision import single_precision, visible_single_precision
 from .views import another_view, wrong_convention

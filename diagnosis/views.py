@@ -10,11 +10,11 @@ import numpy as np
 from .buffers import Buffer, buffers
 from .conventions import LARGE_RESIDUAL, Convention, conventions, fitting_conventions
 from .explanation import Explanation, one_of, with_more
-from .fitting import screen
-from .hypotheses import Hypothesis, factors, singles
-from .parameter_faults import wrong_numbers
+from .fits.fitting import screen
+from .fits.hypotheses import Hypothesis, factors, singles
+from .fits.parameter_faults import wrong_numbers
+from .fits.term_faults import term_hypotheses
 from .question import Question, View
-from .term_faults import term_hypotheses
 
 MOST_LINKS = 20
 MOST_VIEWS = 400  # looked at roughly

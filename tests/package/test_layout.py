@@ -34,7 +34,10 @@ ROOMS = {
         ],
     ),
     "engines": ({"models", "records"}, [("workers",), (".",), ("model_files",)]),
-    "diagnosis": ({"models", "records", "reference", "engines"}, [(".",), ("model_files",)]),
+    "diagnosis": (
+        {"models", "records", "reference", "engines"},
+        [("finding", "explanation", "measurement", "question"), ("fits",), (".",), ("model_files",)],
+    ),
     "checks": ({"models", "records", "reference", "engines", "diagnosis"}, [(".",), ("comparisons",)]),
     "studies": (
         {"models", "records", "reference", "engines", "diagnosis", "checks"},

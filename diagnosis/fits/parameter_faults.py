@@ -11,13 +11,13 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from ..reference.planar_tree import Parameters
-from .explanation import Explanation
-from .finding import Finding
+from ...reference.planar_tree import Parameters
+from ..explanation import Explanation
+from ..finding import Finding
+from ..measurement import has_inverse_dynamics
+from ..question import Question
 from .fitting import FittedHypothesis, fit, refit, screen, screened
 from .hypotheses import Hypothesis, combined, factors, groups, singles
-from .measurement import has_inverse_dynamics
-from .question import Question
 from .term_faults import term_hypotheses
 from .wording import findings_of_fit
 

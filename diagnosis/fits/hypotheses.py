@@ -10,10 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..models.mechanism import Mechanism
-from ..reference.planar_tree import NAMES, Parameters
-from .finding import Finding
-from .measurement import Array, Measurement
+from ...models.mechanism import Mechanism
+from ...reference.planar_tree import NAMES, Parameters
+from ..finding import Finding
+from ..measurement import Array, Measurement
 
 Basis = Callable[[Parameters, Measurement], Array]
 

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..models.mechanism import Mechanism
-from ..reference.planar_tree import Parameters
-from .finding import Finding, rounded
+from ...models.mechanism import Mechanism
+from ...reference.planar_tree import Parameters
+from ..finding import Finding, rounded
+from ..measurement import Array, Measurement
 from .hypotheses import Hypothesis
-from .measurement import Array, Measurement
 from .terms import Terms, terms_of
 
 MOST_LINKS_BY_ENTRY = 12  # up to which every entry is looked at

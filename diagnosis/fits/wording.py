@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 
-from ..models.mechanism import Mechanism
-from ..reference.planar_tree import Parameters
-from .finding import UNITS, Finding, degrees_for_radians, joint_label, link_label, rounded
+from ...models.mechanism import Mechanism
+from ...reference.planar_tree import Parameters
+from ..finding import UNITS, Finding, degrees_for_radians, joint_label, link_label, rounded
+from ..measurement import Array
 from .fitting import FittedHypothesis
 from .hypotheses import Hypothesis
-from .measurement import Array
 
 
 def findings_of_fit(found: FittedHypothesis, m: Mechanism, p: Parameters, who: str) -> list[Finding]:

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..models.coordinates import forces_to_relative
-from ..reference.planar_tree import NAMES, Parameters
+from ...models.coordinates import forces_to_relative
+from ...reference.planar_tree import NAMES, Parameters
+from ..measurement import Array, Measurement
 from .hypotheses import Hypothesis
-from .measurement import Array, Measurement
 
 MOST_STEPS = 12  # of Gauss-Newton; two or three are the rule
 BATCH_NUMBERS = 400_000  # numbers in one batch of perturbed mechanisms

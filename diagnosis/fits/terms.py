@@ -12,9 +12,9 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from ..reference import planar_tree as planar
-from ..reference.planar_tree import Parameters
-from .measurement import Array, Measurement
+from ...reference import planar_tree as planar
+from ...reference.planar_tree import Parameters
+from ..measurement import Array, Measurement
 
 
 @dataclass(frozen=True, eq=False)
