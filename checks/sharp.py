@@ -3,9 +3,10 @@
 :mod:`furiko.reference.rounding.spread` says what rounding really does to an entry in a state: its root mean square. A
 result that is within the proven bound, but further off than a factor times that, agrees and is ``loose``.
 
-The factors were set by measurement: over the catalogue's scenes and 80 random mechanisms (mild and wide, of one seed)
-with all six engines, the largest of all quotients were, in this order, 34, 11, 5, 27 and 11. Each factor is about
-twice that or less, and no more than what keeps the line within 30 times the 99th percentile of an engine's own errors.
+The factors were set by measurement with all six engines over the catalogue's scenes and random mechanisms, mild and
+wide, as ``tests/checks/score_sound.py`` draws them. The largest quotients were 34 for accelerations (articulated bodies
+on a chain with a link a thousand times shorter than the next; 17 elsewhere), 10 for terms, 6 for joint forces, 31 for
+energies and 8 in maximal coordinates. No factor is more than twice that but where an engine's last digit is the limit.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from numpy.typing import NDArray
 
 from ..engines import EngineInfo
 from ..models.states import States
-from ..reference.rounding.maximal_elimination import SPREAD_ORDERS, states_within_a_second
+from ..reference.rounding.maximal_elimination import spread_orders, states_within_a_second
 from .cell import quotient, worst
 
 Array = NDArray[np.float64]
@@ -28,7 +29,7 @@ ACCELERATIONS = 50.0
 TERMS = 15.0
 JOINT_FORCES = 15.0
 ENERGY = 60.0
-MAXIMAL = 15.0  # accelerations and joint forces of engines in maximal coordinates
+MAXIMAL = 10.0  # accelerations and joint forces of engines in maximal coordinates
 
 ENTRIES = 2_000  # states times links that are looked at for accelerations
 COLUMNS = 400  # for terms, where each state costs n rows of inverse dynamics
@@ -104,7 +105,7 @@ def states_for_accelerations(info: EngineInfo, n: int) -> int:
     """How many states a cell can afford, about half a second's work; 0: none."""
     if info.coordinates != "maximal":
         return max(4, ENTRIES // n)
-    return min(FEW, states_within_a_second(n, SPREAD_ORDERS + 2)) if n <= LONGEST else 0
+    return min(FEW, states_within_a_second(n, spread_orders(n) + 2)) if n <= LONGEST else 0
 
 
 def states_for_energy(n: int) -> int:

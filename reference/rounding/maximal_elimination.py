@@ -25,7 +25,8 @@ from .monte_carlo import ONE_ROUNDING
 Array = NDArray[np.float64]
 
 ORDERS = 16  # random ones, for the proven bound
-SPREAD_ORDERS = 3  # random ones, for the spread, besides link by link from the tips and as the unknowns stand
+FEW_ORDERS = 3  # random ones, for the spread of long mechanisms
+LONG = 20  # links of one, beyond which more orders would take too long
 WORK = 6e8  # multiplications, of which elimination makes about so many in a second
 ASIDE = 3e7  # what else a state costs, in the same unit
 
@@ -47,6 +48,11 @@ class _Equations:
 def states_within_a_second(n: int, orders: int = ORDERS) -> int:
     """In how many states of n links the elimination can be looked at in about a second, at least in one."""
     return max(1, int(WORK / (orders * (5.0 * n) ** 3 + ASIDE)))
+
+
+def spread_orders(n: int) -> int:
+    """How many random orders a spread rests on, besides two: from the tips link by link, and as the unknowns stand."""
+    return ORDERS if n <= LONG else FEW_ORDERS
 
 
 def elimination(system: DocumentSystem, theta: Array, omega: Array) -> tuple[Array, Array]:
@@ -82,7 +88,7 @@ def maximal_spread(system: DocumentSystem, theta: Array, omega: Array) -> tuple[
     """
     n = system.n
     equations = [_equations(system, t, w) for t, w in zip(theta, omega, strict=True)]
-    orders = np.vstack([_from_the_tips(n), np.arange(5 * n), _random_orders(5 * n, SPREAD_ORDERS)])
+    orders = np.vstack([_from_the_tips(n), np.arange(5 * n), _random_orders(5 * n, spread_orders(n))])
     met = _met(np.stack([state.matrix for state in equations]), orders).max(axis=1)
     pairs = [_spread(n, state, entries) for state, entries in zip(equations, met, strict=True)]
     alpha, forces = (np.array(values) for values in zip(*pairs, strict=True))
