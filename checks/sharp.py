@@ -31,10 +31,10 @@ JOINT_FORCES = 15.0
 ENERGY = 60.0
 MAXIMAL = 10.0  # accelerations and joint forces of engines in maximal coordinates
 
-ENTRIES = 2_000  # states times links that are looked at for accelerations
-COLUMNS = 400  # for terms, where each state costs n rows of inverse dynamics
+ENTRIES = 1_000  # states times links that are looked at for accelerations
+COLUMNS = 200  # for terms, where each state costs n rows of inverse dynamics
 LONGEST = 200  # links of the longest mechanism for which terms, or maximal coordinates, are looked at
-FEW = 10  # states in maximal coordinates, at most
+FEW = 5  # states in maximal coordinates, at most
 
 
 @dataclass(frozen=True)
@@ -102,10 +102,11 @@ def chosen(excess: Array, most: int) -> NDArray[np.intp]:
 
 
 def states_for_accelerations(info: EngineInfo, n: int) -> int:
-    """How many states a cell can afford, about half a second's work; 0: none."""
+    """How many states a cell can afford, about a quarter of a second's work; 0: none."""
     if info.coordinates != "maximal":
         return max(4, ENTRIES // n)
-    return min(FEW, states_within_a_second(n, spread_orders(n) + 2)) if n <= LONGEST else 0
+    affordable = max(1, states_within_a_second(n, spread_orders(n) + 2) // 4)
+    return min(FEW, affordable) if n <= LONGEST else 0
 
 
 def states_for_energy(n: int) -> int:

@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 
 ORDERS = 16  # random ones, for the proven bound
 FEW_ORDERS = 3  # random ones, for the spread of long mechanisms
-LONG = 20  # links of one, beyond which more orders would take too long
+LONG = 12  # links of one, beyond which more orders would take too long
 WORK = 6e8  # multiplications, of which elimination makes about so many in a second
 ASIDE = 3e7  # what else a state costs, in the same unit
 
