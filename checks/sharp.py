@@ -116,7 +116,7 @@ def states_for_energy(n: int) -> int:
 
 def states_for_terms(n: int) -> int:
     """The same for the terms of the equations of motion."""
-    return max(2, COLUMNS // n) if n <= LONGEST else 0
+    return max(2, COLUMNS // n, min(8, 3 * COLUMNS // n)) if n <= LONGEST else 0
 
 
 def verdict(agrees: bool, sharp: Line | None, reason: str) -> dict[str, Any]:
