@@ -7,8 +7,8 @@ The factors were set by measurement with all six engines over the catalogue's sc
 wide, as ``tests/checks/score_sound.py`` draws them. The largest quotients were 34 for accelerations (articulated bodies
 on a chain with a link a thousand times shorter than the next; 17 elsewhere), 10 for terms, 6 for joint forces, 31 for
 energies and 8 in maximal coordinates. A factor is about twice that where the model is known to lack an operation or the
-sample is small, and less elsewhere: 14,118 results of scenes that were not used to set them had 2 loose, both in maximal
-coordinates, whose model was widened after that.
+sample is small, and less elsewhere: 14,118 results of scenes that were not used to set them had 2 loose, both in
+maximal coordinates, whose model was widened after that.
 """
 
 from __future__ import annotations

@@ -136,7 +136,7 @@ def test_a_run_with_another_seed_does_not_go_on_with_this_one(tmp_path):
 
 
 def test_nothing_to_ask_is_bad_input():
-    with pytest.raises(InvalidInput, match="nothing to ask"):
+    with pytest.raises(InvalidInput, match="nothing to run"):
         stress(["steps"], ["document"])
     with pytest.raises(InvalidInput, match="no engine is called"):
         stress(["long-rods"], ["mujocco"])
