@@ -4,7 +4,7 @@ import numpy as np
 from fake_engines import LateByOneStep, LowOrder, Right, about
 
 from furiko.models import NLegPendulum, RodChain
-from furiko.reference import coriolis_matrix, gravity_vector, mass_matrix
+from furiko.reference import centrifugal_matrix, gravity_vector, mass_matrix
 
 
 class Silent(Right):
@@ -55,7 +55,7 @@ class WrongTerms(Right):
 
     def terms(self, theta, omega):
         """M (B, n, n), velocity terms (B, n) and gravity terms (B, n)."""
-        velocity = (coriolis_matrix(self.system, theta) @ (omega**2)[..., None])[..., 0]
+        velocity = (centrifugal_matrix(self.system, theta) @ (omega**2)[..., None])[..., 0]
         return mass_matrix(self.system, theta), velocity, gravity_vector(self.system, theta)
 
     def accelerations(self, theta, omega):

@@ -102,10 +102,18 @@ class Place:
     def start(self, command: list[str], shell: str = "{}", **options: object) -> subprocess.Popen[bytes]:
         """Start a command; ``shell``: what a shell makes of it, as in ``{} >&-``."""
         line = shell.format('"$@"')
+        limit = options.pop("preexec_fn", None)
+
+        def prepare() -> None:
+            signal.signal(signal.SIGHUP, signal.SIG_DFL)  # ignored under nohup, and so by all that is started from it
+            if callable(limit):
+                limit()
+
         with (self.folder / "out").open("wb") as out, (self.folder / "err").open("wb") as err:
             return subprocess.Popen(
                 ["bash", "-c", f"exec {line}" if shell == "{}" else line, "bash", *command],
-                cwd=self.folder, env=self.environment, stdin=subprocess.DEVNULL, stdout=out, stderr=err, **options,
+                cwd=self.folder, env=self.environment, stdin=subprocess.DEVNULL, stdout=out, stderr=err,
+                preexec_fn=prepare, **options,  # noqa: PLW1509 (no threads here)
             )  # type: ignore[call-overload]  # fmt: skip
 
     def end(self, process: subprocess.Popen[bytes], begun: float, limit: float = 120.0) -> Ended:
@@ -119,7 +127,10 @@ class Place:
         seconds = time.monotonic() - begun
         left = [*(["it hangs"] if late else []), *self.left()]
         out, err = ((self.folder / name).read_bytes() for name in ("out", "err"))
-        return Ended(process.returncode, out, err, seconds, 1024 * usage.ru_maxrss, left)
+        # A process begins with the memory of the one that it was started from: less than that cannot be seen.
+        own = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        memory = 1024 * usage.ru_maxrss if usage.ru_maxrss > own else 0
+        return Ended(process.returncode, out, err, seconds, memory, left)
 
     def left(self) -> list[str]:
         """What is left: processes, and temporary files other than an internal error's traceback."""

@@ -29,7 +29,7 @@ from furiko.diagnosis.explain_motion import explain_motion
 from furiko.diagnosis.finding import CAUSES
 from furiko.engines import engine_info, load_engine
 from furiko.models import find_scenes
-from furiko.reference import coriolis_matrix
+from furiko.reference import centrifugal_matrix
 
 CAUSES_OF = [(place, cause) for place in ("engine", "reader", "run") for cause in PLACES[place]]
 
@@ -148,7 +148,7 @@ def test_a_fault_in_one_velocity_term_has_the_graders_name(row, column, change, 
     class Wrong(fake_causes.WrongTerms):
         def terms(self, theta, omega):
             mass, velocity, gravity = super().terms(theta, omega)
-            entry = coriolis_matrix(self.system, theta)[..., row, column] * omega[..., column] ** 2
+            entry = centrifugal_matrix(self.system, theta)[..., row, column] * omega[..., column] ** 2
             velocity = velocity.copy()
             velocity[..., row] += (change(theta) - 1) * entry
             return mass, velocity, gravity

@@ -39,7 +39,7 @@ class TermByTerm:
         """Torques of dampers and springs, which no fault of code is in."""
         names = ("mass", "inertia", "armature")
         alone = planar.Parameters(**{k: v * 0 if k in names else v for k, v in self.p.items().items()})
-        return planar.torques(self.parents, alone, theta, omega, np.zeros_like(theta))
+        return planar.inverse_dynamics(self.parents, alone, theta, omega, np.zeros_like(theta))
 
     def accelerations(self, theta, omega):
         mass, velocity, gravity = self.matrices(theta)

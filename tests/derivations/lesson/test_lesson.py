@@ -115,7 +115,7 @@ def test_a_place_that_cannot_be_written_is_refused_in_one_line(tmp_path, monkeyp
     (tmp_path / "folder").mkdir()
     with pytest.raises(InvalidInput) as refused:
         write_lesson(tmp_path / place)
-    assert str(refused.value).startswith(str(tmp_path / place))
+    assert str(refused.value).startswith(str(tmp_path / place)[:80])  # a path of hundreds of characters is shortened
     assert "\n" not in str(refused.value)
 
 
