@@ -26,7 +26,7 @@ from furiko.engines import AnyShape, cannot, engine_info, engine_version, load_e
 from furiko.models import NLegPendulum, RodChain, Scene
 from furiko.models.benchmark_scenes import BENCHMARKS
 from furiko.models.states import random_states
-from furiko.models.systems import DocumentSystem as Mechanism
+from furiko.models.systems import DocumentSystem
 from furiko.reference.documents.equations_of_motion import energies
 from furiko.reference.integration.taylor import simulate
 from furiko.reference.kernels.forward_dynamics import accelerations, kernel_of
@@ -94,12 +94,12 @@ def _faster(name: str, ratio: float, asked: float, says: str) -> Target:
     )
 
 
-def _own_batch(system: Mechanism, states: int) -> Subject:
+def _own_batch(system: DocumentSystem, states: int) -> Subject:
     theta, omega = random_states("speed", system, states)
     return Subject(partial(accelerations, system, theta, omega, threads=1))
 
 
-def _engine(name: str, system: Mechanism) -> AnyShape | str:
+def _engine(name: str, system: DocumentSystem) -> AnyShape | str:
     """The engine, or why there is none."""
     info = engine_info(name)
     if not engine_version(name):
@@ -119,7 +119,9 @@ def rods_against_mujoco(n: int) -> Target:
     return _missing(name, found) if isinstance(found, str) else _faster(name, found[0], OVER_MUJOCO[n], found[1])
 
 
-def _against_batch(system: Mechanism, states: int, own_states: int = BATCH, rounds: int = 9) -> tuple[float, str] | str:
+def _against_batch(
+    system: DocumentSystem, states: int, own_states: int = BATCH, rounds: int = 9
+) -> tuple[float, str] | str:
     """How many times longer a state takes in MuJoCo's batch, and that in words, without its clock too."""
     engine = _engine(MUJOCO, system)
     if isinstance(engine, str):
@@ -241,7 +243,7 @@ def acceleration_error() -> Target:
     )
 
 
-def _uneven(kind: str, n: int, length_ratio: float, generator: np.random.Generator) -> Mechanism:
+def _uneven(kind: str, n: int, length_ratio: float, generator: np.random.Generator) -> DocumentSystem:
     """Lengths, and a star's masses (ratio 1e6), spread evenly in their logarithms; their extremes are there."""
     lengths = length_ratio ** -_spread(n, generator)
     if kind == "rods":
@@ -258,7 +260,7 @@ def _shapes(n: int, generator: np.random.Generator) -> list[Array]:
     return [generator.uniform(-math.pi, math.pi, n), 0.7 + 1e-4 * generator.uniform(-1, 1, n)]
 
 
-def _normwise(system: Mechanism, theta: Array, omega: Array) -> float:
+def _normwise(system: DocumentSystem, theta: Array, omega: Array) -> float:
     truth = enclosed_accelerations(system, theta, omega)
     found = kernel_of(system).batch(theta, omega, 1)
     return float((truth.error(found).max(-1) / np.abs(truth.high).max(-1)).max())

@@ -40,7 +40,7 @@ _entries = msgspec.json.Decoder(_Entry)
 
 @dataclass(frozen=True)
 class Kept:
-    """What an earlier run of a task gave."""
+    """The records of an earlier run of a task."""
 
     results: list[Result]
     diagnoses: list[Diagnosis]
@@ -48,7 +48,7 @@ class Kept:
 
 @dataclass(frozen=True)
 class Holding:
-    """What the folder holds of one kind."""
+    """The entries of one kind in the folder."""
 
     entries: int
     size: int  # bytes
@@ -130,7 +130,7 @@ class Cache:
         return [path for path in self.folder.glob(f"{kind}/??/*") if path.is_file()] if self.folder else []
 
     def holds(self) -> dict[str, Holding]:
-        """What there is, kind by kind."""
+        """The entries, kind by kind."""
         found = {}
         for kind in ("results", "truths"):
             states = []

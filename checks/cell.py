@@ -15,7 +15,7 @@ from ..diagnosis.finding import Finding
 from ..engines import AnyShape, EngineInfo, Integrator
 from ..models import Scene
 from ..models.states import States
-from ..models.systems import DocumentSystem as Mechanism
+from ..models.systems import DocumentSystem
 from ..records.check import Outcome, Result
 from ..reference import mass_matrix
 from ..reference.rounding.bounds import Amplitudes, amplitudes
@@ -43,7 +43,7 @@ class Cell:
         """Magnitudes of the terms in the coordinates in which this engine computes."""
         return self.amplitude_of(self.scene.system)
 
-    def amplitude_of(self, system: Mechanism) -> Amplitudes:
+    def amplitude_of(self, system: DocumentSystem) -> Amplitudes:
         """The same for another mechanism in this engine."""
         info = self.info
         return amplitudes(
@@ -103,7 +103,7 @@ class Cell:
     def path(self, theta: Array, omega: Array, integrator: Integrator, step: float, steps: int) -> Array | None:
         """θ and ω side by side at the start and after each step, (steps + 1, 2n); None where the adapter has no paths.
 
-        A run that comes to grief is no fault here: NaN passes.
+        A run that diverges is no fault here: NaN passes.
         """
         found = self.engine.path(theta, omega, integrator.name, step, steps)
         return None if found is None else np.concatenate(found, axis=-1)
@@ -143,6 +143,6 @@ def worst(quotients: Array) -> Worst:
 
 
 def quotient(error: Array, scale: Array) -> Array:
-    """|error| / scale, where 0/0 is 0 (nothing was to be had and nothing came) and x/0 is infinite."""
+    """|error| / scale, where 0/0 is 0 (nothing was expected and nothing came) and x/0 is infinite."""
     size = np.abs(error)
     return np.divide(size, scale, out=np.where(size > 0, np.inf, 0.0), where=scale > 0)

@@ -1,4 +1,4 @@
-"""What a check is: one record, from which the plan, the workers, the command line and the reports know it."""
+"""A check: one record, from which the plan, the workers, the command line and the reports know it."""
 
 from __future__ import annotations
 

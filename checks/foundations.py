@@ -1,4 +1,4 @@
-"""What an answer rests on, outside the scene: furiko's own files, and those of the packages that computed it.
+"""The files that an answer rests on, outside the scene: furiko's own files, and those of the packages that computed it.
 
 A version says too little: a package may be edited in place, rebuilt, half removed, or hidden by another of its name on
 the search path. So every file of code counts, by its path, its size and when it last changed.

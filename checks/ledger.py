@@ -1,4 +1,4 @@
-"""What a run has promised, held against what has arrived: a result that is lost on the way is an error."""
+"""The results that a run has promised, against those that arrived: one that is lost on the way is an error."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is compared, and what is not and why, decided before anything runs."""
+"""The plan: which comparisons run, and which do not and why, decided before anything runs."""
 
 from __future__ import annotations
 

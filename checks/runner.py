@@ -64,7 +64,7 @@ def run(
 
 @dataclass
 class _Progress:
-    """What has come of a cell so far."""
+    """The results of a cell so far."""
 
     results: list[Result] = field(default_factory=list)
     diagnoses: list[Diagnosis] = field(default_factory=list)

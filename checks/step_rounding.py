@@ -1,4 +1,4 @@
-"""What rounding does to angles and rates in one step of an engine's integrator: bounds from
+"""The effect of rounding on angles and rates in one step of an engine's integrator: bounds from
 :mod:`furiko.reference.rounding.bounds`'.
 
 Every acceleration the engine evaluates has a backward error of at most that which
@@ -33,7 +33,7 @@ def rounding_error(cell: Cell, theta: Array, omega: Array, alpha: Array) -> Arra
 
 
 def iterations_error(cell: Cell, integrator: Integrator, theta: Array, omega: Array, alpha: Array) -> Array:
-    """What an implicit scheme's iterations leave of accelerations where they end [rad/s²], (B,); 0 for others."""
+    """The residual that an implicit scheme's iterations leave in the accelerations [rad/s²], (B,); 0 for others."""
     if not integrator.tolerance:
         return np.zeros(len(theta))
     # The residual is a norm over all rows, hence of any row; what Exudyn calls one is the largest link's torque.

@@ -41,7 +41,7 @@ class Convention:
     offset: float = 0.0
 
     def view(self, measured: Measurement) -> Measurement:
-        """What was measured, in the coordinates that the engine means.
+        """The measurement, in the coordinates that the engine means.
 
         Inverse dynamics is left out: its rows may be in either convention, or in both at once.
         """

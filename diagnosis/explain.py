@@ -79,7 +79,7 @@ def explanation(
 
 
 def _first(attempts: tuple[Attempt, ...], question: Question) -> Explanation:
-    """What the first of the attempts finds that finds anything."""
+    """The findings of the first attempt that has any."""
     for attempt in attempts:
         found = attempt(question)
         if found:
@@ -88,7 +88,7 @@ def _first(attempts: tuple[Attempt, ...], question: Question) -> Explanation:
 
 
 def _besides_compiled(question: Question) -> Explanation:
-    """What the engine says it compiled is another mechanism, and there is something else besides."""
+    """The mechanism that the engine compiled is another one, and there is something else besides."""
     if question.compiled is None:
         return Explanation()
     other = differences(question.compiled, question.m, question.who)

@@ -28,7 +28,7 @@ class Explanation:
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """What every set has: these hold together, and are certain."""
+        """The findings of every set: these hold together, and are certain."""
         if not self.sets:
             return ()
         others = [{_key(finding) for finding in other} for other in self.sets[1:]]
@@ -36,7 +36,7 @@ class Explanation:
 
     @property
     def alternatives(self) -> tuple[Finding, ...]:
-        """What the sets differ in, an entry each: one of these holds besides :attr:`findings`."""
+        """The findings in which the sets differ, an entry each: one of these holds besides :attr:`findings`."""
         if len(self.sets) < 2:
             return ()
         common = {_key(finding) for finding in self.findings}

@@ -50,7 +50,7 @@ class Measurement:
         return len(self.theta)
 
     def tolerances(self, p: Parameters) -> Array:
-        """What rounding explains of each hinge's residual torque [N m], (S, n)."""
+        """The part that rounding explains of each hinge's residual torque [N m], (S, n)."""
         bound = READER_ROUNDINGS * allowed(len(self.parents), self.accuracy) * EPSILON
         sizes = planar.magnitudes(self.parents, p, self.theta, self.omega, self.alpha)
         # An engine that factorises the mass matrix has its rounding there: see :mod:`furiko.reference.rounding.bounds`.

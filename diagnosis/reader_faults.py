@@ -49,7 +49,7 @@ def matching_fault(i: int, found: Link, faults: ReaderFaults) -> str | None:
 
 
 def possible_reader_faults(file: ModelFile, own_geoms: bool = False) -> ReaderFaults:
-    """What each link of the file would be with each known fault of a reader.
+    """Each link of the file as each known fault of a reader would have it.
 
     ``own_geoms``: the file itself is compared with something: a file that takes its inertias from geoms may then be
     the one that is wrong.

@@ -70,6 +70,6 @@ def _size(q: Question) -> float:
 
 
 def _after(q: Question, hypotheses: list[Hypothesis]) -> float:
-    """What is left after one step of the best of the hypotheses."""
+    """The residuals left after one step of the best of the hypotheses."""
     ranked = screen(hypotheses, q.p, q.measured).ranked()
     return ranked[0][0] if ranked else np.inf

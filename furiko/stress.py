@@ -40,7 +40,7 @@ class Progress:
 
 
 @dataclass(frozen=True)
-class Plan:
+class StressPlan:
     """The searches of a run, and the engines that take part."""
 
     searches: list[Search]
@@ -100,7 +100,7 @@ def summarise(
 
 def make_plan(
     axes: Sequence[str] | None, engines: Sequence[str] | None, *, seed: int, long_steps: int = 10_000_000
-) -> Plan:
+) -> StressPlan:
     """The searches. Raises :class:`InvalidInput` for unknown names, :class:`EngineMissing` for a missing engine."""
     ladders, families = chosen_axes(axes)
     names = list(dict.fromkeys((*OWN, *engine_names()) if engines is None else engines))
@@ -114,7 +114,7 @@ def make_plan(
     searches = make_searches(ladders, infos, own, seed=seed, families=families, long_steps=long_steps)
     if not searches:
         raise InvalidInput(f"stress: nothing to run: {', '.join(names)} takes no part in {', '.join(axes or ())}")
-    return Plan(searches, infos)
+    return StressPlan(searches, infos)
 
 
 def chosen_axes(axes: Sequence[str] | None) -> tuple[tuple[Ladder, ...], tuple[str, ...]]:
@@ -138,7 +138,7 @@ def chosen_axes(axes: Sequence[str] | None) -> tuple[tuple[Ladder, ...], tuple[s
     return tuple(dict.fromkeys(ladders)), tuple(dict.fromkeys(families))
 
 
-def make_header(plan: Plan, seed: int) -> Header:
+def make_header(plan: StressPlan, seed: int) -> Header:
     """The first line of the stream."""
     return Header(
         furiko=__version__,

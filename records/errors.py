@@ -1,4 +1,4 @@
-"""What every command prints with ``--json`` where it fails."""
+"""The document that every command prints with ``--json`` where it fails."""
 
 from __future__ import annotations
 

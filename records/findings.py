@@ -37,7 +37,7 @@ class NamedMistake(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class GradeDocument(msgspec.Struct, frozen=True, kw_only=True):
-    """What ``furiko grade --json`` prints."""
+    """The document of ``furiko grade --json``."""
 
     verdict: Literal["correct", "wrong", "undecided"]
     findings: list[WrongTerm]
@@ -88,7 +88,7 @@ class OpenQuestion(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class AuditDocument(msgspec.Struct, frozen=True, kw_only=True):
-    """What ``furiko audit --json`` prints."""
+    """The document of ``furiko audit --json``."""
 
     equations: list[JudgedEquation]
     slips: list[SlipEntry]
@@ -144,7 +144,7 @@ class EngineReading(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class DiagnoseDocument(msgspec.Struct, frozen=True, kw_only=True):
-    """What ``furiko diagnose --json`` prints."""
+    """The document of ``furiko diagnose --json``."""
 
     verdict: str  # agrees, differs or unexplained
     findings: list[Difference]

@@ -1,4 +1,4 @@
-"""What ``furiko scenes``, ``engines`` and ``cache`` print with ``--json``."""
+"""The documents of ``furiko scenes``, ``engines`` and ``cache`` with ``--json``."""
 
 from __future__ import annotations
 

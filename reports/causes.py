@@ -244,7 +244,7 @@ def _remarks(diagnoses: Sequence[Diagnosis]) -> tuple[tuple[str, str, tuple[str,
 
 
 def _sentence(finding: Difference, engine: str) -> str:
-    """What was found, without the engine's name, which the entry begins with."""
+    """The finding, without the engine's name, which the entry begins with."""
     if finding.says:
         return finding.says.removeprefix(f"{engine}: ")
     values = f"{_rounded(finding.measured)}, expected {_rounded(finding.expected)}"

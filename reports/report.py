@@ -117,7 +117,7 @@ class Report:
 
     @cached_property
     def causes(self) -> Causes:
-        """What differs, by engine and cause."""
+        """The differences, by engine and cause."""
         return group_causes(self.having("differs"), self.diagnoses)
 
     @cached_property
@@ -299,7 +299,7 @@ class Report:
 
     @cached_property
     def _miscounted(self) -> tuple[tuple[str, int, int], ...]:
-        """What the footer counts otherwise than the stream: name, the footer's number, the number found."""
+        """The footer's counts that are not those of the stream: name, the footer's number, the number found."""
         if self.footer is None:
             return ()
         found = footer_of(self.results, self.diagnoses)

@@ -39,7 +39,7 @@ _decoder = msgspec.json.Decoder(Record)
 
 
 class _Head(msgspec.Struct):
-    """What every format of a header has."""
+    """The fields that a header of any format has."""
 
     kind: Any = None
     format: Any = FORMAT

@@ -20,7 +20,6 @@ from ..facts import forward_error
 Array = NDArray[np.float64]
 
 NAME = "accelerations"
-NEEDS = "accelerations"
 SINGULAR = "the mass matrix is singular but for rounding: no digit of an acceleration is sure"
 
 

@@ -19,7 +19,6 @@ from ..cell import Cell, quotient, worst
 Array = NDArray[np.float64]
 
 NAME = "energy"
-NEEDS = "energy"
 
 
 def compare(cell: Cell) -> Iterator[Result]:

@@ -36,7 +36,7 @@ from numpy.typing import NDArray
 from ...engines import Integrator, engine_info, engine_names, load_engine
 from ...models import InvalidInput, Scene, find_scenes
 from ...models.states import natural_rate, states
-from ...models.systems import DocumentSystem as Mechanism
+from ...models.systems import DocumentSystem
 from ...records.check import Result
 from ...reference import literal_accelerations
 from ...reference.integration.schemes import BUTCHER_6
@@ -49,7 +49,6 @@ from ..facts import scene_facts
 Array = NDArray[np.float64]
 
 NAME = "horizon"
-NEEDS = "trajectory"
 
 STEPS = (1e-2, 5e-3, 1e-3)  # [s]; every one a multiple of the last
 LONGEST = 10.0  # [s]
@@ -69,7 +68,7 @@ EXPLAINED = 0.03  # of the time: what is promised of a predicted divergence time
 
 
 @dataclass(frozen=True)
-class Truth:
+class TrueMotion:
     """The true motion at steps of ``step`` [s]: states high + low, (K+1, 2n), and Φ of each step, (K, 2n, 2n)."""
 
     step: float
@@ -158,8 +157,8 @@ def horizon(cell: Cell, integrator: Integrator, step: float, duration: float) ->
 
 
 def true_motion(
-    system: Mechanism, theta: tuple[float, ...], omega: tuple[float, ...], step: float, duration: float
-) -> Truth:
+    system: DocumentSystem, theta: tuple[float, ...], omega: tuple[float, ...], step: float, duration: float
+) -> TrueMotion:
     """The true motion in steps; the quadruple precision behind it is shared among all steps that divide."""
     finest = STEPS[-1] if _divides(STEPS[-1], step) else step
     stride = round(step / finest)
@@ -169,7 +168,7 @@ def true_motion(
     n = system.n
     flow = tangent_flow(system, high[half, :n], high[half, n:], step)
     whole = slice(0, 2 * steps * stride + 1, 2 * stride)
-    return Truth(step, high[whole], low[whole], flow, growth(flow, step, natural_rate(system)))
+    return TrueMotion(step, high[whole], low[whole], flow, growth(flow, step, natural_rate(system)))
 
 
 def _divides(small: float, large: float) -> bool:
@@ -178,13 +177,13 @@ def _divides(small: float, large: float) -> bool:
 
 @lru_cache(maxsize=4)
 def _integrated(
-    system: Mechanism, theta: tuple[float, ...], omega: tuple[float, ...], spacing: float, points: int
+    system: DocumentSystem, theta: tuple[float, ...], omega: tuple[float, ...], spacing: float, points: int
 ) -> tuple[Array, Array]:
     found = quadruple_trajectory(system, theta, omega, spacing * np.arange(points + 1, dtype=np.float64))
     return np.hstack([found.theta, found.omega]), np.hstack([found.theta_low, found.omega_low])
 
 
-def _step_by_step(cell: Cell, integrator: Integrator, truth: Truth) -> Iterator[Array]:
+def _step_by_step(cell: Cell, integrator: Integrator, truth: TrueMotion) -> Iterator[Array]:
     """Local errors (2n,), one after the other: a step from each true state, less the true state after it."""
     n = cell.scene.system.n
     for k, flow in enumerate(truth.flow):
@@ -194,14 +193,14 @@ def _step_by_step(cell: Cell, integrator: Integrator, truth: Truth) -> Iterator[
         yield end - truth.high[k + 1] - truth.low[k + 1] + flow @ truth.low[k]
 
 
-def _remembering(cell: Cell, integrator: Integrator, truth: Truth, start: int) -> Iterator[Array]:
+def _remembering(cell: Cell, integrator: Integrator, truth: TrueMotion, start: int) -> Iterator[Array]:
     """The same of a scheme with a memory of ``start`` steps."""
     steps = len(truth.flow)
     for first in range(0, steps, WINDOW):
         yield from _window(cell, integrator, truth, first, min(first + WINDOW, steps), start)
 
 
-def _window(cell: Cell, integrator: Integrator, truth: Truth, first: int, last: int, start: int) -> Array:
+def _window(cell: Cell, integrator: Integrator, truth: TrueMotion, first: int, last: int, start: int) -> Array:
     """Local errors of steps ``first`` to ``last``, (…, 2n), from a run begun at the true state ``start`` steps before.
 
     The run has left the truth by its start, which the scheme has forgotten, but not by its state: the local error is
@@ -216,7 +215,7 @@ def _window(cell: Cell, integrator: Integrator, truth: Truth, first: int, last: 
     return np.asarray(run[1:] - np.concatenate(true, axis=-1), dtype=np.float64)
 
 
-def memory(cell: Cell, integrator: Integrator, truth: Truth) -> int:
+def memory(cell: Cell, integrator: Integrator, truth: TrueMotion) -> int:
     """Steps after which a scheme has forgotten its start: local errors no longer depend on where a run began.
 
     Looked at in three places; at most a quarter of the whole run, and at most the last of :data:`MEMORIES`.
@@ -234,7 +233,7 @@ def memory(cell: Cell, integrator: Integrator, truth: Truth) -> int:
     return MEMORIES[-1]
 
 
-def carry(truth: Truth, errors: Iterator[Array]) -> tuple[Array, Array]:
+def carry(truth: TrueMotion, errors: Iterator[Array]) -> tuple[Array, Array]:
     """e_{k+1} = Φ_k e_k + d_k from e_0 = 0, as far as it means anything, (≤ K+1, 2n); and the sizes of the d_k."""
     carried, sizes = [np.zeros(truth.high.shape[-1])], []
     for flow, error in zip(truth.flow, errors, strict=False):
@@ -248,7 +247,7 @@ def carry(truth: Truth, errors: Iterator[Array]) -> tuple[Array, Array]:
 def path(cell: Cell, integrator: Integrator, state: Array, step: float, steps: int) -> Array:
     """All states of one run, (steps + 1, 2n): the adapter's own path, or one step after the other.
 
-    Raises :class:`EngineFault` where neither is to be had.
+    Raises :class:`EngineFault` where the engine gives neither.
     """
     n = len(state) // 2
     found = cell.path(state[:n], state[n:], integrator, step, steps)

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from ...engines import AnyShape, Integrator
 from ...models import Scene
-from ...models.systems import DocumentSystem as Mechanism
+from ...models.systems import DocumentSystem
 from ...records.check import Result
 from ...reference import energies, literal_accelerations, mass_matrix
 from ...reference.integration.richardson import amplified, at_step_zero
@@ -36,7 +36,6 @@ from .energy import energy_amplitudes
 Array = NDArray[np.float64]
 
 NAME = "invariant"
-NEEDS = "trajectory"
 
 STEPS = 16  # of the coarsest run
 SHORT = 1 / 4  # step × fastest rate, in the coarsest run
@@ -53,7 +52,7 @@ class Start:
     it has grown; by the integrator's name.
     """
 
-    system: Mechanism
+    system: DocumentSystem
     engine: AnyShape
     amplitude: Amplitudes
     theta: Array
@@ -75,16 +74,16 @@ def compare(cell: Cell) -> Iterator[Result]:
         return
     theta, omega = cell.states.theta[-1], cell.states.omega[-1]
     start = begin(cell, system, cell.engine, theta, omega)
-    weightless = replace(system, gravity=0.0)
-    engine = cell.engine.of(weightless) if system.gravity else cell.engine
-    afloat = begin(cell, weightless, engine, theta, omega)
+    without_gravity = replace(system, gravity=0.0)
+    engine = cell.engine.of(without_gravity) if system.gravity else cell.engine
+    weightless = begin(cell, without_gravity, engine, theta, omega)
     for integrator in cell.info.integrators:
         for invariant in INVARIANTS:
             yield _compare(cell, integrator, start, invariant)
-        yield _compare(cell, integrator, afloat, AFLOAT)
+        yield _compare(cell, integrator, weightless, MOMENTUM)
 
 
-def begin(cell: Cell, system: Mechanism, engine: AnyShape, theta: Array, omega: Array) -> Start:
+def begin(cell: Cell, system: DocumentSystem, engine: AnyShape, theta: Array, omega: Array) -> Start:
     """Choose the step: a quarter over the fastest rate at which links turn or states near this one part."""
     fastest = max(float(fastest_rate(system, theta, omega)), float(np.abs(omega).max()))
     step = 2.0 ** math.floor(math.log2(SHORT / fastest)) if fastest > 0 else SHORT
@@ -113,7 +112,7 @@ def _compare(cell: Cell, integrator: Integrator, start: Start, invariant: Invari
     name, unit = f"{NAME} {invariant.name} {integrator.name}", invariant.unit
     runs = [np.atleast_1d(invariant.left(start, integrator, STEPS << k)) for k in range(RUNS)]
     if not np.isfinite(runs).all():
-        reason = f"{integrator.name} comes to grief at a step of {start.step:.3g} s or a part of it"
+        reason = f"{integrator.name} diverges at a step of {start.step:.3g} s or a part of it"
         return cell.result(name, "skipped", reason=reason)
     at_zero, uncertainty = at_step_zero(runs, integrator.order)
     limit = float(np.abs(at_zero).max())
@@ -176,7 +175,7 @@ def momentum_left(start: Start, integrator: Integrator, steps: int) -> Array:
     return np.array([_momentum(start.system, theta, omega) - _momentum(start.system, start.theta, start.omega)])
 
 
-def _momentum(system: Mechanism, theta: Array, omega: Array) -> float:
+def _momentum(system: DocumentSystem, theta: Array, omega: Array) -> float:
     return float((mass_matrix(system, theta) @ omega).sum())
 
 
@@ -206,6 +205,6 @@ INVARIANTS = (
     Invariant("energy", "J", "nothing takes energy away or brings any", energy_left, energy_noise),
     Invariant("there and back", "rad, rad/s", "with rates reversed the way leads back", way_back_left, way_back_noise),
 )
-AFLOAT = Invariant(
+MOMENTUM = Invariant(
     "angular momentum", "kg m²/s", "without gravity no torque acts about the support", momentum_left, momentum_noise
 )

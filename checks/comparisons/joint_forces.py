@@ -19,7 +19,6 @@ from ..facts import FORCE_STATES
 Array = NDArray[np.float64]
 
 NAME = "joint forces"
-NEEDS = "joint_forces"
 
 
 def compare(cell: Cell) -> Iterator[Result]:

@@ -18,7 +18,6 @@ from ..cell import Cell
 Array = NDArray[np.float64]
 
 NAME = "model fields"
-NEEDS = "fields"
 # Numbers are written exactly, so they should come back exactly; readers that pass them through an inertia about
 # another point, or a rotation that is the identity, may round each a few times.
 ROUNDINGS = 8

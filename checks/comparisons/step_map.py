@@ -38,7 +38,6 @@ Array = NDArray[np.float64]
 Wide = NDArray[Any]
 
 NAME = "step map"
-NEEDS = "trajectory"
 
 STATES = 3  # random states in which a step is taken
 SHORT = 1 / 8  # step × fastest rate
@@ -92,7 +91,7 @@ def chosen_steps(cell: Cell) -> Steps:
 
 
 class Textbook:
-    """What every candidate makes of the same states, computed when it is first asked for."""
+    """The steps of every candidate from the same states, computed when first asked for."""
 
     def __init__(self, cell: Cell, steps: Steps) -> None:
         self._steps = steps
@@ -119,7 +118,7 @@ def _compare(cell: Cell, integrator: Integrator, steps: Steps, textbook: Textboo
     def bounds(candidate: Candidate) -> Array:
         return rounding_bounds(cell, integrator, steps, candidate, off)
 
-    def all_fits(order: int | None) -> list[Fit]:
+    def all_fits(order: int | None) -> list[SchemeFit]:
         found = [fit(got, textbook, one, bounds(one)) for one in textbook.of_order(order)]
         return sorted(found, key=lambda one: one.excess)
 
@@ -148,7 +147,7 @@ def _compare(cell: Cell, integrator: Integrator, steps: Steps, textbook: Textboo
 
 
 @dataclass(frozen=True)
-class Fit:
+class SchemeFit:
     """How far a candidate is from what the engine did: worst rate [rad/s] and its bound, worst angle [rad].
 
     ``excess``: the worst of all angles and rates over their bounds. Where that is an angle's, ``measured`` is the rate
@@ -166,13 +165,13 @@ class Fit:
         return self.excess * self.bound
 
 
-def fit(got: Array, textbook: Textbook, candidate: Candidate, bounds: Array) -> Fit:
+def fit(got: Array, textbook: Textbook, candidate: Candidate, bounds: Array) -> SchemeFit:
     """Hold the engine's step, (B, 2, n), against a candidate's; ``bounds`` of angles and rates, (2, B, 1)."""
     angles, rates = textbook.end(candidate)
     off = np.abs(np.stack([got[:, 0] - angles, got[:, 1] - rates])).astype(np.float64)
     excess = worst(quotient(off, np.broadcast_to(bounds, off.shape)))
     bound = float(bounds[1, excess.index[1]].max())
-    return Fit(candidate, excess.value, bound, float(off[0].max()))
+    return SchemeFit(candidate, excess.value, bound, float(off[0].max()))
 
 
 def candidates(cell: Cell, steps: Steps) -> list[Candidate]:
@@ -241,7 +240,7 @@ def rounding_bounds(
     return np.stack([angles, rates])[..., None]
 
 
-def _reason(integrator: Integrator, fits: list[Fit]) -> str:
+def _reason(integrator: Integrator, fits: list[SchemeFit]) -> str:
     best = fits[0]
     name = best.candidate.name
     if best.excess > 1:

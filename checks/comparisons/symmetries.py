@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ...engines import cannot
 from ...models import NLegPendulum, RodChain
-from ...models.systems import DocumentSystem as Mechanism
+from ...models.systems import DocumentSystem
 from ...records.check import Result
 from ...reference import literal_accelerations, mass_matrix
 from ...reference.integration.variation import variation
@@ -26,11 +26,10 @@ from ..cell import Cell, Worst, quotient, worst
 from .accelerations import SINGULAR
 
 Array = NDArray[np.float64]
-Accelerations = Callable[[Mechanism, Array, Array], Array]
-AmplitudeOf = Callable[[Mechanism], Amplitudes]
+Accelerations = Callable[[DocumentSystem, Array, Array], Array]
+AmplitudeOf = Callable[[DocumentSystem], Amplitudes]
 
 NAME = "symmetry"
-NEEDS = "accelerations"
 
 STATES = 3  # random ones; every symmetry is asked for in each
 TURN = 0.75  # [rad], of the support
@@ -41,13 +40,13 @@ TWO_PI_ERROR = 2.45e-16
 
 @dataclass(frozen=True)
 class Image:
-    """What a symmetry makes of a mechanism and its states: ``before`` and ``after`` must answer alike.
+    """The image of a mechanism and its states under a symmetry: ``before`` and ``after`` must answer alike.
 
     ``back``: the first accelerations, from the second's; ``moved``: rounding of the angles in making the image [rad].
     """
 
-    before: Mechanism
-    after: Mechanism
+    before: DocumentSystem
+    after: DocumentSystem
     theta: Array
     omega: Array
     back: Callable[[Array], Array]
@@ -60,7 +59,7 @@ class Symmetry:
 
     name: str
     says: str
-    image: Callable[[Mechanism, Array, Array], Image | None]
+    image: Callable[[DocumentSystem, Array, Array], Image | None]
 
 
 def compare(cell: Cell) -> Iterator[Result]:
@@ -72,7 +71,7 @@ def compare(cell: Cell) -> Iterator[Result]:
         yield cell.result(NAME, "skipped", reason=f"in every state {SINGULAR}")
         return
 
-    def engine(other: Mechanism, angles: Array, rates: Array) -> Array:
+    def engine(other: DocumentSystem, angles: Array, rates: Array) -> Array:
         asked = cell.engine if other == system else cell.engine.of(other)
         return cell.answer("accelerations", asked.accelerations(angles, rates), angles.shape)
 
@@ -88,7 +87,7 @@ def compare(cell: Cell) -> Iterator[Result]:
             yield _result(cell, symmetry, found[symmetry.name], theory[symmetry.name].value)
 
 
-def _images(system: Mechanism, theta: Array, omega: Array) -> dict[str, Image]:
+def _images(system: DocumentSystem, theta: Array, omega: Array) -> dict[str, Image]:
     found = {symmetry.name: symmetry.image(system, theta, omega) for symmetry in SYMMETRIES}
     return {name: image for name, image in found.items() if image is not None}
 
@@ -97,7 +96,7 @@ def excesses(
     images: dict[str, Image], theta: Array, omega: Array, ask: Accelerations, amplitude: AmplitudeOf, accuracy: float
 ) -> dict[str, Worst]:
     """For each symmetry: the difference of the two answers over what rounding explains of it, where it is worst."""
-    answers: dict[Mechanism, tuple[Array, Array]] = {}
+    answers: dict[DocumentSystem, tuple[Array, Array]] = {}
     found = {}
     for name, image in images.items():
         if image.before not in answers:
@@ -112,11 +111,11 @@ def excesses(
 
 
 @lru_cache(maxsize=4)
-def _theory(system: Mechanism, theta: bytes, omega: bytes) -> dict[str, Worst]:
+def _theory(system: DocumentSystem, theta: bytes, omega: bytes) -> dict[str, Worst]:
     """The same of the documents' own formula; the states as bytes, so that every engine's cell can share it."""
     angles, rates = (np.frombuffer(values).reshape(-1, system.n) for values in (theta, omega))
 
-    def absolute(other: Mechanism) -> Amplitudes:
+    def absolute(other: DocumentSystem) -> Amplitudes:
         return amplitudes(other, "absolute")
 
     images = _images(system, angles, rates)
@@ -144,14 +143,14 @@ def _result(cell: Cell, symmetry: Symmetry, found: Worst, theory: float) -> Resu
 
 
 def _answer(
-    system: Mechanism, theta: Array, omega: Array, ask: Accelerations, amplitude: AmplitudeOf, accuracy: float
+    system: DocumentSystem, theta: Array, omega: Array, ask: Accelerations, amplitude: AmplitudeOf, accuracy: float
 ) -> tuple[Array, Array]:
     """Accelerations, and how far rounding may leave them from the exact ones [rad/s²], (B, n) each."""
     alpha = ask(system, theta, omega)
     return alpha, allowed(system.n, accuracy) * rounding(system, theta, omega, alpha, amplitude(system))
 
 
-def rounding(system: Mechanism, theta: Array, omega: Array, alpha: Array, amplitude: Amplitudes) -> Array:
+def rounding(system: DocumentSystem, theta: Array, omega: Array, alpha: Array, amplitude: Amplitudes) -> Array:
     """How far accelerations are from the exact ones by a backward error of one ε [rad/s²], (B, n)."""
     mass = mass_matrix(system, theta)
     return EPSILON * amplitude.acceleration_errors(mass, amplitude.rows(alpha, omega, mass) * turns(theta)[:, None])
@@ -161,24 +160,24 @@ def _same(alpha: Array) -> Array:
     return alpha
 
 
-def mirrored(system: Mechanism, theta: Array, omega: Array) -> Image:
+def mirrored(system: DocumentSystem, theta: Array, omega: Array) -> Image:
     """Left and right changed over: θ, ω → -θ, -ω."""
     return Image(system, system, -theta, -omega, np.negative)
 
 
-def reversed_rates(system: Mechanism, theta: Array, omega: Array) -> Image:
+def reversed_rates(system: DocumentSystem, theta: Array, omega: Array) -> Image:
     """Time reversed: ω → -ω."""
     return Image(system, system, theta, -omega, _same)
 
 
-def turned_round(system: Mechanism, theta: Array, omega: Array) -> Image:
+def turned_round(system: DocumentSystem, theta: Array, omega: Array) -> Image:
     """Every angle once round, this way and that in turn."""
     rounds = 2 * np.pi * (-1.0) ** np.arange(system.n)
     largest = float(np.abs(theta).max(initial=0.0)) + 2 * np.pi
     return Image(system, system, theta + rounds, omega, _same, moved=EPSILON / 2 * largest + TWO_PI_ERROR)
 
 
-def legs_permuted(system: Mechanism, theta: Array, omega: Array) -> Image | None:
+def legs_permuted(system: DocumentSystem, theta: Array, omega: Array) -> Image | None:
     """The legs, and their angles with them, one place on."""
     if not isinstance(system, NLegPendulum) or system.n < 3:
         return None
@@ -190,7 +189,7 @@ def legs_permuted(system: Mechanism, theta: Array, omega: Array) -> Image | None
     return Image(system, other, theta[:, order], omega[:, order], lambda alpha: alpha[:, undo])
 
 
-def leg_split(system: Mechanism, theta: Array, omega: Array) -> Image | None:
+def leg_split(system: DocumentSystem, theta: Array, omega: Array) -> Image | None:
     """The last leg as two of half its mass that move together."""
     if not isinstance(system, NLegPendulum):
         return None
@@ -200,24 +199,24 @@ def leg_split(system: Mechanism, theta: Array, omega: Array) -> Image | None:
     return Image(system, other, theta[:, index], omega[:, index], lambda alpha: alpha[:, :-1])
 
 
-def masses_scaled(system: Mechanism, theta: Array, omega: Array) -> Image:
+def masses_scaled(system: DocumentSystem, theta: Array, omega: Array) -> Image:
     """Eight times the mass everywhere."""
     return Image(system, _scaled(system, mass=8.0), theta, omega, _same)
 
 
-def lengths_scaled(system: Mechanism, theta: Array, omega: Array) -> Image:
+def lengths_scaled(system: DocumentSystem, theta: Array, omega: Array) -> Image:
     """Four times the length, and twice the time."""
     return Image(system, _scaled(system, length=4.0), theta, omega / 2, lambda alpha: 4 * alpha)
 
 
-def gravity_scaled(system: Mechanism, theta: Array, omega: Array) -> Image | None:
+def gravity_scaled(system: DocumentSystem, theta: Array, omega: Array) -> Image | None:
     """Four times gravity, and half the time."""
     if not system.gravity:
         return None
     return Image(system, _scaled(system, gravity=4.0), theta, 2 * omega, lambda alpha: alpha / 4)
 
 
-def support_turned(system: Mechanism, theta: Array, omega: Array) -> Image:
+def support_turned(system: DocumentSystem, theta: Array, omega: Array) -> Image:
     """Without gravity there is no down: every angle turned by the same.
 
     With gravity turned along the same would hold, but its direction is no part of a system: every adapter's is down.
@@ -226,7 +225,7 @@ def support_turned(system: Mechanism, theta: Array, omega: Array) -> Image:
     return Image(weightless, weightless, theta + TURN, omega, _same)
 
 
-def _scaled(system: Mechanism, mass: float = 1.0, length: float = 1.0, gravity: float = 1.0) -> Mechanism:
+def _scaled(system: DocumentSystem, mass: float = 1.0, length: float = 1.0, gravity: float = 1.0) -> DocumentSystem:
     lengths = tuple(length * l for l in system.lengths)
     g = gravity * system.gravity
     if isinstance(system, RodChain):  # a rod's mass goes with its length: the same at all lengths for m / length

@@ -23,7 +23,6 @@ from ..cell import Cell, quotient, worst
 Array = NDArray[np.float64]
 
 NAME = "terms"
-NEEDS = "inverse_dynamics"
 ROWS = 4_000  # inverse dynamics evaluated in one cell, at most: long chains get fewer states, never fewer entries
 
 
@@ -65,7 +64,7 @@ def compare(cell: Cell) -> Iterator[Result]:
 
 
 def _spreads(cell: Cell, states: States, excess: Array) -> tuple[NDArray[np.intp], spread.Terms | None]:
-    """What rounding does to each term, in as many of the states as is affordable; None where in none."""
+    """The effect of rounding on each term, in as many of the states as is affordable; None where in none."""
     system, most = cell.scene.system, sharp.states_for_terms(cell.scene.system.n)
     at = sharp.chosen(excess, most)
     if not most:

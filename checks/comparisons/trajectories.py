@@ -38,7 +38,6 @@ from ..step_rounding import conversion, iterations_error, joints_apart, rounding
 Array = NDArray[np.float64]
 
 NAME = "trajectory"
-NEEDS = "trajectory"
 
 NEAR = (
     1e-2  # [rad] the runs at h/2 and h/4 part less than this: within it, an error's growth is linear to about a percent
@@ -89,7 +88,7 @@ class Ladder:
     ends: tuple[Array, ...]  # θ, ω at the end, shape (2, n)
 
     def orders(self) -> tuple[float, float]:
-        """What the coarser and the finer three runs' differences show: nan where they are nothing but rounding."""
+        """The orders that the coarser and the finer three runs show: nan where they are nothing but rounding."""
         gaps = self.gaps()
         return _order(gaps[0], gaps[1]), _order(gaps[1], gaps[2])
 

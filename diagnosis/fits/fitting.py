@@ -204,7 +204,7 @@ def _orthonormal(columns: Array) -> Array | None:
 
 
 def _responses(hypotheses: Sequence[Hypothesis], p: Parameters, measured: Measurement, scale: Array) -> list[Array]:
-    """What each hypothesis' values change in the residuals, (N, d) each."""
+    """Changes of the residuals by each hypothesis' values, (N, d) each."""
     perturbations = [(h, k, sign) for h in hypotheses if h.basis is None for k in range(h.d) for sign in (1.0, -1.0)]
     per_batch = max(2, BATCH_NUMBERS // scale.size // 2 * 2)
     batches = []

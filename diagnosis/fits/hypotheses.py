@@ -266,7 +266,7 @@ def combined(hypotheses: Sequence[Hypothesis]) -> Hypothesis:
 
 
 def _sizes(p: Parameters) -> tuple[float, float, float]:
-    """What a typical inertia about a hinge [kg m²], damping [N m s] and torque [N m] would be."""
+    """A typical inertia about a hinge [kg m²], damping [N m s] and torque [N m]."""
     inertia = float(np.max(p.inertia + p.mass * (p.com_along**2 + p.com_across**2))) or 1.0
     gravity = float(np.hypot(p.gravity_along[0], p.gravity_across[0])) or 1.0
     return inertia, inertia, inertia * gravity

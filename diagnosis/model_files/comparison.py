@@ -18,7 +18,7 @@ RankedView = tuple[tuple[float, ...], list[Finding]]
 
 
 def compare_with_ideal(mechanism: Mechanism) -> list[Finding]:
-    """What the file gives a hinge that an ideal hinge does not have: damping, armature, limits …"""
+    """Properties of a hinge in the file that an ideal hinge does not have: damping, armature, limits …"""
     return differences(mechanism, mechanism.ideal(), "the file", "an ideal hinge has")
 
 

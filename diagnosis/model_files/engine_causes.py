@@ -75,7 +75,7 @@ def _by_switching_off(reader: Reader, view: EngineView, theory: Mechanism) -> It
 def _by_what_it_compiled(
     held: Mechanism, file: ModelFile, theory: Mechanism, measured: Measurement, who: str
 ) -> list[Finding]:
-    """What the engine compiled explains its motion, with or without its damping, friction and springs."""
+    """Whether the compiled model explains the motion, with or without its damping, friction and springs."""
     for ignored in IGNORED_TOGETHER:
         acting = with_hinges_cleared(held, ignored)
         if measured.worst(planar.parameters(acting)) <= 1:

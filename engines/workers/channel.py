@@ -18,7 +18,7 @@ SEND_TIMEOUT = 30.0  # [s] for a job to be taken: an idle worker reads at once
 
 
 class BrokenChannel(ConnectionError):
-    """What came is not a frame: the worker wrote something else into its connection."""
+    """The bytes that came are not a frame: the worker wrote something else into its connection."""
 
 
 def encode(message: object) -> bytes:

@@ -1,4 +1,4 @@
-"""What a job is, and what a worker says of the one that it runs."""
+"""Jobs, and the messages that a worker sends of the one that it runs."""
 
 from __future__ import annotations
 

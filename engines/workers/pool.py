@@ -91,7 +91,7 @@ class Pool:
             worker.process.channel.send(job)
 
     def events(self, until: float | None = None) -> Iterator[Event]:
-        """What happens next: waits until a worker says something, is overdue, or ``until`` (of time.monotonic)."""
+        """The next events: waits until a worker says something, is overdue, or ``until`` (of time.monotonic)."""
         busy = self.busy
         if not busy:
             return

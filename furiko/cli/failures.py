@@ -1,4 +1,4 @@
-"""What a command that failed says, and its exit status: by the kind of the exception."""
+"""The message and the exit status of a command that failed, by the kind of the exception."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Failure:
 
 
 def failure_of(error: BaseException) -> Failure:
-    """What to say of an exception, and the exit status."""
+    """The message of an exception, and the exit status."""
     if isinstance(error, Stopped):
         return _interrupted(f"interrupted by {error}", error.status)
     if isinstance(error, KeyboardInterrupt | click.Abort):

@@ -34,7 +34,7 @@ class OutputFailed(Exception):
 
 @dataclass
 class _Signals:
-    """What this process has been told."""
+    """The signals that this process has received."""
 
     last: float = -QUIET
     stopped: Stopped | None = None

@@ -1,4 +1,4 @@
-"""What meets in each entry of the mass matrix of an engine's own coordinates, and in its levers, in a given state.
+"""Magnitudes of each entry of the mass matrix of an engine's own coordinates, and in its levers, in a given state.
 
 Magnitudes that rounding is relative to, before they cancel: of an entry as its factorisation adds it up, and of
 distances as differences of the points that the engine knows.

@@ -1,4 +1,4 @@
-"""What rounding really does in a state to each entry of a result: its root mean square, by the algorithm's class.
+"""The effect of rounding on each entry of a result in a state: its root mean square, by the algorithm's class.
 
 The proven bounds (:mod:`.bounds`) have room for the worst of everything at once. Here every rounding is an independent
 random number of the size that it has in this very state, so that errors add up as the root of the sum of their squares.
@@ -41,7 +41,7 @@ Array = NDArray[np.float64]
 
 
 class Formulation(Protocol):
-    """What of an engine matters to its rounding; ``engines.EngineInfo`` has it."""
+    """The facts of an engine that matter to its rounding; ``engines.EngineInfo`` has them."""
 
     @property
     def coordinates(self) -> str: ...
@@ -102,7 +102,7 @@ class Terms:
 
 
 def terms(how: Formulation, system: DocumentSystem, amplitude: Amplitudes, theta: Array, omega: Array) -> Terms:
-    """What rounding does to each entry of the terms in states (B, n), each row asked for by itself.
+    """The effect of rounding on each entry of the terms in states (B, n), each row asked for by itself.
 
     Added to what the algorithm does: two roundings of each entry with every sine and cosine one. An angle is known
     to ε, so that a cosine near zero is not known better.

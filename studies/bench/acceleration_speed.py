@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ...engines import AnyShape, BareCall, cannot, engine_info, engine_version, load_engine
 from ...models import NLegPendulum, RodChain
 from ...models.states import random_states
-from ...models.systems import DocumentSystem as Mechanism
+from ...models.systems import DocumentSystem
 from ...records.bench import Speed
 from ...reference import literal_accelerations
 from ...reference.kernels.forward_dynamics import accelerations, kernel_of, plain_accelerations
@@ -48,7 +48,7 @@ class Entrant:
     threads: int = 1
 
 
-def mechanism(kind: str, n: int) -> Mechanism:
+def mechanism(kind: str, n: int) -> DocumentSystem:
     """Equal rods of 2 m in all, or legs and masses of unequal size; ``n`` links."""
     if kind == "rod-chain":
         return RodChain((2.0 / n,) * n)
@@ -88,7 +88,7 @@ def speeds(
     return found
 
 
-def own(system: Mechanism, batches: Sequence[int] = BATCHES, threads: int = 1) -> Iterator[Entrant]:
+def own(system: DocumentSystem, batches: Sequence[int] = BATCHES, threads: int = 1) -> Iterator[Entrant]:
     """furiko's kernels in every batch, the same formulas in numpy, and the documents' formula as printed."""
     kernel = kernel_of(system)
     theta, omega = random_states("speed", system, 1)
@@ -111,7 +111,7 @@ def own(system: Mechanism, batches: Sequence[int] = BATCHES, threads: int = 1) -
         yield Entrant("numpy", "literal", 1, Subject(partial(literal, theta[:1], omega[:1])), literal)
 
 
-def of_engines(system: Mechanism, engines: Sequence[str], batch: int) -> Iterator[Entrant]:
+def of_engines(system: DocumentSystem, engines: Sequence[str], batch: int) -> Iterator[Entrant]:
     """The most direct calls of the installed engines that take the system, each in all its lighter contexts."""
     for name in engines:
         info = engine_info(name)
@@ -129,7 +129,7 @@ def of_engines(system: Mechanism, engines: Sequence[str], batch: int) -> Iterato
                 yield Entrant(name, f"{says}, {suffix}", bare.states, lighter, engine.accelerations)
 
 
-def _direct_calls(engine: AnyShape, system: Mechanism, batch: int) -> Iterator[tuple[str, BareCall]]:
+def _direct_calls(engine: AnyShape, system: DocumentSystem, batch: int) -> Iterator[tuple[str, BareCall]]:
     """Names and calls; batches are as large as :data:`LONGEST_CALL` allows."""
     theta, omega = random_states("speed", system, 2)
     calls, native = engine.bare_calls(theta, omega), engine.native()
@@ -152,7 +152,7 @@ def _each(kernel: Callable[[Array, Array], Array], theta: Array, omega: Array) -
     return np.array([kernel(t, w) for t, w in zip(theta.copy(), omega.copy(), strict=True)])
 
 
-def _errors(system: Mechanism, entrants: Sequence[Entrant]) -> dict[tuple[str, str], float]:
+def _errors(system: DocumentSystem, entrants: Sequence[Entrant]) -> dict[tuple[str, str], float]:
     """Norm-wise errors: a state's largest error over its largest acceleration, the worst of a few states."""
     theta, omega = random_states("speed", system, CHECKED_STATES)
     truth = enclosed_accelerations(system, theta, omega)

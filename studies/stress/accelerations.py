@@ -145,7 +145,7 @@ class Problem:
 
 @lru_cache(maxsize=256)
 def problem_on(ladder: str, rung: int, seed: int) -> Problem:
-    """What stands on a rung; kept, since every subject of this process is asked the same."""
+    """The problem of a rung; kept, since every subject of this process is asked the same."""
     (found,) = find_axes((ladder,))
     recipe = found.recipe(rung)
     system = recipe.system()

@@ -124,7 +124,7 @@ class Axis:
         return float(min(round(value), round(max(self.end, self.further)))) if self.links else value
 
     def recipe(self, rung: int) -> Recipe:
-        """What stands on this rung."""
+        """The value of this rung."""
         return self.change(self.base, self.value(rung))
 
     def label(self, rung: int) -> str:
@@ -149,7 +149,7 @@ class Pair:
 
     @property
     def says(self) -> str:
-        """What it is."""
+        """A sentence that says what it is."""
         return f"{self.first.says}; at the same time {self.second.says}"
 
     @property
@@ -166,7 +166,7 @@ class Pair:
         return 100.0 * rung / PAIR_RUNGS
 
     def recipe(self, rung: int) -> Recipe:
-        """What stands on this rung."""
+        """The value of this rung."""
         first, second = (self._value(axis, rung) for axis in (self.first, self.second))
         return self.second.change(self.first.change(self._base(), first), second)
 
@@ -264,7 +264,7 @@ def pairs() -> Iterator[Pair]:
 
 
 def _fits(first: Axis, second: Axis) -> bool:
-    """What is without gravity keeps being so."""
+    """A mechanism without gravity stays without."""
     return not any("gravity" in a.fields and b.base.gravity == 0 for a, b in ((first, second), (second, first)))
 
 

@@ -233,7 +233,7 @@ def chain_runs() -> list[ChainRun]:
 
 
 def listed_cases() -> list[SwingsCase | StepCase | MemoryCase]:
-    """What needs nothing that came before it."""
+    """The cases that need no result of another."""
     kinds: tuple[Links, Links] = ("rods", "point masses")
     return [
         *(SwingsCase(n, links) for n in SWINGS for links in kinds),

@@ -6,7 +6,7 @@ from its answers. A failure is a finding about the engine and never ends a run.
 
 from __future__ import annotations
 
-from typing import Literal, get_args
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,13 +27,12 @@ Failure = Literal[
     "crash",
     "refused",
 ]
-FAILURES: tuple[Failure, ...] = get_args(Failure)
 
 NO_DIGITS = 0.01  # an error that no one would call rounding: finite, unannounced, and wrong in the second digit
 
 
 def of_answer(answer: Array, error: float) -> Failure | None:
-    """What is wrong with accelerations whose typical relative error is ``error``; None where they will do."""
+    """The failure of accelerations whose typical relative error is ``error``; None where they will do."""
     if not np.isfinite(answer).all():
         return "NaN"
     if error >= NO_DIGITS:
@@ -42,7 +41,7 @@ def of_answer(answer: Array, error: float) -> Failure | None:
 
 
 def of_path(theta: Array, omega: Array) -> tuple[Failure, int] | None:
-    """What is wrong with a run's states (K + 1, n), and at which of them it shows first; None where nothing is.
+    """The failure of a run's states (K + 1, n), and at which of them it shows first; None where nothing is.
 
     A silent reset: a state after the second that is the initial one to the last bit, though the motion had left it.
     Of a motion that does come back no more than digits agree.

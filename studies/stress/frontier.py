@@ -36,7 +36,7 @@ def scouts(top: int) -> list[int]:
 
 
 def frontier(answers: Mapping[int, bool], top: int) -> Frontier:
-    """What the answers (rung: whether it holds) tell so far."""
+    """The frontier that the answers (rung: whether it holds) show so far."""
     failing = [rung for rung, holds in answers.items() if not holds]
     if not failing:
         return Frontier(max(answers, default=-1), None, next_rung(answers, top) is None)

@@ -1,4 +1,4 @@
-"""The stress test: searches that ask for cases, workers that run them, a budget, and results that may be gone on from.
+"""The stress test: searches that ask for cases, workers that run them, a budget, and resumed runs.
 
 What has been found is in the results alone, each under a name of its own. A search is a function of them: it says which
 case it needs next, or that it knows. So a run that was cut off goes on where it stood, nothing is lost and nothing is
@@ -88,7 +88,7 @@ class AccelerationSearch:
         return AccelerationCase(self.ladder.name, self.subject, rung, self.seed)
 
     def answers(self, results: Results) -> dict[int, bool]:
-        """What is known of each rung."""
+        """The known answers, by rung."""
         found = ((rung, results.get(key(self.case(rung)))) for rung in range(self.top + 1))
         return {rung: holds(result) for rung, result in found if result is not None}
 
@@ -101,7 +101,7 @@ class AccelerationSearch:
         return frontier(self.answers(results), self.top).fails is not None
 
     def frontier(self, results: Results) -> Frontier:
-        """What is known so far."""
+        """The frontier known so far."""
         return frontier(self.answers(results), self.top)
 
 
@@ -122,7 +122,7 @@ class StabilitySearch:
         return StabilityCase(self.engine, self.integrator, self.stress, self.value, rung, self.seed)
 
     def answers(self, results: Results) -> dict[int, bool]:
-        """What is known of each rung."""
+        """The known answers, by rung."""
         found = ((rung, results.get(key(self.case(rung)))) for rung in range(TOP + 1))
         return {rung: holds(result) for rung, result in found if result is not None}
 
@@ -146,7 +146,7 @@ class LongRun:
     family = "long runs"
 
     def parts(self, results: Results) -> list[Result]:
-        """What has been run, in order."""
+        """The parts that have been run, in order."""
         found: list[Result] = []
         while len(found) < CHUNKS:
             result = results.get(key(LongRunCase(self.engine, self.integrator, len(found), self.steps)))

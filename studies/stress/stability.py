@@ -58,7 +58,7 @@ class Problem:
 
 
 def problem(stress: Stress, value: float, seed: int) -> Problem:
-    """What is run; the seed shakes the bow a little."""
+    """The problem that is run; the seed shakes the bow a little."""
     n = int(value) if stress == "links" else RODS
     length = value if stress == "length" else 1.0
     system = RodChain((length / n,) * n)
@@ -106,7 +106,7 @@ class StabilityCase:
 
     @property
     def scene(self) -> str:
-        """What is put under stress, and how much."""
+        """The quantity that is put under stress, and its value."""
         return f"step, {self.stress} {self.value:g}"
 
     @property
@@ -152,7 +152,7 @@ class StabilityCase:
 def first_failure(
     given: Problem, theta: Array, omega: Array, gap: float | None = None
 ) -> tuple[Failure | None, int, float | None]:
-    """What failed first in a run's states (K + 1, n), at which of them, and the largest |E - E₀| over its scale."""
+    """The first failure in a run's states (K + 1, n), at which of them, and the largest |E - E₀| over its scale."""
     last = len(theta) - 1
     chosen = np.unique(np.linspace(0, last, min(SAMPLES, last + 1)).round().astype(int))
     kinetic, potential = energies(given.system, theta[chosen], omega[chosen])
@@ -287,7 +287,7 @@ def _squares_of_line(x: Array, values: Array) -> tuple[float, float]:
 
 
 def _squares_of_exponential(x: Array, values: Array, growth: float) -> float:
-    """What is left of a + b e^(growth·x)."""
+    """The residual of a fit of a + b e^(growth·x)."""
     basis = np.stack([np.ones_like(x), np.exp(growth * (x - 1))], axis=1)
     fit, *_ = np.linalg.lstsq(basis, values, rcond=None)
     return float(((values - basis @ fit) ** 2).sum())

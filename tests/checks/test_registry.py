@@ -1,0 +1,34 @@
+"""One record a check: its module is there, bears its name, and each comparison has a record."""
+
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+from furiko.checks.registry import CHECKS
+from furiko.engines import EngineInfo
+from furiko.models import find_scene
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.mark.parametrize("check", CHECKS.values(), ids=lambda check: check.name)
+def test_a_check_is_what_its_record_says(check):
+    module = import_module(f"furiko.checks.comparisons.{check.module}")
+    assert check.name == module.NAME
+    assert callable(module.compare)
+    assert check.meaning.endswith(".")
+    assert check.bound
+
+
+def test_every_comparison_has_a_record():
+    files = {path.stem for path in (ROOT / "checks" / "comparisons").glob("*.py")} - {"__init__"}
+    assert files == {check.module for check in CHECKS.values()}
+
+
+def test_a_check_says_why_it_is_skipped():
+    info = EngineInfo("none", "", "", "", "", "", "absolute", missing={"trajectory": "it has no integrator"})
+    scene = find_scene("rods-2")
+    assert CHECKS["step map"].skipped(scene, info) == "it has no integrator"
+    assert CHECKS["accelerations"].skipped(scene, info) == ""
+    assert "not tagged 'chaotic'" in CHECKS["horizon"].why_not(scene, info)
