@@ -79,7 +79,7 @@ def test_another_model_is_told_from_a_scheme(make_cell, monkeypatch):
 def test_errors_are_carried_by_the_flow():
     # e₁ = d₁, e₂ = Φ e₁ + d₂: twice, and one more.
     flow = np.repeat(2 * np.eye(2)[None], 3, axis=0)
-    truth = horizon.Truth(1.0, np.zeros((4, 2)), np.zeros((4, 2)), flow, None)
+    truth = horizon.TrueMotion(1.0, np.zeros((4, 2)), np.zeros((4, 2)), flow, None)
     carried, sizes = horizon.carry(truth, iter([np.full(2, 0.01)] * 3))
     np.testing.assert_allclose(carried[:, 0], [0, 0.01, 0.03, 0.07])
     np.testing.assert_allclose(sizes, 0.01)
