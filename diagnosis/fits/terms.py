@@ -75,7 +75,7 @@ def terms_of(measured: Measurement, p: Parameters) -> Terms:
 def _inverse(mass: Array) -> Array:
     """NaN where one of them is singular: such a mechanism has no accelerations."""
     try:
-        return np.asarray(np.linalg.inv(mass))
+        return np.asarray(np.linalg.inv(mass), dtype=np.float64)
     except np.linalg.LinAlgError:
         return np.full_like(mass, np.nan)
 
