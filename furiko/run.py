@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
+from typing import TypeVar
 
 from . import __version__
 from .checks.cache import Cache, user_cache
@@ -20,6 +21,7 @@ from .records import provenance
 from .records.check import Diagnosis, EngineEntry, Footer, Header, Result, SceneEntry
 from .reports import Report, StreamWriter, footer_of, open_report, prepare_reports, write_reports
 
+R = TypeVar("R", Result, Diagnosis)
 SEED = "sha256 of the scene's name, PCG64"
 
 
@@ -71,13 +73,13 @@ def check(
             prepare_reports()  # likewise: at the end of a small run nothing else would be left to do
 
         def take(result: Result) -> None:
-            results.append(result if stream is None or unwritten else _written(stream, result, unwritten))
+            results.append(result if stream is None else _written(stream.write, result, unwritten))
             if watch is not None:
                 watch(plan, results[-1])
 
         for record in running:
             if isinstance(record, Diagnosis):
-                diagnoses.append(_written_diagnosis(stream, record, unwritten))
+                diagnoses.append(record if stream is None else _written(stream.write_diagnosis, record, unwritten))
             else:
                 take(record)
         for result in ledger.missing(results):
@@ -94,24 +96,15 @@ def check(
     return report
 
 
-def _written(stream: StreamWriter, result: Result, unwritten: list[str]) -> Result:
-    """The result as the stream has it. A stream that takes no more ends there, without a footer; the run goes on."""
+def _written(write: Callable[[R], R], record: R, unwritten: list[str]) -> R:
+    """The record as the stream has it. A stream that takes no more ends there, without a footer; the run goes on."""
+    if unwritten:
+        return record
     try:
-        return stream.write(result)
+        return write(record)
     except InvalidInput as error:
         unwritten.append(str(error))
-        return result
-
-
-def _written_diagnosis(stream: StreamWriter | None, diagnosis: Diagnosis, unwritten: list[str]) -> Diagnosis:
-    """The diagnosis as the stream has it; see :func:`_written`."""
-    if stream is None or unwritten:
-        return diagnosis
-    try:
-        return stream.write_diagnosis(diagnosis)
-    except InvalidInput as error:
-        unwritten.append(str(error))
-        return diagnosis
+        return record
 
 
 def _footer(

@@ -12,7 +12,7 @@ from ...records.check import Result
 from ...reference import mass_matrix
 from ...reference.rounding import spread
 from ...reference.rounding.bounds import EPSILON, Amplitudes, allowed, turns
-from ...reference.rounding.maximal_elimination import elimination, states_within_a_second
+from ...reference.rounding.maximal_elimination import elimination, furthest_off
 from .. import sharp
 from ..cell import Cell, Worst, quotient, worst
 from ..facts import forward_error
@@ -98,12 +98,12 @@ def backward_error(cell: Cell, accelerations: Array, amplitude: Amplitudes) -> t
     error = cell.facts.error(accelerations)
     residual = amplitude.residual((mass @ error[..., None])[..., 0])
     rows = amplitude.rows(accelerations, omega) * turned
-    beyond = (np.abs(residual) > EPSILON * allowed(system.n, cell.info.accuracy) * rows).any(axis=-1)
+    allowance = EPSILON * allowed(system.n, cell.info.accuracy)
+    beyond = np.asarray((np.abs(residual) > allowance * rows).any(axis=-1))
     if beyond.any():
         rows[beyond] = amplitude.rows(accelerations[beyond], omega[beyond], mass[beyond]) * turned[beyond]
         if cell.info.coordinates == "maximal":
-            most, excess = states_within_a_second(system.n), quotient(residual, rows).max(axis=-1)
-            looked_at = np.flatnonzero(beyond)[np.argsort(-excess[beyond], kind="stable")][:most]
+            looked_at = furthest_off(beyond, quotient(residual, rows).max(axis=-1), system.n)
             rows[looked_at] += elimination(system, theta[looked_at], omega[looked_at])[0]
             judged[beyond] = False
             judged[looked_at] = True

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ...records.check import Result
 from ...reference.rounding import spread
 from ...reference.rounding.bounds import EPSILON, allowed, turns
-from ...reference.rounding.maximal_elimination import elimination, states_within_a_second
+from ...reference.rounding.maximal_elimination import elimination, furthest_off
 from .. import sharp
 from ..cell import Cell, quotient, worst
 from ..facts import FORCE_STATES
@@ -33,8 +33,7 @@ def compare(cell: Cell) -> Iterator[Result]:
     bound = allowed(cell.scene.system.n, cell.info.accuracy)
     beyond, left = (error > bound * EPSILON * scale).any(axis=-1), 0
     if cell.info.coordinates == "maximal" and beyond.any():  # seldom, and costs more than all the rest
-        excess, most = quotient(error, scale).max(axis=-1), states_within_a_second(cell.scene.system.n)
-        looked_at = np.flatnonzero(beyond)[np.argsort(-excess[beyond], kind="stable")][:most]
+        looked_at = furthest_off(beyond, quotient(error, scale).max(axis=-1), cell.scene.system.n)
         scale[looked_at] += elimination(cell.scene.system, theta[looked_at], omega[looked_at])[1]
         beyond[looked_at] = False
         scale[beyond] = np.inf  # of the others nothing is said: it would take a second a state

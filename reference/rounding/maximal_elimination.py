@@ -50,6 +50,11 @@ def states_within_a_second(n: int, orders: int = ORDERS) -> int:
     return max(1, int(WORK / (orders * (5.0 * n) ** 3 + ASIDE)))
 
 
+def furthest_off(beyond: NDArray[np.bool_], excess: Array, n: int) -> NDArray[np.intp]:
+    """Of the states (B,) that are ``beyond`` a bound, those of most ``excess`` that can be looked at in a second."""
+    return np.flatnonzero(beyond)[np.argsort(-excess[beyond], kind="stable")][: states_within_a_second(n)]
+
+
 def spread_orders(n: int) -> int:
     """How many random orders a spread rests on, besides two: from the tips link by link, and as the unknowns stand."""
     return ORDERS if n <= LONG else FEW_ORDERS
