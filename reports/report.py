@@ -81,7 +81,7 @@ class Report:
 
     @property
     def complete(self) -> bool:
-        """Whether the stream is whole: its footer has the counts and the digest of its lines, and none is in it twice."""
+        """Whether the stream is whole: its footer has the counts and the digest of its lines, none of them twice."""
         return self.footer is not None and not self._miscounted and not self.repeated and not self.altered
 
     @cached_property

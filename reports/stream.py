@@ -1,8 +1,8 @@
 """The result stream, ``report.jsonl``: written line by line as results come, read back with every line checked.
 
 A stream is complete only with its footer, and only :meth:`StreamWriter.finish` writes one. The footer has a digest of
-all that stands before it: a figure that was changed afterwards does not pass for what a run measured. JSON has no NaN and no
-infinity: a figure that is not finite is written as null, and the result's reason says which it was.
+all that stands before it: a figure that was changed afterwards does not pass for what a run measured. JSON has no NaN
+and no infinity: a figure that is not finite is written as null, and the result's reason says which it was.
 """
 
 from __future__ import annotations
