@@ -152,6 +152,15 @@ def test_refinement_stops_at_rounding():
     assert "rounding" in why
 
 
+def test_errors_that_still_fall_by_a_third_are_no_rounding_and_those_that_fall_by_a_fifth_are():
+    falling = [1e-2, 1e-4, 0.66e-4, 0.44e-4, 0.29e-4, 0.19e-4]
+    assert [run.error for run in refine(made_up(falling), own_error, math.inf)[0]] == falling
+    stuck = [1e-2, 1e-4, 0.8e-4, 0.64e-4, 1e-9]
+    runs, why = refine(made_up(stuck), own_error, math.inf)
+    assert [run.error for run in runs] == stuck[:4]
+    assert "rounding" in why
+
+
 def test_errors_that_do_not_fall_yet_are_no_rounding():
     errors = [10.0, 20.0, 15.0, 12.0, 1e-1, 1e-3]
     runs, why = refine(made_up(errors), own_error, math.inf)
