@@ -16,13 +16,15 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from flint import arb
 from numpy.typing import NDArray
 
 from ...models.errors import InvalidInput
 from ...models.spatial_mechanism import PlacedJoint, SpatialMechanism
 from ..arithmetic import Array
 from .enclosures import BITS, MOST_BITS, RELATIVE_RADIUS, Enclosure, precision, rounded
-from .spatial_motion import Motion
+from .spatial_motion import Motion, frobenius
+from .spatial_solve import solution
 
 Floats = NDArray[np.float64]
 
@@ -97,14 +99,12 @@ class SpatialTruth:
         usual = float(np.linalg.norm(self.mechanism.gravity) + np.square(self.v).max(initial=0.0))
 
         def solved(motion: Motion) -> tuple[list[Any], float]:
-            return motion.solve(self._right(motion)), usual
+            return solution(motion, self._right(motion)), usual
 
         return BallArray(self._proved(solved))
 
     def residual(self, accelerations: Floats) -> BallArray:
         """M a + bias − passive − torque, (nv,), for an engine's accelerations a (nv,)."""
-        from flint import arb
-
         given = [arb(a) for a in np.asarray(accelerations, dtype=np.float64).tolist()]
 
         def left(motion: Motion) -> tuple[list[Any], float]:
@@ -124,16 +124,14 @@ class SpatialTruth:
         return [v + g for v, g in zip(velocity, gravity, strict=True)], max(one, other)
 
     def _velocity(self, motion: Motion) -> tuple[list[Any], float]:
-        largest = _largest(motion.partial) * max(map(_largest, motion.momentum_rates), default=0.0)
-        return motion.velocity_terms(), largest
+        rates = max((float(frobenius(rate)) for rate in motion.momentum_rates), default=0.0)
+        return motion.velocity_terms(), float(frobenius(motion.partial)) * rates
 
     def _gravity(self, motion: Motion) -> tuple[list[Any], float]:
         gravity = self.mechanism.gravity.tolist()
-        return motion.gravity_terms(gravity), _largest(motion.momenta) * max(map(abs, gravity))
+        return motion.gravity_terms(gravity), float(frobenius(motion.momenta)) * max(map(abs, gravity))
 
     def _passive(self) -> list[Any]:
-        from flint import arb
-
         damping = self.mechanism.per_freedom("damping").tolist()
         found = [-arb(d) * rate for d, rate in zip(damping, self.v.tolist(), strict=True)]
         for placed in self.mechanism.joints:
@@ -180,25 +178,18 @@ def energy(mechanism: SpatialMechanism, q: Floats, v: Floats, bits: int = BITS) 
 
     Kinetic with the armatures'; potential −Σ m g·c of all that moves, and the springs' ½ k × stretch².
     """
-    from flint import arb
-
     truth = spatial_truth(mechanism, q, v)
-    gravity = mechanism.gravity.tolist()
+    sprung = [placed for placed in mechanism.joints if placed.joint.stiffness]
 
     def both(bits: int) -> tuple[list[Any], float]:
         motion = Motion(mechanism, truth.q, truth.v, bits)
-        springs = sum(
-            (
-                arb(placed.joint.stiffness) * stretch * stretch / 2
-                for placed in mechanism.joints
-                if placed.joint.stiffness
-                for stretch in _stretches(mechanism, placed, truth.q)
-            ),
-            arb(0),
-        )
-        height = motion.height_energy(gravity)
+        springs = arb(0)
+        for placed in sprung:
+            for stretch in _stretches(mechanism, placed, truth.q):
+                springs += arb(placed.joint.stiffness) * stretch * stretch / 2
+        height, added = motion.height_energy(mechanism.gravity.tolist())
         kinetic = motion.kinetic_energy([arb(rate) for rate in truth.v.tolist()])
-        return [kinetic, height + springs], 0.0
+        return [kinetic, height + springs], float(added)
 
     return BallArray(_narrow(both, bits))
 
@@ -221,8 +212,6 @@ def _stretches(mechanism: SpatialMechanism, placed: PlacedJoint, q: Floats) -> l
 
     A rotation's is that of its angle, at most π, along its axis, in the body's axes.
     """
-    from flint import arb
-
     here = q[placed.columns_q].tolist()
     if placed.joint.kind in ("hinge", "slide"):
         return [arb(here[0]) - arb(placed.joint.springref)]
@@ -238,8 +227,6 @@ def _rotation_vector(rest: list[float], here: list[float]) -> list[Any]:
 
     With (w, r) the quotient of the quaternions, it is 2 r/w · atan(t)/t with t = |r|/|w|, and 1 − t²/3 ≤ atan(t)/t ≤ 1.
     """
-    from flint import arb
-
     a, b, c, d = (arb(x) for x in rest)
     e, f, g, h = (arb(x) for x in here)
     w = a * e + b * f + c * g + d * h
@@ -260,8 +247,6 @@ def _rotation_vector(rest: list[float], here: list[float]) -> list[Any]:
 
 def _near_one(t: Any) -> Any:
     """atan(t)/t for a ball about zero."""
-    from flint import arb
-
     return arb(1, (t.abs_upper() ** 2 / 3).abs_upper())
 
 
@@ -275,7 +260,7 @@ def _narrow(attempt: Callable[[int], tuple[list[Any], float]], bits: int) -> Arr
                 largest = max((float(abs(ball).upper()) for ball in found), default=0.0)
         except ZeroDivisionError:  # balls too wide to divide by
             found, widest, largest, added = [], np.inf, 0.0, 0.0
-        if widest <= RELATIVE_RADIUS * max(largest, added):
+        if widest <= RELATIVE_RADIUS * max(largest, added) < np.inf:
             return np.array(found, dtype=object)
         if bits >= MOST_BITS:
             raise ArithmeticError(
@@ -283,7 +268,3 @@ def _narrow(attempt: Callable[[int], tuple[list[Any], float]], bits: int) -> Arr
                 "much in size"
             )
         bits *= 2
-
-
-def _largest(matrix: Any) -> float:
-    return max((float(abs(entry).upper()) for entry in matrix.entries()), default=0.0)

@@ -22,12 +22,15 @@ from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
+from flint import arb, arb_mat
 from numpy.typing import NDArray
 
 from ...models.spatial_mechanism import WORLD, Joint, RigidBody, SpatialMechanism
 
 Floats = NDArray[np.float64]
 Vector = tuple[Any, Any, Any]  # of balls
+IDENTITY = arb_mat([[1, 0, 0], [0, 1, 0], [0, 0, 1]])
+STILL = arb_mat(6, 1)
 
 
 @dataclass(eq=False)
@@ -52,10 +55,8 @@ class Group:
 @lru_cache(maxsize=8)
 def groups(mechanism: SpatialMechanism, bits: int) -> tuple[Group, ...]:
     """The moving groups of a mechanism in balls of the precision that is set, which must be ``bits``."""
-    from flint import arb, arb_mat
-
     found: list[Group] = []
-    world = Group(WORLD, _identity(), _vector((0, 0, 0)), arb(0), _vector((0, 0, 0)), arb_mat(3, 3))
+    world = Group(WORLD, IDENTITY, _vector((0, 0, 0)), arb(0), _vector((0, 0, 0)), arb_mat(3, 3))
     frames: list[tuple[int, Any, Vector]] = []  # of each body: its group, and its pose in that one's frame
     at = {(placed.body, placed.joint.name): placed for placed in mechanism.joints}
     for index, body in enumerate(mechanism.bodies):
@@ -80,7 +81,7 @@ def _add(group: Group, body: RigidBody, rotation: Any, position: Vector) -> None
     inertial = body.inertial
     if inertial.mass == 0 and not inertial.tensor.any():
         return
-    mass, tensor = _number(inertial.mass), _matrix(inertial.tensor)
+    mass, tensor = arb(inertial.mass), _matrix(inertial.tensor)
     centre = _sum(position, _turned(rotation, _vector(inertial.centre)))
     group.mass += mass
     group.moment = _sum(group.moment, scaled(mass, centre))
@@ -96,15 +97,13 @@ class Motion:
     """
 
     def __init__(self, mechanism: SpatialMechanism, q: Floats, v: Floats, bits: int) -> None:
-        from flint import arb
-
         self.groups = groups(mechanism, bits)
         self.freedoms: list[Any] = []  # s_j, as columns (6, 1)
         self.moves: list[int] = []  # of each freedom: the group that it moves first
         self.inertias: list[Any] = []  # 𝕀 of each group, (6, 6)
         self.velocities: list[Any] = []
         self.drifts: list[Any] = []  # ζ
-        self.poses: list[tuple[Any, Vector]] = []
+        self.poses: list[tuple[Any, Vector, Any]] = []  # rotation, position, and what the first's midpoint is off by
         self.armature = [arb(a) for a in mechanism.per_freedom("armature").tolist()]
         coordinates, rates = q.tolist(), [arb(rate) for rate in v.tolist()]
         for index, group in enumerate(self.groups):
@@ -112,22 +111,27 @@ class Motion:
 
     def _place(self, index: int, group: Group, q: list[float], v: list[Any]) -> None:
         if group.parent == WORLD:
-            rotation, position = group.rotation, group.position
-            velocity, drift = _column([0] * 6), _column([0] * 6)
+            base, origin, off = IDENTITY, _vector((0, 0, 0)), arb(0)
+            velocity, drift = STILL, STILL
         else:
-            base, origin = self.poses[group.parent]
-            rotation, position = base * group.rotation, _sum(origin, _turned(base, group.position))
+            base, origin, off = self.poses[group.parent]
             velocity, drift = self.velocities[group.parent], self.drifts[group.parent]
+        within, position = group.rotation, _sum(origin, _turned(base, group.position))
         for joint, at_q, at_v, axis, across, anchor in group.joints:
             here = q[at_q : at_q + joint.coordinates]
-            rotation, position, motions = _moved(joint, here, axis, across, anchor, rotation, position)
+            if joint.kind == "free":
+                within, position = from_quaternion(here[3:]), _vector(here[:3])
+                motions = [_column([0, 0, 0, *_unit_vector(k)]) for k in range(3)] + _turning(within, position)
+            else:
+                within, position, motions = _moved(joint, here, axis, across, anchor, base, within, position)
             own = [motion * v[at_v + k] for k, motion in enumerate(motions)]
             self.freedoms += motions
             self.moves += [index] * len(motions)
             velocity = velocity + _total(own)
             # A free joint's first three keep their directions in the world, everything else turns with the frame.
             drift = drift + _motion_cross(velocity, _total(own[3:] if joint.kind == "free" else own))
-        self.poses.append((rotation, position))
+        rotation, off = _carried(base, off, within)
+        self.poses.append((rotation, position, off))
         self.velocities.append(velocity)
         self.drifts.append(drift)
         self.inertias.append(_about_origin(group, rotation, position))
@@ -151,7 +155,7 @@ class Motion:
         """M, with the armature on its diagonal."""
         every = (self.partial * self.momenta.transpose()).tolist()  # right where i moves what j moves
         n = len(self.freedoms)
-        zero = self._zero
+        zero = arb(0)
         found = [[zero] * n for _ in range(n)]
         before = self._freedoms_before()
         for j in range(n):
@@ -181,7 +185,7 @@ class Motion:
         swings: list[Any] = []
         at = 0
         for index, group in enumerate(self.groups):
-            swing = swings[group.parent] if group.parent != WORLD else _column([0] * 6)
+            swing = swings[group.parent] if group.parent != WORLD else STILL
             while at < len(self.moves) and self.moves[at] == index:
                 swing = swing + self.freedoms[at] * accelerations[at]
                 at += 1
@@ -189,53 +193,20 @@ class Motion:
         rows = self._rows_of([inertia * swing for inertia, swing in zip(self.inertias, swings, strict=True)])
         return [row + i * a for row, i, a in zip(rows, self.armature, accelerations, strict=True)]
 
-    def solve(self, right: Sequence[Any]) -> list[Any]:
-        """x with M x = right, in O(n): one freedom after another eliminated from the tips, as in Gauß' elimination.
-
-        Raises ZeroDivisionError where these balls do not show M to be regular.
-        """
-        n = len(self.freedoms)
-        inertias, forces = list(self.inertias), [_column([0] * 6) for _ in self.groups]
-        kept: list[Any] = [None] * n
-        for j in reversed(range(n)):
-            group, motion = self.moves[j], self.freedoms[j]
-            momentum = inertias[group] * motion
-            pivot = (motion.transpose() * momentum)[0, 0] + self.armature[j]
-            if not pivot > 0:
-                raise ZeroDivisionError("a pivot that the balls do not show to be positive")
-            left = (right[j] - (motion.transpose() * forces[group])[0, 0]) / pivot
-            kept[j] = momentum.transpose() / pivot, left
-            inertias[group] = inertias[group] - momentum * kept[j][0]
-            forces[group] = forces[group] + momentum * left
-            parent = self.groups[group].parent
-            if parent != WORLD and (j == 0 or self.moves[j - 1] != group):
-                inertias[parent] = inertias[parent] + inertias[group]
-                forces[parent] = forces[parent] + forces[group]
-        found: list[Any] = []
-        swings: list[Any] = []
-        for j in range(n):
-            group = self.moves[j]
-            if group == len(swings):
-                parent = self.groups[group].parent
-                swings.append(swings[parent] if parent != WORLD else _column([0] * 6))
-            share, left = kept[j]
-            found.append(left - (share * swings[group])[0, 0])
-            swings[group] = swings[group] + self.freedoms[j] * found[j]
-        return found
-
     def kinetic_energy(self, rates: Sequence[Any]) -> Any:
         """½ Σ V·𝕀V and the armatures' [J]."""
         moving = zip(self.velocities, self.inertias, strict=True)
-        total = sum(((v.transpose() * inertia * v)[0, 0] for v, inertia in moving), self._zero)
-        return (total + sum((i * rate * rate for i, rate in zip(self.armature, rates, strict=True)), self._zero)) / 2
+        total = sum(((v.transpose() * inertia * v)[0, 0] for v, inertia in moving), arb(0))
+        return (total + sum((i * rate * rate for i, rate in zip(self.armature, rates, strict=True)), arb(0))) / 2
 
-    def height_energy(self, gravity: Sequence[Any]) -> Any:
-        """−Σ m g·c [J], over all that moves."""
-        total = self._zero
-        for group, (rotation, position) in zip(self.groups, self.poses, strict=True):
-            moment = _sum(scaled(group.mass, position), _turned(rotation, group.moment))
-            total = total - dot(gravity, moment)
-        return total
+    def height_energy(self, gravity: Sequence[Any]) -> tuple[Any, Any]:
+        """−Σ m g·c [J] over all that moves, and the sum of its terms' magnitudes."""
+        total, added = arb(0), arb(0)
+        for group, (rotation, position, _) in zip(self.groups, self.poses, strict=True):
+            for parts in (scaled(group.mass, position), _turned(rotation, group.moment)):
+                for g, part in zip(gravity, parts, strict=True):
+                    total, added = total - part * g, added + abs(part * g)
+        return total, added
 
     def _rows_of(self, forces: list[Any]) -> list[Any]:
         """s_j · Σ forces on what j moves."""
@@ -260,33 +231,39 @@ class Motion:
             above.append(above[parent] + own[parent] if parent != WORLD else [])
         return [above[b] + [i for i in own[b] if i < j] for j, b in enumerate(self.moves)]
 
-    @property
-    def _zero(self) -> Any:
-        return _number(0)
-
 
 def _moved(
-    joint: Joint, q: list[float], axis: Vector, across: Any, anchor: Vector, rotation: Any, position: Vector
+    joint: Joint, q: list[float], axis: Vector, across: Any, anchor: Vector, base: Any, within: Any, position: Vector
 ) -> tuple[Any, Vector, list[Any]]:
-    """The pose after the joint, and the partial velocities of its freedoms."""
+    """The pose after the joint, and the partial velocities of its freedoms; ``within`` the frame ``base``."""
+    rotation = base * within
     if joint.kind == "slide":
         direction = _turned(rotation, axis)
-        way = _number(q[0]) - _number(joint.ref)
-        return rotation, _sum(position, scaled(way, direction)), [_column([0, 0, 0, *direction])]
-    if joint.kind == "free":
-        position, rotation = _vector(q[:3]), from_quaternion(q[3:])
-        shifts = [_column([0, 0, 0, *_unit_vector(k)]) for k in range(3)]
-        return rotation, position, shifts + _turning(rotation, position)
+        way = arb(q[0]) - arb(joint.ref)
+        return within, _sum(position, scaled(way, direction)), [_column([0, 0, 0, *direction])]
     pivot = _sum(position, _turned(rotation, anchor))
     if joint.kind == "hinge":
-        sine, cosine = (_number(q[0]) - _number(joint.ref)).sin_cos()
+        sine, cosine = (arb(q[0]) - arb(joint.ref)).sin_cos()
         direction = _turned(rotation, axis)
-        rotation = rotation * (_identity() + across * sine + across * across * (1 - cosine))
+        within = within * (IDENTITY + across * sine + across * across * (1 - cosine))
         motions = [_column([*direction, *cross(pivot, direction)])]
     else:
-        rotation = rotation * from_quaternion(q)
-        motions = _turning(rotation, pivot)
-    return rotation, _difference(pivot, _turned(rotation, anchor)), motions
+        within = within * from_quaternion(q)
+        motions = _turning(base * within, pivot)
+    return within, _difference(pivot, _turned(base * within, anchor)), motions
+
+
+def _carried(base: Any, off: Any, within: Any) -> tuple[Any, Any]:
+    """base · within, of two rotations, and what its midpoint is off by at most, in the Frobenius norm.
+
+    ``off``: the same of ``base``. A rotation leaves that norm as it is, so that errors add up along a chain; the balls
+    of entry-wise products would grow by half a bit or more a body.
+    """
+    middle = within.mid()
+    product = base.mid() * middle
+    exact = product.mid()
+    off = (off + (1 + off) * frobenius(within - middle) + frobenius(product - exact)).abs_upper()
+    return exact + arb_mat(3, 3, [arb(0, off)] * 9), off
 
 
 def _turning(rotation: Any, pivot: Vector) -> list[Any]:
@@ -297,15 +274,13 @@ def _turning(rotation: Any, pivot: Vector) -> list[Any]:
 
 def _about_origin(group: Group, rotation: Any, position: Vector) -> Any:
     """𝕀 (6, 6) of a group whose frame is there, from its inertial about its frame's origin."""
-    from flint import arb_mat
-
     m, x = group.mass, position
     moment = _turned(rotation, group.moment)
     at, to = crossing(x), crossing(moment)
     tensor = rotation * group.tensor * rotation.transpose() - at * at * m - at * to - to * at
     (a, b, c), (_, d, e), (_, _, f) = tensor.tolist()
     p, q, r = _sum(scaled(m, x), moment)
-    z = _number(0)
+    z = arb(0)
     return arb_mat(
         [
             [a, b, c, z, -r, q],
@@ -322,9 +297,14 @@ def from_quaternion(q: Sequence[float]) -> Any:
     """The rotation matrix of the exact unit quaternion along q (w, x, y, z). Raises ZeroDivisionError for zeros."""
     if not any(q):
         raise ZeroDivisionError("a quaternion of length zero is no rotation")
-    w, x, y, z = (_number(part) for part in q)
+    w, x, y, z = (arb(part) for part in q)
     across = crossing((x, y, z))
-    return _identity() + (across * w + across * across) * (2 / (w * w + x * x + y * y + z * z))
+    return IDENTITY + (across * w + across * across) * (2 / (w * w + x * x + y * y + z * z))
+
+
+def frobenius(matrix: Any) -> Any:
+    """An upper bound of the Frobenius norm of the matrices in the balls, exact."""
+    return (matrix.transpose() * matrix).trace().abs_upper().sqrt().abs_upper()
 
 
 def unit(v: Vector) -> Vector:
@@ -336,8 +316,6 @@ def unit(v: Vector) -> Vector:
 
 def crossing(v: Vector) -> Any:
     """The matrix [v]× with [v]× u = v × u."""
-    from flint import arb_mat
-
     x, y, z = v
     return arb_mat([[0, -z, y], [z, 0, -x], [-y, x, 0]])
 
@@ -385,29 +363,19 @@ def _difference(a: Vector, b: Vector) -> Vector:
 
 
 def _total(parts: Iterable[Any]) -> Any:
-    return sum(parts, start=_column([0] * 6))
+    return sum(parts, start=STILL)
 
 
 def _column(values: Sequence[Any]) -> Any:
-    from flint import arb_mat
-
     return arb_mat(len(values), 1, list(values))
 
 
 def _rows(columns: list[Any]) -> Any:
-    from flint import arb_mat
-
     return arb_mat(len(columns), 6, [entry for column in columns for entry in column.entries()])
 
 
-def _number(x: float) -> Any:
-    from flint import arb
-
-    return arb(x)
-
-
 def _vector(values: Iterable[float]) -> Vector:
-    x, y, z = (_number(float(value)) for value in values)
+    x, y, z = (arb(float(value)) for value in values)
     return x, y, z
 
 
@@ -416,14 +384,8 @@ def _unit_vector(k: int) -> Vector:
 
 
 def _matrix(values: Floats) -> Any:
-    from flint import arb_mat
-
     return arb_mat(values.tolist())
 
 
-def _identity() -> Any:
-    return _matrix(np.eye(3))
-
-
 def _rest() -> tuple[Any, Vector]:
-    return _identity(), _vector((0, 0, 0))
+    return IDENTITY, _vector((0, 0, 0))
