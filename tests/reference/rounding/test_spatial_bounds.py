@@ -1,6 +1,7 @@
 """Bounds of rounding in space hold for MuJoCo and Pinocchio, which are right, and not for what is a little wrong."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -126,6 +127,13 @@ def arm(rng, n=7):
     return SpatialMechanism(tuple(bodies), np.array([0.0, 0.0, -9.81]))
 
 
+@cache
+def arm_in_motion():
+    rng = np.random.default_rng(7)
+    mechanism = arm(rng)
+    return spatial_truth(mechanism, *spatial_trees.state(rng, mechanism))
+
+
 def altered(mechanism, index, parameter, relative):
     body = mechanism.bodies[index]
     inertial = body.inertial
@@ -149,10 +157,8 @@ def test_a_parameter_of_an_arm_that_is_a_little_off_is_found(parameter, index):
     The first link's weight is a thousandth of what its joint moves, so that a row shows 1e-8 of it. Its place matters
     to nothing, gravity being the same everywhere.
     """
-    rng = np.random.default_rng(7)
-    mechanism = arm(rng)
-    q, v, torque = spatial_trees.state(rng, mechanism)
-    truth = spatial_truth(mechanism, q, v, torque)
+    truth = arm_in_motion()
+    mechanism, q, v, torque = truth.mechanism, truth.q, truth.v, truth.torque
     terms = spatial_engines.MuJoCo(altered(mechanism, index, parameter, 1e-9 if index else 1e-8)).terms(q, v, torque)
     moved = spatial_engines.MuJoCo(altered(mechanism, index, parameter, 1e-6)).terms(q, v, torque)
     found, more = shares(truth, terms), shares(truth, moved)
