@@ -82,8 +82,8 @@ def _step(freedom: Any, inertia: Any, armature: Any) -> tuple[_Step, Any]:
     share = (momentum.transpose() / pivot).mid()
     after = inertia - share.transpose() * share * pivot
     rest = _symmetric(after)
-    parts = (frobenius(after - rest), 2 * frobenius(momentum.transpose() - share * pivot), (exact - pivot).abs_upper())
-    return _Step(freedom, share, pivot, sum(parts[1:], parts[0]).abs_upper()), rest
+    left = frobenius(after - rest) + 2 * frobenius(momentum.transpose() - share * pivot) + (exact - pivot).abs_upper()
+    return _Step(freedom, share, pivot, left.abs_upper()), rest
 
 
 def _substituted(motion: Motion, steps: list[_Step], right: Sequence[Any]) -> list[Any]:
