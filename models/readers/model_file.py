@@ -13,6 +13,7 @@ from ..mechanism import Mechanism
 from ..projection import Body, Plane, planar_mechanism
 from ..spatial import Inertial
 from .attributes import Array
+from .hinged import hinged
 from .mjcf.document import Mjcf, read_mjcf
 from .urdf import Urdf, read_urdf
 from .xml_file import Element, parse_xml, read_xml, write_xml
@@ -66,7 +67,8 @@ def _understand(root: Element, path: Path) -> ModelFile:
     else:
         raise InvalidInput(f"{path}: its root is <{root.tag[:40]}>; <mujoco> (MJCF) or <robot> (URDF) is needed")
     try:
-        mechanism = planar_mechanism(file.bodies, file.gravity)
+        bodies = hinged(file.bodies) if isinstance(file, Mjcf) else file.bodies
+        mechanism = planar_mechanism(bodies, file.gravity)
     except InvalidInput as error:
         words = str(error)
         raise InvalidInput(words if words.startswith(str(path)) else f"{path}: {words}") from None
@@ -74,7 +76,7 @@ def _understand(root: Element, path: Path) -> ModelFile:
     common = {
         "path": str(path),
         "mechanism": mechanism,
-        "bodies": tuple(file.bodies),
+        "bodies": tuple(bodies),
         "plane": Plane(down, across, np.cross(down, across)),
         "text": write_xml(file.root),
         "notes": tuple(file.notes),
