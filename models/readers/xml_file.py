@@ -21,10 +21,10 @@ DEEPEST = 2_000
 LONGEST_ATTRIBUTE = 10_000  # characters; a list of a few hundred numbers
 # Lists as long as their file: shapes, positions of whole models, and what users add. None is read number by number
 # unless a reader asks for it.
-LONG_LISTS = frozenset(
-    ("vertex", "normal", "texcoord", "face", "vertid", "vertweight", "element", "node", "point", "body", "elevation")
-    + ("qpos", "qvel", "act", "ctrl", "mpos", "mquat", "data", "user", "value", "id", "elemtexcoord", "grid", "extra")
-)
+LONG_LISTS = {
+    *("vertex", "normal", "texcoord", "elemtexcoord", "face", "vertid", "vertweight", "element", "node", "point"),
+    *("body", "elevation", "grid", "qpos", "qvel", "act", "ctrl", "mpos", "mquat", "data", "user", "value", "id"),
+}
 
 
 @dataclass

@@ -31,7 +31,7 @@ def left_out(
         "dry friction": any(joint.friction > 0 for joint in joints),
         "actuators": actuators.count > 0 and "actuation" not in options.disabled,
         "equality constraints": constrained and "equality" not in options.disabled and _equality(root, defaults),
-        "tendons that pull or are limited": _tendons(root, defaults),
+        "tendons (springs, limits, armature)": _tendons(root, defaults),
         "fluid forces (density, viscosity)": options.fluid,
         "bodies that bend (flex)": any(True for section in root.all("deformable") for _ in section.all("flex")),
     }

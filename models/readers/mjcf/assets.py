@@ -9,11 +9,11 @@ import numpy as np
 
 from ...spatial import Inertial
 from ..attributes import Array, numbers
+from ..folders import Folders
 from ..meshes import Mesh, checked_mesh, mesh_inertial, read_mesh
 from ..placement import NO_ROTATION
 from ..xml_file import Element
 from .defaults import Defaults
-from .folders import Folders
 from .options import Compiler
 
 MOST_NUMBERS = 1_000_000  # of a mesh that is written out in the document

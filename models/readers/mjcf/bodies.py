@@ -197,7 +197,8 @@ class Bodies:
         own = again.joints + tuple(replace(j, name=f"{j.name} of {again.name}") for j in master.joints)
         joints = tuple(replace(j, name=other.name) for j, other in zip(master.joints, own, strict=False))
         self.bodies[index] = replace(master, name=again.name, joints=joints, inertial=ZERO_INERTIAL)
-        self.bodies[first] = replace(master, inertial=master.inertial + self._once[first])
+        if joints:  # what is fixed weighs once, however often it is read
+            self.bodies[first] = replace(master, inertial=master.inertial + self._once[first])
 
     def _acts_on(self, element: Element, parent: int, moves: bool) -> None:
         if word(element, "mocap", ("true", "false"), "false") == "true":

@@ -9,6 +9,7 @@ from pathlib import Path
 from ...spatial import Inertial
 from ...spatial_mechanism import RigidBody
 from ..attributes import Array
+from ..folders import Folders
 from ..rules import MjcfRules
 from ..xml_file import Element
 from .acting import left_out
@@ -16,7 +17,6 @@ from .actuators import Actuators
 from .assets import Assets
 from .bodies import Bodies
 from .defaults import Defaults
-from .folders import Folders
 from .includes import with_includes, without_includes
 from .inertials import Inertials, scaled_to_total_mass
 from .notes import Notes
@@ -82,7 +82,7 @@ def read_mjcf(root: Element, path: Path, rules: MjcfRules | None = None, others:
     actuators = Actuators(defaults)
     actuators.read(root.all("actuator"))
     read = scaled_to_total_mass(_with_actuators(bodies.bodies, actuators, rules, notes), compiler)
-    read = with_spring_dampers(read, {} if rules.springs_not_held else bodies.springs)
+    read = _with_springs(read, bodies, root, rules)
     _write_joints(read, bodies, actuators)
     _clean_contacts(kept, {body.name for body in read})
     acting = left_out(root, read, defaults, options, actuators, bodies.colliding)
@@ -128,6 +128,18 @@ def _with_actuators(
             joints.append(replace(joint, armature=armature, damping=damping))
         found.append(replace(body, joints=tuple(joints)))
     return tuple(found)
+
+
+def _with_springs(
+    read: tuple[RigidBody, ...], bodies: Bodies, root: Element, rules: MjcfRules
+) -> tuple[RigidBody, ...]:
+    """The bodies with the springs that ``springdamper`` gives them."""
+    if not bodies.springs or rules.springs_not_held:
+        return read
+    tendon = next((t for section in root.all("tendon") for t in section.children if "armature" in t.attributes), None)
+    if tendon is not None:
+        raise tendon.wrong("armature: joints with springdamper would feel it, and it is not modelled")
+    return with_spring_dampers(read, bodies.springs)
 
 
 def _write_joints(read: Sequence[RigidBody], bodies: Bodies, actuators: Actuators) -> None:

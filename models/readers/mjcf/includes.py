@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ..folders import Folders
 from ..xml_file import DEEPEST, MOST_ELEMENTS, Element, read_xml
-from .folders import Folders
 
 MOST_INCLUDES = 50
 

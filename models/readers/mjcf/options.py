@@ -122,5 +122,6 @@ def read_options(elements: Iterable[Element], rules: MjcfRules) -> Options:
     options.fluid = density > 0 or viscosity > 0
     if rules.gravity_not_read:
         options.gravity = np.array([0.0, 0.0, -9.81])
+    if rules.gravity_not_read or rules.gravity_flag_ignored:
         options.disabled.discard("gravity")
     return options

@@ -6,7 +6,7 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..xml_file import Element
+from .xml_file import Element
 
 
 class Folders:
@@ -35,7 +35,8 @@ class Folders:
             raise element.wrong(f"{shown}: {error}") from None
         if not _inside(wanted, (self.own, *self._others)):
             raise element.wrong(
-                f"{shown}: outside the model's own folder, where nothing is read; move it inside, or name its folder (--meshes)"
+                f"{shown}: outside the model's own folder, where nothing is read; move it inside, or name its folder "
+                "with --meshes"
             )
         raise element.wrong(f"{shown}: cannot be read: there is no such file in the model's folder")
 
