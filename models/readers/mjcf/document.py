@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ...projection import Body
-from ...spatial import Inertial
+from ...spatial import Inertial, to_quaternion
+from ...spatial_mechanism import Joint, RigidBody
 from ..attributes import Array, refuse
 from ..xml_file import Element
 from .bodies import Bodies
@@ -34,11 +35,12 @@ class Mjcf:
     """
 
     root: Element
-    bodies: list[Body]
+    bodies: tuple[RigidBody, ...]
     gravity: Array
     integrator: str
     timestep: float
     notes: list[str]
+    without: list[str]
     from_geoms: list[str]
     geoms: Mapping[str, Inertial]
     tensors: Mapping[str, tuple[Inertial, Array]]
@@ -61,11 +63,12 @@ def read_mjcf(root: Element, path: Path) -> Mjcf:
         bodies.read(world)
     return Mjcf(
         root=kept,
-        bodies=scaled_to_total_mass(bodies.bodies, compiler),
+        bodies=tuple(map(_rigid, scaled_to_total_mass(bodies.bodies, compiler))),
         gravity=options.acting_gravity,
         integrator=options.integrator,
         timestep=options.timestep,
         notes=inertials.notes,
+        without=[],
         from_geoms=inertials.from_geoms,
         geoms=inertials.geoms,
         tensors=inertials.tensors,
@@ -89,3 +92,24 @@ def _choose_sections(root: Element, kept: Element, notes: list[str]) -> None:
             raise element.wrong(f"<{element.tag}> is not supported; remove it")
         if element.tag == "actuator" and element.children:
             notes.append("actuators are left out: nothing is driven")
+
+
+def _rigid(body: Body) -> RigidBody:
+    joints = tuple(
+        Joint(
+            name=hinge.name,
+            axis=hinge.axis,
+            anchor=hinge.anchor,
+            ref=hinge.zero,
+            armature=hinge.armature,
+            damping=hinge.damping,
+            friction=hinge.friction,
+            stiffness=hinge.stiffness,
+            springref=hinge.rest + hinge.zero,
+            limits=None if hinge.limits is None else (hinge.limits[0] + hinge.zero, hinge.limits[1] + hinge.zero),
+            where=hinge.where,
+        )
+        for hinge in body.hinges
+    )
+    turned = to_quaternion(body.pose.rotation)
+    return RigidBody(body.name, body.parent, body.pose.translation, turned, joints, body.inertial, body.where)
