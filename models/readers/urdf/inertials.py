@@ -21,6 +21,8 @@ from .tree import Place
 SIX = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 ROUNDED = 1e-9  # relative: principal moments may miss A + B ≥ C by what rounding to ten digits does
 
+NOTHING = 1e-15  # kg m²: MuJoCo takes less than this for none
+
 
 class Inertials:
     """Reads the inertials of links; ``tensors``: by link, one before its rotation, and that rotation (3, 3)."""
@@ -37,7 +39,10 @@ class Inertials:
         found = [self._of_link(place.link) for place in places]
         fixed = [place.joint is not None and kind_of(place.joint) == "fixed" for place in places]
         if self._rules.fixed_massless_inertia_dropped and self._extension.fuses:
-            found = _without_massless(found, places, fixed)
+            found = [
+                ZERO_INERTIAL if is_fixed and inertial.mass == 0 else inertial
+                for inertial, is_fixed in zip(found, fixed, strict=True)
+            ]
         if self._extension.total_mass > 0:
             found = self._scaled(found, places, fixed)
         return found
@@ -86,22 +91,10 @@ class Inertials:
         return [Inertial(i.mass * scale, i.centre, i.tensor * scale) for i in inertials]
 
 
-def _without_massless(inertials: list[Inertial], places: Sequence[Place], fixed: Sequence[bool]) -> list[Inertial]:
-    """Those without the inertia of a link that has no mass, where it is fixed to another or another to it."""
-    joined = list(fixed)
-    for place, is_fixed in zip(places, fixed, strict=True):
-        if is_fixed:
-            joined[place.parent] = True
-    return [
-        ZERO_INERTIAL if is_joined and inertial.mass == 0 else inertial
-        for inertial, is_joined in zip(inertials, joined, strict=True)
-    ]
-
-
 def _impossible(inertial: Inertial) -> bool:
     """Whether no rigid body has it: a negative mass or moment, A + B < C, or an inertia without mass."""
     a, b, c = np.linalg.eigvalsh(inertial.tensor)
-    slack = ROUNDED * max(abs(a), abs(c))
+    slack = ROUNDED * max(abs(a), abs(c)) + NOTHING
     return bool(
         inertial.mass < 0 or a < -slack or a + b < c - slack or (inertial.mass == 0 and bool(inertial.tensor.any()))
     )

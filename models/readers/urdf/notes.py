@@ -39,6 +39,7 @@ KNOWN: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "inertia": (("ixx", "iyy", "izz", "ixy", "ixz", "iyz"), ()),
 }
 WITHOUT_EFFECT = ("visual", "collision", "calibration", "safety_controller")
+SEVERAL = ("visual", "collision")
 MEANT_AS_DAMPING = ("damping", "friction", "joint_properties", "dynamics")
 
 
@@ -76,7 +77,11 @@ class Notes:
             for name in at.attributes:
                 if name not in attributes:
                     self.add(f"attribute {name[:40]!r} of <{at.tag}> {_hint(name)}", at)
+            tags: set[str] = set()
             for child in at.children:
+                if child.tag in tags and child.tag not in SEVERAL:
+                    self.add(f"a second <{child.tag[:40]}> in <{at.tag}>: the first is read", child)
+                tags.add(child.tag)
                 if child.tag not in children:
                     self.add(f"<{child.tag[:40]}> in <{at.tag}> {_hint(child.tag)}", child)
                 elif child.tag not in WITHOUT_EFFECT:
