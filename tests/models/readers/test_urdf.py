@@ -293,6 +293,9 @@ AS_MUJOCO = {
         arm=inertial() + SHAPES, top=extension(inertiafromgeom="true", inertiagrouprange="1 2")
     ),
     "total mass": robot(more=tool(inertial()), top=extension(settotalmass="10")),
+    "total mass with a heavy base": robot(top=extension(settotalmass="10")).replace(
+        '<link name="base"/>', f'<link name="base">{ARM}</link>'
+    ),
     "total mass, not fused": robot(top=extension(settotalmass="10", fusestatic="false")),
     "balanced": robot(arm=inertial(izz=9), top=extension(balanceinertia="true")),
     "bounds": robot(more=tool(inertial(mass=0)), top=extension(boundmass="3", boundinertia="1.1")),
