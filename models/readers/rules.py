@@ -23,22 +23,26 @@ class MjcfRules:
     geoms_without_contact_weigh_nothing: bool = _mistake('gives no mass to geoms with contype="0" and conaffinity="0"')
     pose_of_first_fixed_body_dropped: bool = _mistake("drops the pose of the first body where it has no joint")
     mesh_weighs_one_kilogram: bool = _mistake(
-        "gives each mesh geom 1 kg and the inertia diag(1, 1, 1) kg m² at its pos, whatever the mesh, mass and density"
+        "gives each geom of type mesh, plane or hfield 1 kg and the inertia diag(1, 1, 1) kg m² at its pos"
     )
     default_joint_pos_dropped: bool = _mistake("ignores the pos of a joint that comes from a default class")
     default_geom_mass_dropped: bool = _mistake("ignores the mass of a geom that comes from a default class")
+    default_geom_pose_dropped: bool = _mistake("ignores the pose of a geom that comes from a default class")
+    childclass_behind_class: bool = _mistake("puts the childclass behind an element's own class")
     total_mass_ignored: bool = _mistake("ignores settotalmass")
     inertia_group_ignored: bool = _mistake("ignores inertiagrouprange: geoms of every group weigh")
     balance_inertia_ignored: bool = _mistake("ignores balanceinertia")
     bound_inertia_on_given_axes: bool = _mistake(
-        "applies boundinertia to the diagonal as it is written, not to the principal moments"
+        "applies boundmass and boundinertia to <inertial> alone, and to its diagonal as it is written"
     )
     bound_ignored: bool = _mistake("ignores boundmass and boundinertia")
     upper_euler_as_lower: bool = _mistake("reads upper-case letters of eulerseq (fixed axes) as lower-case ones")
     include_not_followed: bool = _mistake("does not follow <include>")
     late_sections_ignored: bool = _mistake("ignores <default> and <compiler> after <worldbody>")
-    bodies_in_frames_lost: bool = _mistake("loses bodies inside a <frame>, with their joints")
-    bare_bodies_lost: bool = _mistake("loses a <body> without any attribute, with all that hangs on it")
+    later_sections_ignored: bool = _mistake("of several <compiler> or <default> reads only the first")
+    bare_bodies_lost: bool = _mistake(
+        "loses a <body> without any attribute, with its joints, and hangs its children in the world"
+    )
     unnamed_sibling_twice: bool = _mistake("reads the first of several unnamed sibling bodies again for each other one")
     first_ref_ignored: bool = _mistake("ignores ref of the first of several joints of a body")
     gravity_not_read: bool = _mistake("does not read gravity: 9.81 m/s² along −z, whatever the file says")
