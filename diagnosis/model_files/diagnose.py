@@ -110,4 +110,4 @@ def _with_gravity(file: ModelFile, expected: Mechanism | None) -> ModelFile:
     changed = replace(old, gravity=(along, 0.0), gravity_vector=vector)
     notes = tuple(note for note in file.notes if "gravity" not in note)
     note = f"URDF gives no gravity: {strength:g} m/s² is used, as in what the file is compared with"
-    return replace(file, mechanism=changed, notes=(*notes, note))
+    return replace(file, planar=changed, notes=(*notes, note))

@@ -25,6 +25,7 @@ ROOMS = {
                 "readers.folders",
             ),
             ("readers.mjcf",),
+            ("readers.urdf",),
             ("readers", "writers"),
         ],
     ),

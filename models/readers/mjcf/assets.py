@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import lru_cache
 from pathlib import Path, PurePosixPath
 
 import numpy as np
@@ -65,20 +66,29 @@ class Assets:
         for name in ("builtin", "plugin"):
             if mesh.get(name) or mesh.first(name) is not None:
                 raise mesh.wrong(f"{name}: a mesh that MuJoCo makes itself is not weighed; give the body an <inertial>")
-        shape = self._load(mesh) if mesh.get("file") else _written_out(mesh)
-        return mesh_inertial(
-            shape,
+        how = (
             mesh.get("inertia", "legacy"),
-            numbers(mesh, "scale", 3, (1.0, 1.0, 1.0)).tolist(),
-            numbers(mesh, "refpos", 3, (0.0, 0.0, 0.0)).tolist(),
-            numbers(mesh, "refquat", 4, NO_ROTATION.tolist()).tolist(),
+            tuple(numbers(mesh, "scale", 3, (1.0, 1.0, 1.0)).tolist()),
+            tuple(numbers(mesh, "refpos", 3, (0.0, 0.0, 0.0)).tolist()),
+            tuple(numbers(mesh, "refquat", 4, NO_ROTATION.tolist()).tolist()),
         )
+        if not mesh.get("file"):
+            return mesh_inertial(_written_out(mesh), *how)
+        path = self._path(mesh)
+        now = path.stat()
+        return _weighed(path, (now.st_mtime_ns, now.st_size), *how)
 
-    def _load(self, mesh: Element) -> Mesh:
+    def _path(self, mesh: Element) -> Path:
         name = mesh.get("file").replace("\\", "/")
         if self._compiler.strip_path:
             name = Path(name).name
-        return read_mesh(self._folders.find(mesh, name, self._compiler.mesh_folder))
+        return self._folders.find(mesh, name, self._compiler.mesh_folder)
+
+
+@lru_cache(maxsize=512)
+def _weighed(path: Path, version: tuple[int, int], mode: str, *how: tuple[float, ...]) -> Inertial:
+    """A mesh of a file, which is weighed once though the document is read again with each mistake."""
+    return mesh_inertial(read_mesh(path), mode, *how)
 
 
 def _written_out(mesh: Element) -> Mesh:

@@ -10,6 +10,7 @@ from .frames import ROTATIONS
 
 Attributes = dict[str, dict[str, str]]  # tag → attributes
 KEPT = ("default", "joint", "geom")
+REFERENCES = ("material", "mesh", "hfield", "fluidshape")
 
 
 class Defaults:
@@ -83,7 +84,6 @@ def _over(given: dict[str, str], behind: dict[str, str]) -> dict[str, str]:
 
 def strip(element: Element) -> None:
     """Remove attributes that refer to other files or to elements that have been left out, and all children."""
-    for name in ("material", "mesh", "hfield", "fluidshape"):
-        if name != "mesh" or element.get("type") in ("mesh", "sdf"):
-            element.attributes.pop(name, None)
+    for name in REFERENCES:
+        element.attributes.pop(name, None)
     element.children.clear()

@@ -14,6 +14,7 @@ from ..attributes import Array, not_negative, numbers
 from ..placement import Placement
 from ..xml_file import Element
 from .assets import Assets
+from .defaults import REFERENCES
 from .frames import ROTATIONS, placement_of
 from .geoms import FROM_FILES, geom_inertial, weighs
 from .notes import Notes
@@ -175,7 +176,7 @@ def _put_box(geom: PlacedGeom, part: Inertial) -> None:
     if np.linalg.det(turn) < 0:
         turn[:, 0] *= -1
     written = {"size": half, "pos": part.centre, "quat": to_quaternion(turn), "mass": np.array([part.mass])}
-    attributes = {k: v for k, v in geom.given.attributes.items() if k not in (*ROTATIONS, "mesh", "hfield", "density")}
+    attributes = {k: v for k, v in geom.given.attributes.items() if k not in (*ROTATIONS, *REFERENCES, "density")}
     attributes |= {name: " ".join(repr(float(v)) for v in values) for name, values in written.items()}
     box = Element("geom", attributes | {"type": "box"}, geom.given.file, geom.given.line)
     at = next(i for i, child in enumerate(geom.holder.children) if child is geom.given)

@@ -10,6 +10,7 @@ from furiko.models.readers.mjcf.document import read_mjcf
 from furiko.models.readers.xml_file import parse_xml
 from furiko.models.spatial import from_quaternion
 
+mujoco.set_mju_user_warning(lambda message: None)  # else it writes a file where the tests run
 KINDS = {0: "free", 1: "ball", 2: "slide", 3: "hinge"}
 # Of the larger number: MuJoCo turns vectors and tensors through quaternions, some tens of roundings.
 ROUNDING = 1e-12
