@@ -112,6 +112,12 @@ def assert_same(text, tmp_path=None, tolerance=ROUNDING):
         path = tmp_path / "model.xml"
         path.write_text(text)
         found, model = read(text, path=path), mujoco.MjModel.from_xml_path(str(path))
+    assert_alike(found, model, tolerance)
+    return found
+
+
+def assert_alike(found, model, tolerance=ROUNDING):
+    """Assert that a reading and a compiled model have the same bodies, joints and gravity."""
     mine, other = ours(found), theirs(model)
     assert len(mine) == len(other)
     for a, b in zip(mine, other, strict=True):
@@ -135,7 +141,6 @@ def assert_same(text, tmp_path=None, tolerance=ROUNDING):
                 assert abs(one[name] - two[name]) <= max(tolerance, ROUNDING) * max(1.0, abs(two[name])), name
     gravity = np.zeros(3) if model.opt.disableflags & int(mujoco.mjtDisableBit.mjDSBL_GRAVITY) else model.opt.gravity
     np.testing.assert_array_equal(found.gravity, gravity)
-    return found
 
 
 def _turned_itself(tensor):

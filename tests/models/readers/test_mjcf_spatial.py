@@ -8,8 +8,11 @@ import numpy as np
 import pytest
 
 from furiko.models import InvalidInput
+from furiko.models.readers.model_file import read_model
+from furiko.models.readers.rules import AS_DOCUMENTED, with_mjcf
+from furiko.models.readers.xml_file import write_xml
 
-from .compiled import assert_same, read
+from .compiled import ROUNDING, assert_alike, assert_same, read
 
 INERTIAL = '<inertial pos="0.1 0 -1" mass="1" diaginertia="0.1 0.2 0.3"/>'
 
@@ -190,6 +193,14 @@ MESHES = {
 def test_meshes_weigh_what_mujoco_weighs(case):
     # MuJoCo keeps a mesh in single precision, centred and turned: half an ε of 2⁻²³ a coordinate, a few of them.
     assert_same(MESHES[case], tolerance=1e-6)
+
+
+@pytest.mark.parametrize("case", [*READ, *MESHES])
+def test_the_text_that_engines_are_given_has_the_same_bodies(case):
+    found = read(READ.get(case) or MESHES[case])
+    model = mujoco.MjModel.from_xml_string(write_xml(found.root))
+    assert_alike(found, model, ROUNDING if case in READ else 1e-6)
+    assert model.nmesh == 0
 
 
 def stl(*triangles):
@@ -426,3 +437,18 @@ def test_a_tetrahedron_has_the_moments_of_its_closed_form():
     np.testing.assert_allclose(inertial.centre, sides / 4, rtol=1e-14)
     np.testing.assert_allclose(np.diag(inertial.tensor), squares.sum() - squares, rtol=1e-13)
     assert math.isclose(inertial.tensor[0, 1], volume * 1 * 2 * (1 / 16 - 1 / 20), rel_tol=1e-12)
+
+
+def test_a_model_file_has_its_spatial_mechanism_and_says_what_is_left_out(tmp_path):
+    path = tmp_path / "cart.xml"
+    tail = '<actuator><position name="servo" joint="x" kp="5"/></actuator>'
+    path.write_text(mjcf(body(joints='<joint name="x" type="slide" axis="1 0 0" range="-1 1"/>'), "", tail))
+    file = read_model(path)
+    assert file.spatial.joint_names == ("x",)
+    assert file.planar is None
+    assert "slide" in file.not_planar
+    assert file.servos == (("servo", "x"),)
+    assert set(file.without) == {"joint limits", "actuators"}
+    assert file.rules is AS_DOCUMENTED
+    mistaken = read_model(path, with_mjcf("first_root_only"))
+    assert mistaken.rules.mjcf.first_root_only
