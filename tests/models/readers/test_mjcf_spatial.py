@@ -232,7 +232,8 @@ def test_a_mesh_outside_is_read_only_from_a_folder_that_the_user_named(tmp_path)
     path = tmp_path / "model" / "model.xml"
     with pytest.raises(InvalidInput, match=r"outside the model's own folder.*--meshes"):
         read(text, path=path)
-    assert read(text, path=path, others=[tmp_path / "meshes"]).bodies[0].inertial.mass > 0
+    for other in (text, text.replace('meshdir="../meshes"', 'meshdir="/somewhere/else"')):
+        assert read(other, path=path, others=[tmp_path / "meshes"]).bodies[0].inertial.mass > 0
 
 
 def test_a_mesh_that_does_not_weigh_is_not_asked_for():
@@ -280,6 +281,7 @@ ACTUATORS = {
     "damper": ('<damper joint="j" kv="3" ctrlrange="0 1"/>', ""),
     "general": ('<general joint="j" gainprm="3"/>', ""),
     "general with a bias": ('<general joint="j" biastype="affine" biasprm="0 -3 -1"/>', ""),
+    "a bias that is said to be none": ('<general joint="j" biastype="none" biasprm="0 -3 -1"/>', ""),
     "a bias that is none": ('<general joint="j" biasprm="0 -3 -1"/>', ""),
     "a bias by default": ('<general joint="j"/>', '<default><general biastype="affine" biasprm="0 -3"/></default>'),
     "a servo by default": ('<general joint="j"/>', '<default><position kp="3"/></default>'),
