@@ -95,7 +95,7 @@ def model_from_text(text: str, name: str = "model", rules: Rules = AS_DOCUMENTED
 
 def _understand(root: Element, path: Path, rules: Rules, meshes: Sequence[Path]) -> ModelFile:
     if root.tag == "mujoco":
-        mjcf = read_mjcf(root, path)
+        mjcf = read_mjcf(root, path, rules.mjcf, meshes)
         return _model("mjcf", mjcf, path, rules, _of_mjcf(mjcf))
     if root.tag == "robot":
         urdf = read_urdf(root, path, rules.urdf, meshes)
@@ -104,7 +104,7 @@ def _understand(root: Element, path: Path, rules: Rules, meshes: Sequence[Path])
 
 
 def _of_mjcf(file: Mjcf) -> dict[str, Any]:
-    return {"from_geoms": tuple(file.from_geoms), "geoms": file.geoms}
+    return {"from_geoms": tuple(file.from_geoms), "geoms": file.geoms, "servos": tuple(file.servos)}
 
 
 def _model(language: str, file: Mjcf | Urdf, path: Path, rules: Rules, more: Mapping[str, Any]) -> ModelFile:

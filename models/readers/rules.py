@@ -43,9 +43,12 @@ class MjcfRules:
     bare_bodies_lost: bool = _mistake(
         "loses a <body> without any attribute, with its joints, and hangs its children in the world"
     )
-    unnamed_sibling_twice: bool = _mistake("reads the first of several unnamed sibling bodies again for each other one")
+    unnamed_sibling_twice: bool = _mistake(
+        "reads the first of several unnamed sibling bodies again in place of each other one"
+    )
     first_ref_ignored: bool = _mistake("ignores ref of the first of several joints of a body")
     gravity_not_read: bool = _mistake("does not read gravity: 9.81 m/s² along −z, whatever the file says")
+    gravity_flag_ignored: bool = _mistake('does not read <flag gravity="disable"/>: gravity acts')
     damping_dropped_on_free_and_ball: bool = _mistake("drops damping and dry friction of free and ball joints")
     springs_not_held: bool = _mistake("has no joint springs")
     pos_of_last_joint_for_all: bool = _mistake(
