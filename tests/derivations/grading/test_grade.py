@@ -105,6 +105,43 @@ def test_two_mistakes_at_once_are_both_found(one, two):
     assert one[4] | two[4] <= {finding.term for finding in graded.findings}
 
 
+# Two mistakes that meet in a term, so that their changes do not add; worked out by hand.
+MEETING = [
+    (  # L counts m₁ twice; the derivative of θ̇₁² is not doubled
+        [
+            "(2*m1+m2)/2*l1*a1 + m2*l2*a2*cos(t1-t2) + m2*l2*w2^2*sin(t1-t2) + (2*m1+m2)*g*sin(t1) = 0",
+            ROW_2,
+        ],
+        {"mass-counted-twice"},
+        {"square-not-doubled", "factor-half"},
+    ),
+    (  # L counts m₂ twice; the velocity term of row 1 is forgotten
+        ["(m1+2*m2)*l1*a1 + 2*m2*l2*a2*cos(t1-t2) + (m1+2*m2)*g*sin(t1) = 0", ROW_2],
+        {"mass-counted-twice"},
+        {"term-missing", "other-angles-held"},
+    ),
+    (  # the cross term of v₂² is halved in both rows, and one of the four terms that it makes is right all the same
+        [
+            "(m1+m2)*l1*a1 + m2*l2*a2*cos(t1-t2)/2 + m2*l2*w2^2*sin(t1-t2)/2 + (m1+m2)*g*sin(t1) = 0",
+            "m2*l2*a2 + m2*l1*a1*cos(t1-t2) - m2*l1*w1^2*sin(t1-t2)/2 + m2*g*sin(t2) = 0",
+        ],
+        {"cross-term-halved", "cross-terms-halved"},
+        {"factor-two", "cross-term-halved", "cross-terms-halved"},
+    ),
+]
+
+
+@pytest.mark.parametrize(("rows", "one", "two"), MEETING, ids=["halved", "forgotten", "doubled again"])
+def test_two_mistakes_that_meet_in_a_term_are_both_found(rows, one, two):
+    graded = grade_text(toml("n-leg", rows))
+    assert graded.verdict == "wrong"
+    told = {named.cause for named in graded.mistakes}
+    told |= {name.split(":")[0] for named in graded.mistakes for name in named.also}
+    assert told & one, graded.text()
+    assert told & two, graded.text()
+    assert len(graded.mistakes) == 2, graded.text()
+
+
 def test_three_slips_are_all_told():
     rows = [
         SHIKI_2_10[0].replace(r"m_2l_2\ddot{\theta}_2 \cos", r"m_2l_2\ddot{\theta}_2 \sin"),
