@@ -9,6 +9,7 @@ import pytest
 from faults.code import IN_CODE, TermByTerm
 from faults.engines import NAMES, OF_ENGINES, Unnormalised
 from faults.mechanisms import Shape, free, random_tree, with_link
+from faults.pairs import drawn
 from faults.readers import OF_READERS
 from faults.runs import OF_RUNS
 from score_causes import (
@@ -218,6 +219,32 @@ def test_both_of_two_faults_are_named():
     total = score_of_pairs(range(8))
     assert total.named >= 7, total.missed
     assert total.misleading == []
+
+
+@pytest.mark.parametrize(
+    ("seed", "causes"),
+    [
+        (72, {"degree-vs-radian", "length"}),  # angles of many turns have lost digits
+        (63, {"degree-vs-radian", "velocity-terms-sign"}),  # and not velocity terms times a degree's square
+        (126, {"joint-order", "sin-for-cos"}),
+        (147, {"stale-derived-state", "sin-for-cos"}),
+        (111, {"velocity-terms-sign", "factor-half"}),  # of a term that is in the others' sign, too
+    ],
+)
+def test_faults_that_hide_each_other_are_both_named(seed, causes):
+    planted = drawn(np.random.default_rng(seed), 2)
+    assert set(planted.causes) == causes
+    found = explanation(planted.engine, planted.wanted)
+    assert {finding.cause for finding in found.findings} == causes, found
+    assert found.alternatives == ()
+
+
+def test_where_two_pairs_explain_the_same_both_are_told():
+    """A pair (cos, sin) of length r at the support's hinge is a gravity of r times its strength."""
+    planted = drawn(np.random.default_rng(142), 2)
+    found = explanation(planted.engine, planted.wanted)
+    assert [finding.cause for finding in found.findings] == ["com-displaced"]
+    assert {finding.cause for finding in found.alternatives} == {"gravity", "continuous-joint-not-normalised"}
 
 
 @pytest.mark.slow
