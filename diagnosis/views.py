@@ -106,7 +106,8 @@ def _scales_everything(hypothesis: Hypothesis, q: Question) -> bool:
 
     One step of it leaves nothing of any residual, and shows nothing.
     """
-    if hypothesis.basis is not None or hypothesis.d != 1 or not q.measured.forward.all():
+    on_all = q.m.n == 1 or hypothesis.links == (-1,)
+    if not hypothesis.relative or not on_all or not q.measured.forward.all():
         return False
     scale = q.measured.tolerances(q.p)
     before = q.measured.residuals(q.p, scale)

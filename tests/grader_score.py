@@ -163,10 +163,14 @@ def rewritings(count: int = 1000, sizes: Sequence[int] = SIZES, seed: int = 3) -
 
 
 def hostile_inputs(count: int = 10_000, seed: int = 4) -> Tally:
-    """Malformed and hostile inputs: each must end in a verdict or in one line that says where."""
+    """Malformed and hostile inputs, none twice: each must end in a verdict or in one line that says where."""
     tally, draw = Tally("hostile inputs"), random.Random(seed)
-    for _ in range(count):
+    tried: set[str] = set()
+    while len(tried) < count:
         text = hostile(draw)
+        if text in tried:  # of large ones there are a few dozen, each of which takes as long as a hundred others
+            continue
+        tried.add(text)
         try:
             answer = tally.timed(grade_text, text)
             tally.add(f"read after all: {answer.verdict}")
