@@ -216,8 +216,8 @@ def test_a_cause_that_holds_in_some_states_only_is_not_named():
 
 
 def test_both_of_two_faults_are_named():
-    total = score_of_pairs(range(8))
-    assert total.named >= 7, total.missed
+    total = score_of_pairs(range(3))
+    assert total.named == 3, total.missed
     assert total.misleading == []
 
 
@@ -229,6 +229,9 @@ def test_both_of_two_faults_are_named():
         (126, {"joint-order", "sin-for-cos"}),
         (147, {"stale-derived-state", "sin-for-cos"}),
         (111, {"velocity-terms-sign", "factor-half"}),  # of a term that is in the others' sign, too
+        (5015, {"sign", "factor-half"}),  # of one term
+        (146, {"com-displaced", "length"}),  # of one link, by an engine that says what it compiled
+        (5046, {"velocity-terms-forgotten", "sin-for-cos"}),
     ],
 )
 def test_faults_that_hide_each_other_are_both_named(seed, causes):
@@ -249,15 +252,15 @@ def test_where_two_pairs_explain_the_same_both_are_told():
 
 @pytest.mark.slow
 def test_the_score_of_pairs():
-    """Guards what is reached: of 150 pairs 131 named, 4 with a cause beside that was not planted; of 150 singles all.
+    """Guards what is reached: of 60 pairs that nothing was made for 60 named, none with a cause that was not planted.
 
-    The aim is nine of ten and none: ``python tests/score_causes.py --pairs 600`` tells how far it is.
+    ``python tests/score_causes.py --plants 0 --sound 0 --pairs 600`` measures it.
     """
     one, two = score_of_pairs(range(40), 1), score_of_pairs(range(20), 2)
     assert one.named >= 0.99 * one.drawn, one.missed
     assert one.misleading == []
-    assert two.named >= 0.75 * two.drawn, two.missed
-    assert len(two.misleading) <= 1
+    assert two.named >= 0.9 * two.drawn, two.missed
+    assert two.misleading == []
 
 
 @pytest.mark.parametrize("kind", ["mass", "length", "inertia", "gravity"])
