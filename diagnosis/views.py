@@ -62,6 +62,9 @@ def another_view(q: Question) -> Explanation:
     without_name: list[Explanation] = []
     for view, each in _best_of_each_kind([found for found in likely if found[0] <= CLEAR * before]):
         found = wrong_numbers(q.seen_as(view))
+        if found.explained and isinstance(each, Convention) and view == each.view:
+            whole = wrong_numbers(q.seen_as(each.view_of_all))  # what explains inverse dynamics, too, explains more
+            found = whole if whole.explained else found
         if found.explained:
             both = with_more(found, [each.finding(q.who)])
             # Rates in degrees, and velocity terms with the square of a degree: the one with a name is the likelier.

@@ -143,10 +143,17 @@ def _explaining(fits: Iterable[FittedHypothesis], q: Question) -> list[FittedHyp
 
 
 def _as_sharp(f: FittedHypothesis, q: Question) -> bool:
-    """Whether rounding explains about as much as before: with numbers large enough it explains any difference."""
+    """Whether rounding explains about as much as before: with numbers large enough it explains any difference.
+
+    Nor may a hinge be left with nothing to move, whose equation any acceleration then solves.
+    """
     with np.errstate(all="ignore"):
-        scale = float(np.median(q.measured.tolerances(f.hypothesis.apply(q.p, f.values))))
-    return scale <= BLUNTER * q.scale
+        tolerances = q.measured.tolerances(f.hypothesis.apply(q.p, f.values))
+        before = q.measured.tolerances(q.p)
+    forward = q.measured.forward
+    least = IMPLAUSIBLE_FACTOR * np.median(before[forward], axis=0)
+    moves = bool((np.median(tolerances[forward], axis=0) >= least).all()) if forward.any() else True
+    return moves and float(np.median(tolerances)) <= BLUNTER * q.scale
 
 
 def _as_good(fits: list[FittedHypothesis]) -> list[FittedHypothesis]:

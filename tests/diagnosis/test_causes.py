@@ -232,6 +232,7 @@ def test_both_of_two_faults_are_named():
         (5015, {"sign", "factor-half"}),  # of one term
         (146, {"com-displaced", "length"}),  # of one link, by an engine that says what it compiled
         (5046, {"velocity-terms-forgotten", "sin-for-cos"}),
+        (6007, {"degree-vs-radian", "sign"}),  # and not a link without mass, which may have any acceleration
     ],
 )
 def test_faults_that_hide_each_other_are_both_named(seed, causes):
