@@ -8,6 +8,8 @@ from itertools import chain, islice
 
 import numpy as np
 
+from ..models.coordinates import forces_to_relative
+from ..reference import planar_tree as planar
 from .buffers import Buffer, buffers
 from .conventions import LARGE_RESIDUAL, Convention, conventions, fitting_conventions
 from .explanation import Explanation, one_of, with_more
@@ -91,9 +93,14 @@ def _best_of_each_kind(
 
 def _size(q: Question) -> float:
     """The median of the residuals over what rounding explains, times ε: a view in which angles have lost digits gains
-    nothing by that."""
+    nothing by that. Velocity terms of the wrong sign or missing are in every row: the least of the three."""
+    seen = q.measured
     with np.errstate(all="ignore"):
-        return float(np.median(np.abs(q.measured.residuals(q.p, q.measured.tolerances(q.p))))) * q.measured.accuracy
+        scale = seen.tolerances(q.p)
+        velocity = planar.velocity_terms(seen.parents, q.p, seen.theta, seen.omega)
+        rates = forces_to_relative(seen.parents, velocity) / scale
+        residuals = seen.residuals(q.p, scale)
+        return min(float(np.median(np.abs(residuals - times * rates))) for times in (0, 1, 2)) * seen.accuracy
 
 
 def _after(q: Question, hypotheses: list[Hypothesis]) -> float:
