@@ -36,6 +36,18 @@ class NamedMistake(msgspec.Struct, frozen=True, kw_only=True):
     also: list[str]  # further mistakes that lead to the same equations
 
 
+class GradeReading(msgspec.Struct, frozen=True, kw_only=True):
+    """What was read of a derivation, so that its author sees whether he was understood."""
+
+    mechanism: str
+    mechanism_ja: str
+    drawing: str  # of characters; empty for many links
+    angles: str
+    angles_ja: str
+    symbols: list[tuple[str, str]]  # what is written, what it is read as
+    equations: list[tuple[str, str]]  # label, and the equation in the author's letters
+
+
 class GradeDocument(msgspec.Struct, frozen=True, kw_only=True):
     """The document of ``furiko grade --json``."""
 
@@ -47,6 +59,11 @@ class GradeDocument(msgspec.Struct, frozen=True, kw_only=True):
     notes_ja: list[str]
     system: str
     links: int
+    assumes: list[str]  # what "correct" rests on and the file does not say; empty: on nothing
+    assumes_ja: list[str]
+    reading: GradeReading
+    right_for: str  # another mechanism that wrong equations are right for; empty: none known
+    right_for_ja: str
 
 
 # --- audit

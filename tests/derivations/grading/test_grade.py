@@ -139,10 +139,6 @@ def test_a_slip_in_relative_angles_is_told_in_them():
     assert finding.expected == "-2*m2*l1*l2*w1*w2*sin(t2)"
 
 
-def test_relative_angles_that_are_not_declared_are_wrong():
-    assert grade_text(toml("n-leg", RELATIVE)).verdict == "wrong"
-
-
 def test_what_is_missing_is_said_and_not_judged():
     graded = grade_text(toml("n-leg", [ROW_1], links=2))
     assert graded.verdict == "undecided"
@@ -165,7 +161,6 @@ WRONG_LAGRANGIANS = [
     ("l1² forgotten, as (3.4) prints", SHIKI_1_4.replace(r"m_1l_1^2\dot{\theta}_1^2 +", r"m_1\dot{\theta}_1^2 +"),
      "length-missing-in-speed"),
     ("2 of the cross term", SHIKI_1_4.replace("2l_1l_2", "l_1l_2"), "cross-term-halved"),
-    ("T + U", SHIKI_1_4.replace("+ m_1gl_1", "- m_1gl_1").replace("+ m_2g(", "- m_2g("), "sum-for-difference"),
     ("U of mass 2", SHIKI_1_4.replace(r"+ m_2g(l_1 \cos \theta_1 + l_2 \cos \theta_2)", ""),
      "potential-energy-missing"),
 ]  # fmt: skip

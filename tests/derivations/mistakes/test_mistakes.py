@@ -5,9 +5,9 @@ from handwritten import ROW_1, ROW_2, SHIKI_2_10, TAKENO_18, TAKENO_19, toml
 
 from furiko.derivations.algebra.multiples import is_multiple
 from furiko.derivations.algebra.symbols import KINDS, symbols_of
-from furiko.derivations.grading.submission import parse_submission
 from furiko.derivations.mistakes.catalogue import catalogue
 from furiko.derivations.mistakes.known_mistakes import known_mistakes
+from furiko.derivations.reading.submission import parse_submission
 from furiko.derivations.steps.derivation import correct_derivation, derive
 from furiko.derivations.steps.views import View
 
