@@ -28,11 +28,13 @@ Term = tuple[int, int, int]  # packed motion (and coordinates outside waves), wa
 Terms = dict[Term, Formula]
 
 
-def terms(space: Space, f: Formula) -> Terms:
-    """The coefficient, in parameters alone, of each product of motion and wave."""
+def terms(space: Space, f: Formula, apart: bool = False) -> Terms:
+    """The coefficient of each product of motion and wave: in parameters, and in coordinates outside of waves, since rows
+    are divided by those too; ``apart``: the latter are told apart as well.
+    """
     parts: dict[Term, dict[Key, fmpq]] = {}
     for (e, h, s), c in f.terms.items():
-        q = space.motion(e) + space.outside(e)
+        q = space.motion(e) + (space.outside(e) if apart else 0)
         parts.setdefault((q, h, s), {})[e - q, 0, COS] = c
     return {key: Formula(part) for key, part in parts.items()}
 
@@ -107,8 +109,9 @@ def aligned(s: Submission, mechanism: Mechanism) -> list[tuple[str, Scaled]]:
 def right_rows(s: Submission, mechanism: Mechanism) -> Sequence[Formula]:
     """The right rows, solved for the accelerations where the author solved them."""
     space, m = s.space, symbols_of("rod-chain", s.space.n)
-    if m.n > 1 and is_solved(m, [space.split(f) for _, f in s.rows]):
-        solved = solved_rows(m, [space.split(f) for f in mechanism.rows])
+    right = [space.split(f) for f in mechanism.rows]
+    if m.n > 1 and is_solved(m, [space.split(f) for _, f in s.rows]) and not is_solved(m, right):
+        solved = solved_rows(m, right)
         places = {next(k for k in range(m.n) if unit(k) in row): row for row in solved}
         return [space.join(places[k]) for k in range(m.n)]
     return mechanism.rows
@@ -118,7 +121,7 @@ def lagrangian_differences(s: Submission, mechanism: Mechanism) -> tuple[tuple[W
     """The wrong terms of a Lagrangian in the scale that leaves most of it right; other scales are said in a note."""
     assert s.lagrangian is not None
     space = s.space
-    given, right = (_without_constants(terms(space, f)) for f in (s.lagrangian, mechanism.lagrangian))
+    given, right = (_without_constants(terms(space, f, apart=True)) for f in (s.lagrangian, mechanism.lagrangian))
     best, *others = scalings(given, right)
     findings = tuple(_finding(s, best, key, "", "The Lagrangian", "ラグランジアン") for key in best.wrong)
     notes: list[Said] = []
@@ -160,6 +163,9 @@ def _shown(s: Submission, key: Term, coefficient: Formula) -> str:
 
 def authors(s: Submission, ascii_text: str) -> str:
     """Our letters replaced by the author's, where he has others."""
+    if s.mechanism is not None:
+        names, primes = s.mechanism.coordinates, {"t": "", "q": "", "w": "'", "a": "''"}
+        return re.sub(r"\b([tqwa])([0-9])\b", lambda x: names[int(x[2]) - 1] + primes[x[1]], ascii_text)
     said: Mapping[str, str] = {meant: written for written, meant in s.words.said if len(meant) == 1}
     for ours, his in said.items():
         ascii_text = re.sub(rf"(?<![A-Za-z]){ours}(?=[0-9₀-₉]|\b)(?![A-Za-z])", his, ascii_text)

@@ -77,7 +77,7 @@ def _right(s: Submission, judgement: Judgement, *, slashes: bool) -> Grade:
     if comparison.answer == "incomplete":
         verdict = "undecided"
         notes.append(_incomplete(s, h))
-    mistakes = if_as_declared(s) if h.convention != s.convention and verdict == "correct" else ()
+    mistakes = if_as_declared(s) if verdict == "correct" and _other_zero(s, h) else ()
     return Grade(
         verdict=verdict, system=s.kind, links=s.space.n, reading=readback(s, h), mistakes=mistakes,
         notes=tuple(en for en, _ in notes), notes_ja=tuple(ja for _, ja in notes),
@@ -100,6 +100,11 @@ def _of_independent_masses(s: Submission, h: Hypothesis) -> list[Said]:
 def _with_brackets(text: str) -> str:
     top, _, bottom = text.rpartition("/")
     return f"{top}/({bottom.strip()})"
+
+
+def _other_zero(s: Submission, h: Hypothesis) -> bool:
+    """Whether it is right with angles from elsewhere alone: then gravity may be wrong in place of them."""
+    return h.convention.origin != s.convention.origin and h.convention.relative == s.convention.relative
 
 
 def _incomplete(s: Submission, h: Hypothesis) -> Said:

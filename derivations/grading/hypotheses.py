@@ -49,7 +49,7 @@ class Hypothesis:
 def variants(s: Submission) -> list[Variant]:
     """What masses and moments of inertia may mean, the author's own symbols first."""
     letters = {letter for letter, _ in s.used}
-    if s.kind in ("n-leg", "point-masses"):
+    if s.kind in ("n-leg", "point-masses", "mechanism"):
         return [Variant()]
     space, centre = s.space, "c" in letters or s.kind == "links"
     densities = {3 * s.space.n + k: space.rho * space.l(k) for k in range(space.n)}
@@ -101,7 +101,10 @@ def hypotheses(s: Submission, *, pinned: bool = False) -> Iterator[Hypothesis]:
             assumes = variant.assumes
             if convention != s.convention:
                 assumes = ((convention.words, convention.words_ja), *assumes)
-            mechanism = family(s.kind, s.space, convention, variant.choices).with_values(merged(s, variant))
+            if s.mechanism is not None:
+                mechanism = s.mechanism.mechanism(convention)
+            else:
+                mechanism = family(s.kind, s.space, convention, variant.choices).with_values(merged(s, variant))
             yield Hypothesis(mechanism, convention, variant, assumes)
 
 
@@ -168,16 +171,18 @@ def value_words(space: Space, values: dict[int, Formula]) -> Said:
     """ "l1 = l2 = 1 and m1 : m2 = 2 : 1 (a special case)" """
     n = space.n
     masses = {p: f for p, f in values.items() if 3 * n <= p < 4 * n}
-    ratio = len(masses) == n and all(f.is_number() for f in masses.values())  # their size does not matter
+    ratio = len(masses) == n and all(f.is_number() for f in masses.values())
     groups: dict[tuple[str, str], list[str]] = {}
+    free = {space.names.index("rho")} | (set(masses) if ratio else set())  # their size does not matter
     for place in sorted(values):
-        if not (ratio and place in masses):
+        if place not in free:
             groups.setdefault((space.names[place][0], _value(space, values[place])), []).append(space.names[place])
     parts = [" = ".join([*names, value]) for (_, value), names in sorted(groups.items())]
     if ratio and n > 1:
         names = [space.names[p] for p in sorted(masses)]
         equal = len({f.number() for f in masses.values()}) == 1
         parts.append(" = ".join(names) if equal else f"{' : '.join(names)} = {_ratio(masses)}")
+    parts = parts or ["all parameters are one"]
     return " and ".join(parts) + " (a special case)", "、".join(parts) + "（特別な場合）"
 
 

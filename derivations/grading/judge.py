@@ -109,8 +109,8 @@ def judge(s: Submission, *, pinned: bool = False) -> Judgement:
 def _specials(court: Judge, h: Hypothesis) -> Iterator[Hypothesis]:
     """The same with values for the parameters that the derivation never mentions."""
     s, space = court.s, court.space
-    places = absent(s, h.mechanism)
-    if not places or s.kind == "links":
+    places = absent(s, h.mechanism) if s.mechanism is None else []
+    if not places or s.kind in ("links", "mechanism"):
         return
     for values in simple_values(s, places):
         yield _special(h, space, values)

@@ -16,7 +16,7 @@ MOST_LINKS = 6
 def right_for(s: Submission) -> Said | None:
     """The mechanism that these are the right equations of, in the declared convention; None where none is known."""
     n, space = s.space.n, s.space
-    if n > MOST_LINKS or {"I", "c"} & {letter for letter, _ in s.used}:
+    if n > MOST_LINKS or s.mechanism is not None or {"I", "c"} & {letter for letter, _ in s.used}:
         return None
     densities = {3 * n + k: space.rho * space.l(k) for k in range(n)}
     for kind in ("point-masses", "n-leg", "rods"):

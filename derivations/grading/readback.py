@@ -21,7 +21,7 @@ def readback(s: Submission, h: Hypothesis | None) -> Reading:
     if h is not None and kind in ("rod-chain", "rods"):
         own_inertia = h.variant.choices.inertia != "value" or h.variant.choices.centre
         kind = "links" if own_inertia else "rod-chain" if h.variant.choices.density else "rods"
-    english, japanese = sentence(kind, s.space.n)
+    english, japanese = sentence(kind, s.space.n) if s.mechanism is None else s.mechanism.sentence()
     return Reading(
         english,
         japanese,
@@ -51,7 +51,7 @@ def _symbols(s: Submission, h: Hypothesis | None) -> list[tuple[str, str]]:
 
 def drawing(kind: str, n: int) -> str:
     """The mechanism in a line or two of characters: ▽ support, ○ joint, ● point mass, ━ rod with mass, ─ without."""
-    if n > MOST_DRAWN:
+    if n > MOST_DRAWN or kind == "mechanism":
         return ""
     if kind in ("n-leg", "point-masses"):
         if kind == "n-leg" and n > 2:

@@ -48,7 +48,7 @@ class Meaning:
             fail(at, f"angle number {index}, but links = {n}")
         return max(index, 1) - 1
 
-    def symbol(self, letter: str, index: int, at: int) -> Quotient:
+    def symbol(self, letter: str, index: int, at: int) -> Quotient:  # noqa: PLR0911 -- one for each kind of symbol
         """A symbol outside cos and sin. Raises InvalidInput, with the column, where it has no meaning here."""
         space = self.space
         if letter == "t":
@@ -63,7 +63,10 @@ class Meaning:
                 fail(at, "rho is the line density of a rod chain; other systems have masses m1, m2, …")
             self.used.add(("r", 0))
             return Quotient(space.rho, {}, 1)
-        if self.named and letter not in "wa":
+        if self.kind == "mechanism" and letter not in "wa":
+            name = letter.replace("c", "lc") + (str(index) if index else "")
+            if name in self.named:
+                return Quotient(self.named[name], {}, 1)
             fail(at, f"this {WORDS[letter]} is not among the symbols that the mechanism is declared with")
         if index > space.n:
             fail(at, f"{WORDS[letter]} number {index}, but links = {space.n}; write * for a product with a number")
@@ -82,7 +85,7 @@ class Meaning:
         return Quotient({"w": space.w, "a": space.a, "l": space.l, "m": space.m}[letter](place), {}, 1)
 
     def _coordinate(self, index: int, at: int) -> Quotient:
-        if not self.named:
+        if self.kind != "mechanism":
             fail(at, "an angle outside cos and sin; the exact equations have angles only inside")
         return Quotient(self.space.q(self.angle(index, at)), {}, 1)
 

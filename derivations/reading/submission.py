@@ -16,7 +16,9 @@ from ..algebra.quotient import Quotient
 from ..algebra.symbols import KINDS, Symbols, symbols_of
 from ..algebra.trig import Formula, Space
 from ..steps.conventions import Convention
+from ..steps.declared import Declared
 from ..steps.mechanism import Origin
+from .declaration import PRESETS, declared
 from .evaluation import Evaluation
 from .matrices import Grid, added
 from .meaning import Meaning, own_symbols
@@ -28,7 +30,19 @@ from .vocabulary import FUNCTIONS, LETTERS, Vocabulary, vocabulary
 LARGEST_FILE = 200_000  # characters; a chain of twenty rods, every sum multiplied out, has 150 000
 MOST_LINKS = 20
 MOST_DEFINITIONS = 40
-FIELDS = ("system", "links", "angles", "from", "sense", "equations", "lagrangian", "define", "title", "author")
+FIELDS = (
+    "system",
+    "links",
+    "bodies",
+    "angles",
+    "from",
+    "sense",
+    "equations",
+    "lagrangian",
+    "define",
+    "title",
+    "author",
+)
 ANGLES = ("absolute", "relative")
 SYSTEMS = (*KINDS, "rods", "point-masses", "links")
 ORIGINS: dict[str, Origin] = {"down": "down", "up": "up", "horizontal": "right", "right": "right", "left": "left"}
@@ -62,6 +76,7 @@ class Submission:
     words: Vocabulary = field(default_factory=Vocabulary)
     defined: tuple[tuple[str, str], ...] = ()  # the file's own names, as they were read
     source: str = ""  # all lines of mathematics, as they were written
+    mechanism: Declared | None = None  # where the file declares it body by body
 
     @property
     def relative(self) -> bool:
@@ -93,20 +108,25 @@ def parse_submission(text: str, slashes: int = 0) -> Submission:
     for name in data:
         if name not in FIELDS:
             raise InvalidInput(f"{name!r:.40}: no such field{nearest(name, FIELDS)}; known are {', '.join(FIELDS)}")
-    kind, n = _system(data)
+    own = declared(data)
+    kind, n = _system(data) if own is None else ("mechanism", len(own[0].bodies))
     convention = _convention(data, n)
     defined = data.get("define", {})
     if not isinstance(defined, dict) or len(defined) > MOST_DEFINITIONS:
         raise InvalidInput(f'define: a table of at most {MOST_DEFINITIONS} names is needed, as in M = "m1 + m2"')
-    words = vocabulary(_texts(data), n, frozenset(map(str, defined)))
-    reading = _Reading(kind, Space.general(n, own_symbols(n)), words, Slashes(slashes))
+    if own is None:
+        words = vocabulary(_texts(data), n, frozenset(map(str, defined)))
+        meaning = Meaning(kind, Space.general(n, own_symbols(n)))
+    else:
+        mechanism, symbols, words = own
+        meaning = Meaning(kind, mechanism.space, symbols)
+    reading = _Reading(meaning, words, Slashes(slashes))
     reading.define(defined)
     has_equations, has_lagrangian = "equations" in data, "lagrangian" in data
     if has_equations == has_lagrangian:
         raise InvalidInput('give either [equations], one row each, or lagrangian = "…"')
     rows = reading.rows(data["equations"]) if has_equations else ()
     lagrangian = reading.lagrangian(data["lagrangian"]) if has_lagrangian else None
-    meaning = reading.evaluation.meaning
     for letter in "lm" if n > 1 else "":
         indices = {index for used, index in meaning.used if used == letter}
         if 0 in indices and len(indices) > 1:
@@ -117,15 +137,15 @@ def parse_submission(text: str, slashes: int = 0) -> Submission:
         frozenset(name for name in ("angles", "from", "sense") if name in data), frozenset(meaning.used),
         meaning.equal_lengths, meaning.equal_masses, tuple(reading.lines),
         tuple(dict.fromkeys(reading.doubtful)), words,
-        tuple(reading.defined), "\n".join(_texts(data)),
+        tuple(reading.defined), "\n".join(_texts(data)), None if own is None else own[0],
     )  # fmt: skip
 
 
 def _system(data: dict[str, Any]) -> tuple[str, int]:
     kind, links = data.get("system"), data.get("links")
     if kind not in SYSTEMS:
-        hint = nearest(kind, SYSTEMS) if isinstance(kind, str) and len(kind) < 100 else ""
-        known = ", ".join(f"'{name}'" for name in SYSTEMS)
+        hint = nearest(kind, (*SYSTEMS, *PRESETS, "mechanism")) if isinstance(kind, str) and len(kind) < 100 else ""
+        known = ", ".join(f"'{name}'" for name in (*SYSTEMS, *PRESETS, "mechanism"))
         raise InvalidInput(f"system: {kind!r:.40} is not known{hint}; give one of {known}")
     if type(links) is not int or not 1 <= links <= MOST_LINKS:
         raise InvalidInput(f"links: the number of angles is needed, from 1 to {MOST_LINKS}, got {links!r:.40}")
@@ -162,8 +182,8 @@ LAGRANGIAN = re.compile(
 class _Reading:
     """The lines of one file, read one after another."""
 
-    def __init__(self, kind: str, space: Space, words: Vocabulary, slashes: Slashes) -> None:
-        self.evaluation = Evaluation(Meaning(kind, space))
+    def __init__(self, meaning: Meaning, words: Vocabulary, slashes: Slashes) -> None:
+        self.evaluation = Evaluation(meaning)
         self.words, self.slashes = words, slashes
         self.lines: list[tuple[str, str]] = []
         self.defined: list[tuple[str, str]] = []
@@ -182,7 +202,7 @@ class _Reading:
                 raise InvalidInput(
                     f"define.{name!s:.40}: a name is a letter, then letters and digits, and not one in use"
                 )
-            if re.fullmatch(r"(t|w|a|l|m|I|theta|omega|alpha)_?[0-9]+", name):
+            if re.fullmatch(r"(t|th|w|a|l|m|I|theta|omega|alpha)_?[0-9]+", name):
                 raise InvalidInput(f"define.{name!s:.40}: already has a meaning")
             node = _located(f"define.{name}", self._expression, line)
             self.evaluation.definitions[name] = node

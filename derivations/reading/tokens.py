@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from typing import Literal, NoReturn
+from unicodedata import normalize
 
 from flint import fmpq
 
@@ -96,13 +97,35 @@ def tokenize(line: str, names: frozenset[str] = frozenset(), words: Vocabulary |
     """All tokens of a line, ending in one of kind ``end``. ``names`` are those that the file itself defines."""
     if len(line) > LONGEST_LINE:
         fail(LONGEST_LINE, f"the line is longer than {LONGEST_LINE} characters")
-    return _Tokenizer(plain(line.translate(FULL_WIDTH)), names, words or Vocabulary()).all()
+    return _Tokenizer(plain(_decomposed(line.translate(FULL_WIDTH))), names, words or Vocabulary()).all()
+
+
+def _decomposed(line: str) -> str:
+    """ẋ and ẍ, which are one character, as a letter and its dots."""
+    return re.sub("[ẋẍẏÿṙṡż]", lambda found: normalize("NFD", found[0]), line)
+
+
+GREEK = {"tau": "τ", "mu": "μ", "kappa": "κ", "lambda": "λ", "rho": "ρ", "sigma": "σ", "delta": "δ", "eta": "η"}
+
+
+def _spelling(name: str) -> re.Pattern[str]:
+    """How a declared name may be written: lc1, l_c1, l_{c1}, l_{c_1}; tau1, τ₁, \\tau_1."""
+    base = next((word for word in GREEK if name.startswith(word)), name[0])
+    rest = name[len(base) :]
+    first = rf"(?:{base}|{GREEK[base]}|\\{base}(?![A-Za-z]))" if base in GREEK else base
+    if not rest:
+        return re.compile(first)
+    low = rest.translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
+    inner = r"[\s,_]*".join(rest)
+    return re.compile(rf"{first}(?:{rest}|{low}|\s*_\s*(?:\{{\s*{inner}\s*\}}|{rest}))")
 
 
 class _Tokenizer:
     def __init__(self, line: str, names: frozenset[str], words: Vocabulary) -> None:
         self.line, self.names, self.words = line, names, words
         self.matrices: list[str] = []  # the environments that are open
+        declared = sorted(names, key=len, reverse=True) if words.declared else ()
+        self.own = [(name, _spelling(name)) for name in declared]
 
     def all(self) -> list[Token]:
         line, tokens, at = self.line, [], 0
@@ -169,6 +192,9 @@ class _Tokenizer:
             return self.word(at)
         if self.words.kind(command):
             return self.symbol(at, match.end(), command)
+        own = self.declared(at)
+        if own:
+            return own
         known = [*COMMAND_OPERATORS, *FUNCTIONS, "\\frac", "\\dot", "\\ddot", "\\begin{bmatrix}"]
         known += [k for k in self.words.letters if k[0] == "\\"]
         return fail(at, f"the LaTeX command {command[:30]} is not known here{nearest(command, known)}")
@@ -198,7 +224,17 @@ class _Tokenizer:
         index, less = self.index(written, at)
         if not written and word in self.words.fixed:
             index = self.words.fixed[word][1]
+        index = self.numbered(word, index, at)
         return Token("symbol", letter, at, index=index, less=less), end
+
+    def numbered(self, word: str, index: int, at: int) -> int:
+        """The place of the coordinate that a declared word with this index is."""
+        numbers = self.words.numbers.get(word)
+        if numbers is None:
+            return index
+        if index not in numbers:
+            fail(at, f"{word}{index or ''} is no coordinate here")
+        return numbers[index]
 
     def index(self, text: str | None, at: int) -> tuple[int, int]:
         """A link's number, and that of the link whose symbol is subtracted (θ_AB), or 0."""
@@ -236,17 +272,30 @@ class _Tokenizer:
                 match = match if match and match["index"] in self.words.indices else None
             if match:
                 (index, less), end = self.index(match["index"], at), match.end()
+        if letter in FASTER or letter == "a":
+            index = self.numbered(word, index, at)
         while end < len(line) and line[end] in "'′″":
             for _ in range(2 if line[end] == "″" else 1):
                 letter = _faster(letter, at)
             end += 1
         return Token("symbol", letter, at, index=index, less=less), end
 
+    def declared(self, at: int) -> tuple[Token, int] | None:
+        """A symbol that the mechanism is declared with, also with its index written low."""
+        for name, pattern in self.own:
+            found = pattern.match(self.line, at)
+            if found:
+                return Token("name", name, at), found.end()
+        return None
+
     def word(self, at: int) -> tuple[Token, int]:
         line, names = self.line, self.names
         name = NAME.match(line, at)
         if name and name[0] in names:
             return Token("name", name[0], at), name.end()
+        own = self.declared(at)  # names of the mechanism may stand side by side: mgl
+        if own:
+            return own
         centre = CENTRE.match(line, at)
         if centre:
             index, _ = self.index(centre["braced"] or centre["bare"], at)

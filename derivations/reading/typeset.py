@@ -16,13 +16,18 @@ class Typesetter:
 
     def __init__(self, words: Vocabulary) -> None:
         self.letters = dict(LETTERS)
-        self.single: dict[int, str] = {}
+        self.single: dict[int, tuple[str, str]] = {}  # a coordinate's letter and index
+        for word in sorted((*words.fixed, *words.numbers), key=lambda w: (len(w) == 1, w == "θ", w == "φ")):
+            if word in words.fixed:
+                self.single[words.fixed[word][1]] = (word, "")
+            else:
+                self.single |= {k: (word, str(i).translate(SUBSCRIPTS)) for i, k in words.numbers[word].items()}
         self.counted = {number: letter for letter, number in words.indices.items()}
         for written, meant in words.said:
             if meant == "angle":
                 self._angles(written)
             elif meant.startswith("θ") and meant[1:].isdigit():
-                self.single[int(meant[1:])] = written
+                self.single[int(meant[1:])] = (written, "")
             elif meant in self.letters and not written.startswith("index"):
                 self.letters[meant] = written
 
@@ -77,7 +82,8 @@ class Typesetter:
 
     def _symbol(self, node: Symbol) -> str:
         if node.index in self.single and node.letter in "twa":
-            return self.single[node.index] + DOTS.get(node.letter, "")
+            letter, index = self.single[node.index]
+            return letter + DOTS.get(node.letter, "") + index
         counted = self.counted if node.letter in "twa" else {}
         written = "".join(counted.get(k, str(k).translate(SUBSCRIPTS)) for k in (node.index, node.less) if k)
         return self.letters[node.letter] + written

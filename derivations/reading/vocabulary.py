@@ -13,7 +13,7 @@ from functools import cached_property
 
 # Letters of the symbols: t angle, w rate, a acceleration, l, m, g, r density, I a link's own inertia, c its centre.
 LETTERS = {
-    "theta": "t", "t": "t", "θ": "t", "ϑ": "t", "\\theta": "t", "\\vartheta": "t", "𝜃": "t",
+    "theta": "t", "th": "t", "t": "t", "θ": "t", "ϑ": "t", "\\theta": "t", "\\vartheta": "t", "𝜃": "t",
     "omega": "w", "w": "w", "ω": "w", "\\omega": "w",
     "alpha": "a", "a": "a", "α": "a", "\\alpha": "a",
     "l": "l", "ℓ": "l", "\\ell": "l", "m": "m", "g": "g",
@@ -43,15 +43,16 @@ WORDS = re.compile(
 class Vocabulary:
     """``letters``: word to kind of symbol; ``fixed``: word to (kind, index) of one symbol; ``indices``: A to 1.
 
-    ``own``: names of the author's own symbols. ``said``: what was decided, as (what is written, what it is read as).
+    ``said``: what was decided, as (what is written, what it is read as).
     """
 
     letters: dict[str, str] = field(default_factory=lambda: dict(LETTERS))
     fixed: dict[str, tuple[str, int]] = field(default_factory=dict)
     indices: dict[str, int] = field(default_factory=dict)
-    own: frozenset[str] = frozenset()
     said: tuple[tuple[str, str], ...] = ()
     doubtful: dict[str, str] = field(default_factory=dict)  # word: why it is not read
+    numbers: dict[str, dict[int, int]] = field(default_factory=dict)  # word: which coordinate each index is
+    declared: bool = False  # the mechanism is declared body by body, with names of its own
 
     @cached_property
     def words(self) -> tuple[str, ...]:
