@@ -10,6 +10,7 @@ import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from flint import fmpq
 
@@ -29,8 +30,8 @@ Terms = dict[Term, Formula]
 
 
 def terms(space: Space, f: Formula, apart: bool = False) -> Terms:
-    """The coefficient of each product of motion and wave: in parameters, and in coordinates outside of waves, since rows
-    are divided by those too; ``apart``: the latter are told apart as well.
+    """The coefficient of each product of motion and wave: in parameters, and in coordinates outside of waves, since
+    rows are divided by those too; ``apart``: the latter are told apart as well.
     """
     parts: dict[Term, dict[Key, fmpq]] = {}
     for (e, h, s), c in f.terms.items():
@@ -47,22 +48,22 @@ class Scaled:
     right: Terms
     factor: Formula
 
-    @property
+    @cached_property
+    def expected(self) -> Terms:
+        """The right coefficients in the author's scaling."""
+        return {key: f * self.factor for key, f in self.right.items()}
+
+    @cached_property
     def wrong(self) -> list[Term]:
         """The terms that differ, accelerations first and gravity last."""
         keys = sorted(self.given.keys() | self.right.keys(), key=lambda key: (key[0] == 0, key))
-        return [k for k in keys if self.given.get(k, NOTHING) != self.expected(k)]
+        return [k for k in keys if self.given.get(k, NOTHING) != self.expected.get(k, NOTHING)]
 
-    @property
+    @cached_property
     def agreeing(self) -> int:
         """How many single products agree."""
-        return sum(
-            1 for key, f in self.given.items() for e, c in f.terms.items() if self.expected(key).terms.get(e) == c
-        )
-
-    def expected(self, key: Term) -> Formula:
-        """The right coefficient in the author's scaling."""
-        return self.right.get(key, NOTHING) * self.factor
+        shared = self.given.keys() & self.expected.keys()
+        return sum(len(self.given[key].terms.items() & self.expected[key].terms.items()) for key in shared)
 
 
 def scalings(given: Terms, right: Terms) -> list[Scaled]:
@@ -146,7 +147,7 @@ def _without_constants(parts: Terms) -> Terms:
 
 
 def _finding(s: Submission, scaled: Scaled, key: Term, label: str, where: str, wo: str) -> WrongTerm:
-    found, expected = scaled.given.get(key, NOTHING), scaled.expected(key)
+    found, expected = scaled.given.get(key, NOTHING), scaled.expected.get(key, NOTHING)
     code, english, japanese = difference(found, expected, s.space)
     name = authors(s, _shown(s, key, CONSTANT_ONE)) if any(key[:2]) else "the constant"
     return WrongTerm(

@@ -167,16 +167,18 @@ def simple_values(s: Submission, places: list[int]) -> list[dict[int, Formula]]:
     return out
 
 
-def value_words(space: Space, values: dict[int, Formula]) -> Said:
-    """ "l1 = l2 = 1 and m1 : m2 = 2 : 1 (a special case)" """
+def value_words(space: Space, values: dict[int, Formula], per_gravity: bool = False) -> Said:
+    """ "l1 = l2 = 1 and m1 : m2 = 2 : 1 (a special case)"; ``per_gravity``: lengths are known over g alone."""
     n = space.n
     masses = {p: f for p, f in values.items() if 3 * n <= p < 4 * n}
     ratio = len(masses) == n and all(f.is_number() for f in masses.values())
     groups: dict[tuple[str, str], list[str]] = {}
     free = {space.names.index("rho")} | (set(masses) if ratio else set())  # their size does not matter
+    free |= {4 * n} if per_gravity else set()
     for place in sorted(values):
         if place not in free:
-            groups.setdefault((space.names[place][0], _value(space, values[place])), []).append(space.names[place])
+            name = space.names[place] + ("/g" if per_gravity and space.names[place][0] == "l" else "")
+            groups.setdefault((space.names[place][0], _value(space, values[place])), []).append(name)
     parts = [" = ".join([*names, value]) for (_, value), names in sorted(groups.items())]
     if ratio and n > 1:
         names = [space.names[p] for p in sorted(masses)]

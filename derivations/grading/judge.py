@@ -115,11 +115,11 @@ def _specials(court: Judge, h: Hypothesis) -> Iterator[Hypothesis]:
     for values in simple_values(s, places):
         yield _special(h, space, values)
     if len(court.given(h).lines) == space.n <= MOST_FITTED:
-        fixed = _fixed(s, places)
+        fixed, unknown = _fixed(s, places)
         free = [p for p in places if p not in fixed]
         found = fitted(space, [*_given_rows(court, h)], h.mechanism.rows, free, fixed) if free else fixed
         if found is not None:
-            yield _special(h, space, found)
+            yield _special(h, space, found, unknown)
 
 
 def _given_rows(court: Judge, h: Hypothesis) -> list[Formula]:
@@ -128,22 +128,27 @@ def _given_rows(court: Judge, h: Hypothesis) -> list[Formula]:
     return [space.replace(f, h.variant.given) for f in rows] if h.variant.given else rows
 
 
-def _special(h: Hypothesis, space: Space, values: dict[int, Formula]) -> Hypothesis:
-    said = value_words(space, values)
+def _special(h: Hypothesis, space: Space, values: dict[int, Formula], per_gravity: bool = False) -> Hypothesis:
+    said = value_words(space, values, per_gravity)
     return replace(h, mechanism=h.mechanism.with_values(values), assumes=(*h.assumes, said))
 
 
-def _fixed(s: Submission, places: list[int]) -> dict[int, Formula]:
-    """Values for what the equations do not determine: the scale of all masses, and of lengths and gravity together."""
+def _fixed(s: Submission, places: list[int]) -> tuple[dict[int, Formula], bool]:
+    """Values for what the equations do not determine: the scale of all masses, and of lengths and gravity together.
+
+    Also whether gravity is none of the numbers written, so that lengths are known over g alone.
+    """
     n, names = s.space.n, s.space.names
     masses = [p for p in places if names[p][0] == "m"]
     fixed = {masses[0]: constant(1)} if len(masses) == n else {}
     if s.space.names.index("rho") in places:
         fixed[s.space.names.index("rho")] = constant(1)
+    unknown = False
     lengths, g = [p for p in places if names[p][0] == "l"], names.index("g")
     if g in places and len(lengths) == n:
         text = s.source
         number = next((x for x in GRAVITIES if re.search(rf"(?<![0-9.]){re.escape(x)}(?![0-9])", text)), "1")
+        unknown = number == "1"
         whole, _, decimals = number.partition(".")
         fixed[g] = constant(fmpq(int(whole + decimals), 10 ** len(decimals)))
-    return fixed
+    return fixed, unknown

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from ..algebra.symbols import KINDS
+from ..algebra.trig import NOTHING
 from ..mistakes.known_mistakes import KnownMistakes
 from ..reading.submission import Submission
 from ..steps.conventions import Convention
@@ -22,6 +23,7 @@ from .wrong_terms import WrongTermFinder
 
 AFTER_LAGRANGIAN = ("momentum", "derivative", "equation", "matrix", *NEWTON_STAGES)  # no mistake in a Lagrangian
 MOST_LINKS_COMPARED = 4  # links up to which the terms are counted in every convention
+MOST_TERMS_COMPARED = 2000
 USELESS = ("row-empty", "row-repeated")
 
 
@@ -85,7 +87,8 @@ def _by_terms(s: Submission, h: Hypothesis, found: Grade) -> Grade:
 
 def _nearest(s: Submission, meant: Hypothesis) -> Hypothesis:
     """The meaning in which fewest terms are wrong; the declared one unless another has less than half of them."""
-    if s.space.n > MOST_LINKS_COMPARED:
+    written = s.rows or (("", s.lagrangian or NOTHING),)
+    if s.space.n > MOST_LINKS_COMPARED or sum(len(f) for _, f in written) > MOST_TERMS_COMPARED:
         return meant
     best, fewest = meant, _count(s, meant) / 2
     for h in hypotheses(s):

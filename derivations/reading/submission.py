@@ -45,6 +45,11 @@ FIELDS = (
 )
 ANGLES = ("absolute", "relative")
 SYSTEMS = (*KINDS, "rods", "point-masses", "links")
+WORDS: dict[str, tuple[str, int]] = {  # usual names, with how many links they have
+    "simple-pendulum": ("point-masses", 1), "double-pendulum": ("point-masses", 2),
+    "triple-pendulum": ("point-masses", 3), "physical-pendulum": ("links", 1), "acrobot": ("links", 2),
+    "double-rod-pendulum": ("rods", 2),
+}  # fmt: skip
 ORIGINS: dict[str, Origin] = {"down": "down", "up": "up", "horizontal": "right", "right": "right", "left": "left"}
 SENSES = {"counter-clockwise": 1, "clockwise": -1}
 
@@ -143,9 +148,16 @@ def parse_submission(text: str, slashes: int = 0) -> Submission:
 
 def _system(data: dict[str, Any]) -> tuple[str, int]:
     kind, links = data.get("system"), data.get("links")
+    if isinstance(kind, str) and kind in WORDS:
+        kind, usual = WORDS[kind]
+        links = usual if links is None else links
     if kind not in SYSTEMS:
-        hint = nearest(kind, (*SYSTEMS, *PRESETS, "mechanism")) if isinstance(kind, str) and len(kind) < 100 else ""
-        known = ", ".join(f"'{name}'" for name in (*SYSTEMS, *PRESETS, "mechanism"))
+        hint = (
+            nearest(kind, (*SYSTEMS, *WORDS, *PRESETS, "mechanism"))
+            if isinstance(kind, str) and len(kind) < 100
+            else ""
+        )
+        known = ", ".join(f"'{name}'" for name in (*SYSTEMS, *WORDS, *PRESETS, "mechanism"))
         raise InvalidInput(f"system: {kind!r:.40} is not known{hint}; give one of {known}")
     if type(links) is not int or not 1 <= links <= MOST_LINKS:
         raise InvalidInput(f"links: the number of angles is needed, from 1 to {MOST_LINKS}, got {links!r:.40}")

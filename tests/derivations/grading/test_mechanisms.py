@@ -1,5 +1,7 @@
 """Mechanisms that a file declares: textbooks' equations, and the documents' own as printed."""
 
+import re
+from pathlib import Path
 from unicodedata import normalize
 
 import pytest
@@ -157,3 +159,25 @@ def test_declarations_that_are_none_are_refused(bodies, why):
 def test_symbols_that_are_not_declared_are_refused(row, why):
     with pytest.raises(InvalidInput, match=why):
         grade_text(preset("cart-pole", [row]))
+
+
+@pytest.mark.parametrize(
+    ("name", "rows"),
+    [
+        ("simple-pendulum", ["l θ'' + g sin θ = 0"]),
+        ("physical-pendulum", ["(I + m l_c^2) θ'' + m g l_c sin θ = 0"]),
+        ("double-rod-pendulum", [
+            "(m1/3+m2) l1 a1 + m2 l2/2 (a2 cos(t1-t2) + w2^2 sin(t1-t2)) + (m1/2+m2) g sin t1 = 0",
+            "l2/3 a2 + l1/2 (a1 cos(t1-t2) - w1^2 sin(t1-t2)) + g/2 sin t2 = 0"]),
+    ],
+)  # fmt: skip
+def test_usual_names_are_known(name, rows):
+    assert is_plain(grade_text(preset(name, rows)))
+    doubled = [row.replace("g", "g*2", 1) for row in rows]
+    assert grade_text(preset(name, doubled)).verdict == "wrong"
+
+
+def test_the_example_of_the_front_page_is_right():
+    text = (Path(__file__).parents[3] / "README.md").read_text(encoding="utf-8")
+    (example,) = re.findall(r'```toml\n(system = "mechanism".*?)```', text, re.DOTALL)
+    assert is_plain(grade_text(example))
