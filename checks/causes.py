@@ -48,7 +48,7 @@ ALSO_OF_THE_MECHANISM = ("symmetry", "joint forces", "energy")
 
 
 class Causes:
-    """Gives each result that differs its cause as it comes, and all of them in one :class:`Diagnosis` at the end."""
+    """Gives each result that differs its cause as it comes, and all of them so far in one :class:`Diagnosis`."""
 
     def __init__(self, cell: Cell) -> None:
         self._cell = cell
@@ -76,7 +76,7 @@ class Causes:
             engine=self._cell.info.name,
             findings=[_entry(finding) for finding in (*found.findings, *motion)],
             alternatives=[_entry(finding) for finding in found.alternatives],
-            explains=self._explains,
+            explains=list(self._explains),
         )
 
     def _of_model(self, result: Result, check: Check) -> str | None:

@@ -127,6 +127,14 @@ class Cell:
         """A result of this cell."""
         return Result(scene=self.scene.name, engine=self.info.name, check=check, outcome=outcome, **fields)
 
+    def not_judged(self, check: str, states: int) -> Result:
+        """The states of a check that agrees elsewhere, in which it takes too long to say what rounding may do."""
+        reason = (
+            f"nothing is said of {states} of the states: what elimination adds to the bound takes too long to compute "
+            "in each of them, and the states furthest off were looked at"
+        )
+        return self.result(f"{check}, other states", "skipped", reason=reason)
+
 
 @dataclass(frozen=True)
 class Worst:

@@ -18,6 +18,7 @@ from .plan import Task
 from .registry import CHECKS
 
 if TYPE_CHECKING:
+    from ..records.check import Diagnosis, Result
     from .causes import Causes
     from .cell import Cell
 
@@ -57,10 +58,14 @@ class TruthJob:
 
 @dataclass(frozen=True)
 class CellJob:
-    """Run a task's checks, one after the other; ``facts`` as they came from the scene's :class:`TruthJob`."""
+    """Run a task's checks, one after the other; ``facts`` as they came from the scene's :class:`TruthJob`.
+
+    ``differs``: the accelerations are known to differ, by a worker that was lost after that check.
+    """
 
     task: Task
     facts: bytes
+    differs: bool = False
 
     def run(self, send: Send) -> None:
         from .causes import Causes
@@ -69,18 +74,19 @@ class CellJob:
         send(Step(check))
         cell = self._cell(lambda asked: send(Step(check, engine=asked)))
         causes = Causes(cell)
-        differs = False
+        differs = self.differs
+        diagnosis: Diagnosis | None = None
         for check in self.task.checks:
             send(Step(check))
             results = 0
             for result in self._results(CHECKS[check], cell, differs, causes):
-                differs = differs or (check == "accelerations" and result.outcome == "differs")
+                differs = differs or accelerations_differ(check, result)
                 send(msgspec.structs.replace(result, comparison=check))
                 results += 1
             send(Compared(check, results))
-        diagnosis = causes.diagnosis()
-        if diagnosis is not None:
-            send(diagnosis)
+            if causes.diagnosis() != diagnosis:  # each is whole; the next check may take this process along
+                diagnosis = causes.diagnosis()
+                send(diagnosis)
 
     def _cell(self, announce: Callable[[bool], None]) -> Cell:
         from ..engines import AnyShape, engine_info, load_engine
@@ -111,6 +117,11 @@ class CellJob:
         except Exception as error:
             details = {"traceback": traceback.format_exc()}
             yield cell.result(check.name, "error", reason=one_line(error), details=details)
+
+
+def accelerations_differ(check: str, result: Result) -> bool:
+    """Whether this result of a check says that no trajectory can agree."""
+    return check == "accelerations" and result.outcome == "differs"
 
 
 def messages_of(job: TruthJob | CellJob) -> list[object]:

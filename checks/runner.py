@@ -18,7 +18,8 @@ from ..engines.workers.pool import Event, Finished, Lost, Pool, Worker
 from ..engines.workers.processes import Workers
 from ..records.check import Diagnosis, Result
 from .cache import Cache
-from .jobs import CellJob, Compared, Facts, TruthJob
+from .diagnoses import joined
+from .jobs import CellJob, Compared, Facts, TruthJob, accelerations_differ
 from .ledger import Ledger
 from .plan import Plan, Task
 
@@ -67,7 +68,7 @@ class _Progress:
     """The results of a cell so far."""
 
     results: list[Result] = field(default_factory=list)
-    diagnoses: list[Diagnosis] = field(default_factory=list)
+    diagnosis: Diagnosis | None = None  # of the checks so far
     compared: set[str] = field(default_factory=set)
 
 
@@ -88,6 +89,7 @@ class _Run:
         self.hangs: Counter[str] = Counter()
         self.imported: dict[Worker, set[str]] = {}  # engines that a worker has imported already
         self.progress: dict[Worker, _Progress] = {}
+        self.left_behind: dict[tuple[str, str], Diagnosis] = {}  # by workers that were lost; by scene and engine
         self.size = min(jobs, len(tasks))
         self.pool: Pool | None = None
 
@@ -139,12 +141,12 @@ class _Run:
         elif isinstance(event, Finished):
             if isinstance(job, CellJob):
                 yield from self._finished(job, progress)
+                yield from self._diagnosis(job, progress)
         elif isinstance(event.message, Result):
             progress.results.append(event.message)
             yield event.message
         elif isinstance(event.message, Diagnosis):
-            progress.diagnoses.append(event.message)
-            yield event.message
+            progress.diagnosis = event.message
         elif isinstance(event.message, Compared) and isinstance(job, CellJob):
             progress.compared.add(event.message.check)
             self.ledger.promise(job.task.scene.name, job.task.engine, event.message.check, event.message.results)
@@ -153,6 +155,15 @@ class _Run:
             self._release(job, event.message.content)
         elif isinstance(event.message, Failed):
             yield from self._failed(job, event.message.reason, {"traceback": event.message.trace}, progress)
+
+    def _diagnosis(self, job: CellJob, progress: _Progress, ends: bool = True) -> Iterator[Diagnosis]:
+        """The cell's diagnosis, where the cell ends here; else it is remembered for what is left of the cell."""
+        cell = job.task.scene.name, job.task.engine
+        found = joined(self.left_behind.pop(cell, None), progress.diagnosis)
+        if found is not None and ends:
+            yield found
+        elif found is not None:
+            self.left_behind[cell] = found
 
     def _release(self, job: TruthJob, facts: bytes) -> None:
         """A scene's truth is known: its cells may run."""
@@ -163,9 +174,9 @@ class _Run:
         for check in missing:
             yield _error(job.task, check, "the check was planned, and no result of it arrived")
         if not missing:
-            self.cache.keep_results(job.task, progress.results, progress.diagnoses)
+            self.cache.keep_results(job.task, progress.results, [progress.diagnosis] if progress.diagnosis else [])
 
-    def _lost(self, job: object, event: Lost, progress: _Progress) -> Iterator[Result]:
+    def _lost(self, job: object, event: Lost, progress: _Progress) -> Iterator[Result | Diagnosis]:
         """A worker is gone with the job it had: say so, and let a fresh one resume what is left of it."""
         reason, check = event.reason, event.step.name
         if event.overdue and not event.step.engine:
@@ -174,22 +185,29 @@ class _Run:
             reason = f"{reason}: it hangs"
         if not isinstance(job, CellJob) or check not in job.task.checks:
             yield from self._failed(job, reason, {}, progress)
+            if isinstance(job, CellJob):
+                yield from self._diagnosis(job, progress)
             return
         engine = job.task.engine
         self.hangs[engine] += event.overdue and event.step.engine
         if check not in progress.compared:
             yield _error(job.task, check, reason)
         left = job.task.checks[job.task.checks.index(check) + 1 :]
+        goes_on = bool(left) and self.hangs[engine] < HANGS
+        yield from self._diagnosis(job, progress, ends=not goes_on)
         if self.hangs[engine] >= HANGS:
             yield from self._give_up(engine)
             yield from (_error(job.task, other, _given_up()) for other in left)
-        elif left:
-            self.ready.append(replace(job, task=replace(job.task, checks=left)))
+        elif goes_on:
+            differs = any(accelerations_differ(result.comparison, result) for result in progress.results)
+            task = replace(job.task, checks=left)
+            self.ready.append(replace(job, task=task, differs=job.differs or differs))
 
-    def _give_up(self, engine: str) -> Iterator[Result]:
+    def _give_up(self, engine: str) -> Iterator[Result | Diagnosis]:
         """An engine that hangs again and again: its other cells are errors without another wait."""
         for job in [job for job in self.ready if job.task.engine == engine]:
             self.ready.remove(job)
+            yield from self._diagnosis(job, _Progress())
             yield from (_error(job.task, check, _given_up()) for check in job.task.checks)
         for tasks in self.waiting.values():
             for task in [task for task in tasks if task.engine == engine]:

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..engines import EngineInfo
+from ..engines import EngineInfo, Integrator
 from ..models.states import States
 from ..reference.rounding.maximal_elimination import spread_orders, states_within_a_second
 from .cell import quotient, worst
@@ -31,9 +31,12 @@ ACCELERATIONS = 50.0
 TERMS = 15.0
 JOINT_FORCES = 15.0
 ENERGY = 60.0
+STEPS = 10.0  # angles and rates after steps of an explicit scheme
+ITERATED = 30.0  # the same of an implicit one, whose tolerance comes besides
 MAXIMAL = 10.0  # accelerations and joint forces of engines in maximal coordinates
 
 ENTRIES = 1_000  # states times links that are looked at for accelerations
+SYMMETRIES = 64  # the same for symmetries, each of which has an image
 COLUMNS = 200  # for terms, where each state costs n rows of inverse dynamics
 LONGEST = 200  # links of the longest mechanism for which terms, or maximal coordinates, are looked at
 FEW = 5  # states in maximal coordinates, at most
@@ -82,13 +85,14 @@ class Line:
         }
 
 
-def line(error: Array, spread: Array, factor: float, states: States, asked: int) -> Line:
+def line(error: Array, spread: Array, factor: float, states: States, asked: int, besides: Array | float = 0.0) -> Line:
     """Hold errors (B, …) against their spreads; ``states``: those that were chosen, of ``asked``.
 
     A spread of zero is one where nothing but exact zeros meets: any error there is beyond the line. One that overflows
-    says nothing.
+    says nothing. ``besides``: what an error may be besides rounding, as it is: a tolerance that a solver states.
     """
-    known = np.where(np.isfinite(spread), spread, np.inf)
+    whole = spread + besides / factor
+    known = np.where(np.isfinite(whole), whole, np.inf)
     found = worst(quotient(error, np.broadcast_to(known, error.shape)))
     return Line(found.value, factor, found.index[1:], states.labels[found.index[0]], len(states), asked)
 
@@ -103,12 +107,29 @@ def chosen(excess: Array, most: int) -> NDArray[np.intp]:
     return np.union1d(bad, even)
 
 
+def for_steps(integrator: Integrator) -> float:
+    """The factor for angles and rates after steps of this integrator."""
+    return ITERATED if integrator.tolerance else STEPS
+
+
 def states_for_accelerations(info: EngineInfo, n: int) -> int:
     """How many states a cell can afford, about a quarter of a second's work; 0: none."""
     if info.coordinates != "maximal":
         return max(4, ENTRIES // n)
     affordable = max(1, states_within_a_second(n, spread_orders(n) + 2) // 4)
     return min(FEW, affordable) if n <= LONGEST else 0
+
+
+def steps_together(integrator: Integrator, n: int) -> int:
+    """How many steps of a run are taken beside the engine's: what costs some hundredths of a second."""
+    return max(4, round((8 if integrator.tolerance else 64 // integrator.order) * min(1.0, 4 / n)))
+
+
+def states_for_symmetries(info: EngineInfo, n: int) -> int:
+    """How many states a cell can afford in which each image of the mechanism is looked at; 0: none."""
+    if info.coordinates == "maximal":
+        return min(2, states_within_a_second(n, spread_orders(n) + 2) // 16)
+    return min(2, SYMMETRIES // n)
 
 
 def states_for_energy(n: int) -> int:

@@ -4,9 +4,15 @@
 Every acceleration the engine evaluates has a backward error of at most that which
 :mod:`furiko.reference.rounding.bounds` allows, hence a forward error of |M⁻¹| times it. An implicit scheme's iterations
 leave a residual of their tolerance on top, and in maximal coordinates the joints are held together no better than that.
+
+For the sharp line the same is sampled (:mod:`furiko.reference.rounding.stepped`): the accelerations' spread, the last
+digits of angles and rates, and of the joints' constraints; what iterations leave comes besides, as large as their
+tolerance allows it.
 """
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,9 +20,16 @@ from numpy.typing import NDArray
 from ..engines import Integrator
 from ..models.units import in_units, units_of
 from ..reference import mass_matrix
+from ..reference.integration.schemes import RADIUS, alpha_parameters
 from ..reference.maximal_coordinates import MaximalCoordinates
+from ..reference.rounding import spread
 from ..reference.rounding.bounds import EPSILON, allowed, turns
+from ..reference.rounding.iterations import left_in_accelerations, left_in_maximal_coordinates
+from ..reference.rounding.maximal_elimination import joint_spread
+from ..reference.rounding.monte_carlo import ONE_ROUNDING
+from ..reference.rounding.stepped import Ends, stepped
 from .cell import Cell
+from .textbook import MAXIMAL, Candidate
 
 Array = NDArray[np.float64]
 
@@ -76,3 +89,62 @@ def joints_apart(cell: Cell, integrator: Integrator, theta: Array) -> Array:
         answer = np.linalg.inv(bodies.kkt_matrix(bodies.jacobian(q)))[2:k:3, k:]
         found.append(float(np.abs(answer).sum(-1).max()) * gap)
     return np.array(found)
+
+
+@dataclass(frozen=True)
+class Disturbed:
+    """What disturbs a step in each state, (B, n) each.
+
+    ``accelerations``: rounding's root mean square [rad/s²]; ``left`` in them by iterations, and in rates (``speeds``
+    [rad/s]) that joints hold together; ``angles`` [rad] and ``rates`` [rad/s]: by the rounding of the joints' own
+    constraints.
+    """
+
+    accelerations: Array
+    left: Array
+    speeds: Array
+    angles: Array
+    rates: Array
+
+    def worst(self) -> Disturbed:
+        """The largest of all states in each entry, (1, n)."""
+        return Disturbed(*(values.max(axis=0, keepdims=True) for values in vars(self).values()))
+
+
+def disturbed(cell: Cell, integrator: Integrator, theta: Array, omega: Array, alpha: Array) -> Disturbed:
+    """What disturbs this integrator in states (B, n) of this cell's mechanism."""
+    system, nothing = cell.scene.system, np.zeros_like(theta)
+    accelerations = spread.accelerations(cell.info, system, cell.amplitude, theta, omega, alpha)
+    left, speeds, angles, rates = nothing, nothing, nothing, nothing
+    if cell.info.coordinates == "maximal":
+        angles, rates = joint_spread(system, theta, omega)
+        if integrator.tolerance:
+            left, speeds = left_in_maximal_coordinates(system, theta, omega, integrator.tolerance)
+    elif integrator.tolerance:
+        left = left_in_accelerations(system, cell.amplitude, theta, omega, alpha, integrator.tolerance)
+    return Disturbed(accelerations, left, speeds, angles, rates)
+
+
+def sharp_steps(
+    cell: Cell, candidate: Candidate, theta: Array, omega: Array, by: Disturbed, h: float, steps: int = 1
+) -> Ends:
+    """How far rounding, as it really is, and iterations take an engine from a scheme's steps of ``h`` seconds.
+
+    Raises ArithmeticError where the steps are too long.
+    """
+    state, system, held = (theta, omega), cell.scene.system, candidate.held
+    apart = by.angles if held == "positions" else 0.0
+    found = stepped(
+        candidate.scheme, system, cell.amplitude, state, h, steps, by.accelerations, left=by.left, apart=apart
+    )
+    rates = by.rates if held else np.zeros_like(theta)
+    if held == "positions":
+        # An angle that is held elsewhere by δ has been there in one step of the scheme: the rate follows by γ/(βh) δ.
+        beta, gamma, _, _ = map(float, alpha_parameters(RADIUS))
+        rates = np.hypot(rates, gamma / (beta * h) * by.angles)
+    # Differences to the parent's angle, and sums along the tree, when coordinates are changed at both ends.
+    changed = ONE_ROUNDING * np.sqrt(2.0) * np.stack([cell.amplitude.path_sums(values) for values in state])
+    rounding = np.sqrt(found.rounding**2 + changed**2 + np.stack([np.zeros_like(theta), rates**2]))
+    left = found.left + (np.stack([h / 2 * by.speeds, by.speeds]) if held == "velocities" else 0.0)
+    exact = found.exact if candidate.coordinates != MAXIMAL else np.stack(candidate.end(theta, omega, h, steps))
+    return Ends(exact, rounding, left)

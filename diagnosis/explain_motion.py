@@ -58,8 +58,13 @@ def explain_motion(
     mechanism = mechanism_from(expected)
     p = planar.parameters(mechanism)
     reset = _silent_reset(engine, mechanism, integrator, who)
-    if reset:
-        return reset
+    return [*reset, *_of_steps(engine, mechanism, p, integrator, who, diverged and not reset)]
+
+
+def _of_steps(
+    engine: Any, mechanism: Mechanism, p: Parameters, integrator: Integrator, who: str, diverged: bool
+) -> list[Finding]:
+    """What one or two steps of a sensible length show."""
     runs = _run(engine, mechanism, p, integrator)
     if not np.isfinite(runs.once).all():
         return [Finding("unexplained", who, None, None, f"{who}: {integrator.name}: NaN after one step")]

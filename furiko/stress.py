@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from . import __version__
 from .engines import EngineInfo, engine_info, engine_names, engine_version
@@ -28,6 +28,7 @@ SEED = 2018
 PROFILE = "stress"
 
 Watch = Callable[["Progress"], None]
+R = TypeVar("R")
 
 
 @dataclass(frozen=True)
@@ -45,6 +46,14 @@ class StressPlan:
 
     searches: list[Search]
     engines: list[EngineInfo]
+
+
+class StressNotWritten(InvalidInput):
+    """The run is over, and a file of it could not be written; ``summary`` is what it found all the same."""
+
+    def __init__(self, message: str, summary: StressSummary) -> None:
+        super().__init__(message)
+        self.summary = summary
 
 
 def stress(
@@ -66,36 +75,61 @@ def stress(
     ``engines``: names, ``document`` and ``kernels`` among them, None for all; ``budget`` [s] of the whole; ``out``:
     folder of the stream and the pages, where an earlier run is resumed unless ``fresh``; None writes nothing. ``jobs``:
     worker processes; ``timeout`` [s] of one case; ``long_steps``: number of steps of a long run.
-    Raises :class:`InvalidInput` for unknown names and for a folder that holds another run.
+    Raises :class:`InvalidInput` for unknown names and for a folder that holds another run, before anything runs, and
+    :class:`StressNotWritten` at the end of a run whose files could not all be written.
     """
     begun = time.monotonic()
     plan = make_plan(axes, engines, seed=seed, long_steps=long_steps)
     folder = None if out is None else _folder(out, fresh)
     header = make_header(plan, seed)
     results: dict[Any, Any] = {}
+    unwritten: list[str] = []
     if folder is None:
-        _work(plan.searches, results, budget, jobs, timeout, watch, None)
+        _work(plan.searches, results, budget, jobs, timeout, watch, None, unwritten)
     else:
         with Journal(folder / STREAM, header) as journal:
             results.update((key(result), result) for result in journal.results)
-            _work(plan.searches, results, budget, jobs, timeout, watch, journal)
-            journal.finish(time.monotonic() - begun)
+            _work(plan.searches, results, budget, jobs, timeout, watch, journal, unwritten)
+            _unless_unwritten(unwritten, journal.finish, time.monotonic() - begun)
             header = journal.header
-    return summarise(plan.searches, results, header, seed, folder)
+    return summarise(plan.searches, results, header, seed, folder, unwritten)
 
 
 def summarise(
-    searches: Sequence[Search], results: Results, header: Header, seed: int, folder: Path | None
+    searches: Sequence[Search],
+    results: Results,
+    header: Header,
+    seed: int,
+    folder: Path | None,
+    unwritten: Sequence[str] = (),
 ) -> StressSummary:
-    """The summary; its pages are written into the folder, if there is one."""
+    """The summary; its pages are written into the folder, if there is one.
+
+    Raises :class:`StressNotWritten` where they cannot be, or where the run has ``unwritten`` files already.
+    """
     from .studies.stress.summary import summary
 
-    found = summary(searches, results, seed=seed)
+    found, failures = summary(searches, results, seed=seed), list(unwritten)
     if folder is not None:
         from .reports.pages.stress_page import write_pages
 
-        write_pages(folder, found, header)
+        try:
+            write_pages(folder, found, header)
+        except InvalidInput as error:
+            failures.append(str(error))
+    if failures:
+        raise StressNotWritten("; ".join(failures), found)
     return found
+
+
+def _unless_unwritten(unwritten: list[str], write: Callable[[R], object], record: R) -> None:
+    """Write, unless that has failed before: a journal that takes no more ends there, and the run goes on."""
+    if unwritten:
+        return
+    try:
+        write(record)
+    except InvalidInput as error:
+        unwritten.append(str(error))
 
 
 def make_plan(
@@ -173,6 +207,7 @@ def _work(
     timeout: float,
     watch: Watch | None,
     journal: Journal | None,
+    unwritten: list[str],
 ) -> None:
     def begins(case: Any, waiting: int) -> None:
         if watch is not None:
@@ -181,7 +216,7 @@ def _work(
     number = jobs or min(os.cpu_count() or 1, 8)
     for result in run_cases(searches, results, budget=budget, jobs=number, timeout=timeout, watch=begins):
         if journal is not None:
-            journal.write(result)
+            _unless_unwritten(unwritten, journal.write, result)
 
 
 def _folder(out: str | Path, fresh: bool) -> Path:

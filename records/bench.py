@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import msgspec
 
+from .findings import Difference
+
 FORMAT = 1
 
 
@@ -48,6 +50,7 @@ class Motion(msgspec.Struct, frozen=True, kw_only=True):
     points: list[Point]
     reaches: list[Reach]
     left_out: list[str]  # engines without a method, and why
+    causes: list[Difference] = []  # why an engine's accelerations or steps are not those of the scene
 
 
 class Speed(msgspec.Struct, frozen=True, kw_only=True):

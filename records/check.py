@@ -102,7 +102,11 @@ class Diagnosis(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag
 
 
 class Footer(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag="footer"):
-    """Last line of a stream. A stream without it was cut off."""
+    """Last line of a stream. A stream without it was cut off.
+
+    ``digest``: the SHA-256 of every byte of the stream before its own value, in hexadecimal; empty in a run that was
+    not written.
+    """
 
     agrees: int
     differs: int
@@ -111,6 +115,7 @@ class Footer(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag="f
     loose: int = 0  # of those that agree
     diagnoses: int = 0
     seconds: float = 0.0
+    digest: str = ""  # the last field: what stands before it in the line is in it
 
 
 Record = Header | Result | Diagnosis | Footer

@@ -158,6 +158,7 @@ class EngineReading(msgspec.Struct, frozen=True, kw_only=True):
     native: bool = msgspec.field(name="reads the file itself")
     compiled: MechanismEntry | None = None  # the mechanism that the engine made of the file
     residual: float | None = None  # what that mechanism does not explain
+    motion: list[Difference] | None = None  # causes in the time steps of the integrator that the file asks for
 
 
 class DiagnoseDocument(msgspec.Struct, frozen=True, kw_only=True):

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..models import PlanarTree
 from ..models.tree import SUPPORT
-from .integration.schemes import alpha_parameters
+from .integration.schemes import AlphaScheme, generalized_alpha, newmark
 
 Array = NDArray[Any]
 Wide, WideComplex = np.longdouble, np.clongdouble
@@ -101,55 +101,73 @@ class MaximalCoordinates:
 
 
 def generalized_alpha_index_3(
-    system: MaximalCoordinates, theta: Array, omega: Array, h: Any, radius: Any
+    system: MaximalCoordinates, theta: Array, omega: Array, h: Any, radius: Any, steps: int = 1
 ) -> tuple[Array, Array]:
-    """θ₁ and ω₁, (n,) each, after one step of the generalized-α scheme that solves C(q₁) = 0.
+    """θ and ω, (n,) each, after steps of the generalized-α scheme that solves C(q) = 0 at the end of each.
 
     ``h``: the step [s]; ``radius``: ρ∞. Raises ArithmeticError where the step is too long to be solved.
     """
-    return _step(system, theta, omega, h, alpha_parameters(radius), velocities=False)
+    return _run(system, theta, omega, h, generalized_alpha(radius), steps, velocities=False)
 
 
-def trapezoidal_index_2(system: MaximalCoordinates, theta: Array, omega: Array, h: Any) -> tuple[Array, Array]:
-    """θ₁ and ω₁, (n,) each, after one step of the trapezoidal rule that solves G(q₁) q̇₁ = 0; positions drift.
+def trapezoidal_index_2(
+    system: MaximalCoordinates, theta: Array, omega: Array, h: Any, steps: int = 1
+) -> tuple[Array, Array]:
+    """θ and ω, (n,) each, after steps of the trapezoidal rule that solves G(q) q̇ = 0; positions drift.
 
     Raises ArithmeticError where the step is too long to be solved.
     """
-    return _step(system, theta, omega, h, (Wide(1) / 4, Wide(1) / 2, 0, 0), velocities=True)
+    return _run(system, theta, omega, h, newmark(Wide(1) / 4, Wide(1) / 2), steps, velocities=True)
 
 
-def _step(
+def _run(
     system: MaximalCoordinates,
     theta: Array,
     omega: Array,
     h: Any,
-    parameters: tuple[Any, Any, Any, Any],
+    scheme: AlphaScheme,
+    steps: int,
     *,
     velocities: bool,
 ) -> tuple[Array, Array]:
-    beta, gamma, alpha_m, alpha_f = parameters
     q, v = system.state(theta, omega)
-    a, k = system.accelerations(q, v), 3 * system.n
-    share = (1 - alpha_f) / (1 - alpha_m)  # of the new acceleration in the algorithmic one
-    kept = (alpha_f - alpha_m) / (1 - alpha_m)
+    before = kept = system.accelerations(q, v)
+    for _ in range(steps):
+        q, v, before, kept = _step(system, q, v, h, scheme, (before, kept), velocities=velocities)
+    return q[2::3], v[2::3]
+
+
+def _step(
+    system: MaximalCoordinates,
+    q: Array,
+    v: Array,
+    h: Any,
+    scheme: AlphaScheme,
+    accelerations: tuple[Array, Array],
+    *,
+    velocities: bool,
+) -> tuple[Array, Array, Array, Array]:
+    """q, q̇, the accelerations q̈ and the algorithmic ones after one step, each (3n,), from those before it."""
+    (before, kept), k = accelerations, 3 * system.n
+    share = (1 - scheme.alpha_f) / (1 - scheme.alpha_m)  # of the new acceleration in the algorithmic one
 
     def state(acceleration: Array) -> tuple[Array, Array]:
-        end = share * acceleration + kept * a
-        return q + h * v + h * h * ((0.5 - beta) * a + beta * end), v + h * ((1 - gamma) * a + gamma * end)
+        return scheme.moved(q, v, h, kept, scheme.algorithmic(acceleration, before, kept))
 
     def residual(x: Array) -> Array:
         positions, rates = state(x[:k])
         G = system.jacobian(positions)
-        held = G @ rates / (h * gamma * share) if velocities else system.constraint(positions) / (h * h * beta * share)
+        unit = h * scheme.gamma * share if velocities else h * h * scheme.beta * share
+        held = (G @ rates if velocities else system.constraint(positions)) / unit
         return np.concatenate([system.mass * x[:k] + G.T @ x[k:] - system.force, held])
 
     def derivative(x: Array) -> NDArray[np.float64]:
         return system.kkt_matrix(system.jacobian(state(x[:k])[0]))
 
-    guess = np.concatenate([a, np.zeros(2 * system.n, Wide)])
+    guess = np.concatenate([before, np.zeros(2 * system.n, Wide)])
     least = 1e-16 * float(np.abs(q).max() / (h * h))  # moves positions by a part of 1e-16, far less than engines' do
-    positions, rates = state(_newton(residual, derivative, guess, least)[:k])
-    return positions[2::3], rates[2::3]
+    after = _newton(residual, derivative, guess, least)[:k]
+    return *state(after), after, scheme.algorithmic(after, before, kept)
 
 
 def _newton(

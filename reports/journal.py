@@ -87,6 +87,11 @@ class Journal:
             file.seek(0)
             before = read_stream(file)
             self._require_same_run(before.header)
+            if before.altered:
+                raise InvalidInput(
+                    f"{self.path}: altered or damaged: the digest in its footer is of other lines; start anew with "
+                    "--fresh, or give another --out"
+                )
             file.truncate(_end_of_results(content))
         return before
 
@@ -132,6 +137,7 @@ class _Appending(StreamWriter):
             self._file = os.fdopen(descriptor, "ab", buffering=0)
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
             self._size = self.path.stat().st_size
+            self._seal.update(self.path.read_bytes())
         except OSError as error:
             raise self._unwritable(error) from None
         return self

@@ -71,17 +71,18 @@ class TableCell:
 @dataclass(frozen=True)
 class Report:
     """A result stream: its header, its results in the order they came, its footer if the run got that far, and its
-    diagnoses."""
+    diagnoses. ``altered``: the stream that was read is not the one that the run wrote."""
 
     header: Header
     results: tuple[Result, ...]
     footer: Footer | None = None
     diagnoses: tuple[Diagnosis, ...] = ()
+    altered: bool = False
 
     @property
     def complete(self) -> bool:
-        """Whether the stream is whole: it has its footer, whose counts are those of its lines, and no line twice."""
-        return self.footer is not None and not self._miscounted and not self.repeated
+        """Whether the stream is whole: its footer has the counts and the digest of its lines, none of them twice."""
+        return self.footer is not None and not self._miscounted and not self.repeated and not self.altered
 
     @cached_property
     def repeated(self) -> tuple[Result, ...]:
@@ -179,6 +180,11 @@ class Report:
             found.append(
                 f"This stream was altered or damaged: {count(len(self.repeated), 'result')} in it twice, "
                 f"the first {_place(first.scene, first.engine)}, {one_line(first.check, 80)}."
+            )
+        if self.altered and not found:
+            found.append(
+                "This stream was altered or damaged: its lines are not those that the run wrote; the digest in its "
+                "footer is of others."
             )
         if self.footer is not None and self.unrun:
             pair = self.unrun[0]

@@ -1,12 +1,14 @@
 """The result stream, ``report.jsonl``: written line by line as results come, read back with every line checked.
 
-A stream is complete only with its footer, and only :meth:`StreamWriter.finish` writes one. JSON has no NaN and no
-infinity: a figure that is not finite is written as null, and the result's reason says which it was.
+A stream is complete only with its footer, and only :meth:`StreamWriter.finish` writes one. The footer has a digest of
+all that stands before it: a figure that was changed afterwards does not pass for what a run measured. JSON has no NaN
+and no infinity: a figure that is not finite is written as null, and the result's reason says which it was.
 """
 
 from __future__ import annotations
 
 import fcntl
+import hashlib
 import math
 import os
 from collections import Counter
@@ -33,6 +35,7 @@ STREAM = "report.jsonl"
 LARGEST_LINE = 8_000_000  # bytes
 LARGEST_STREAM = 64_000_000  # bytes; as text up to four times as much, and diff reads two
 MOST_VALUES = 3_000_000  # commas and brackets, a bound of the memory that the records take
+DIGEST_FIELD = b'"digest":"'
 LONGEST_REASON = 20_000  # characters; a traceback fits
 
 _decoder = msgspec.json.Decoder(Record)
@@ -65,6 +68,7 @@ class StreamWriter:
         self._counts: Counter[Word] = Counter()
         self._diagnoses = 0
         self._size = self._values = 0
+        self._seal = hashlib.sha256()  # of all that was written
 
     def __enter__(self) -> StreamWriter:
         try:
@@ -103,6 +107,9 @@ class StreamWriter:
             diagnoses=self._diagnoses,
             seconds=seconds,
         )
+        seal = self._seal.copy()
+        seal.update(_sealed_part(_encode(footer)))
+        footer = msgspec.structs.replace(footer, digest=seal.hexdigest())
         self._line(footer)
         self._close()
         return footer
@@ -116,6 +123,7 @@ class StreamWriter:
         if self._file is None:
             raise ValueError(f"{self.path}: the stream is closed, or an earlier line of it could not be written")
         line = _encode(record) + b"\n"
+        self._seal.update(line)
         self._size += len(line)
         self._values += _values(line)
         if len(line) > LARGEST_LINE or self._size > LARGEST_STREAM or self._values > MOST_VALUES:
@@ -166,6 +174,7 @@ def _read(file: BinaryIO, name: str) -> Report:
     footer: Footer | None = None
     results: list[Result] = []
     diagnoses: list[Diagnosis] = []
+    seal, altered = hashlib.sha256(), False
     for number, line in enumerate(_lines(file, name), start=1):
         where = f"{name}, line {number}"
         if footer is not None:
@@ -183,13 +192,21 @@ def _read(file: BinaryIO, name: str) -> Report:
             raise InvalidInput(f"{where}: a second header; one file holds one run")
         elif isinstance(record, Footer):
             footer = record
+            seal.update(_sealed_part(line))
+            altered = seal.hexdigest() != footer.digest
         elif isinstance(record, Diagnosis):
             diagnoses.append(record)
         else:
             results.append(record)
+        seal.update(line)
     if header is None:
         raise InvalidInput(f"{name}: empty, or cut off within its header; it holds no result")
-    return Report(header, tuple(results), footer, tuple(diagnoses))
+    return Report(header, tuple(results), footer, tuple(diagnoses), altered)
+
+
+def _sealed_part(footer: bytes) -> bytes:
+    """The footer's line up to the value of its digest."""
+    return footer[: footer.rfind(DIGEST_FIELD) + len(DIGEST_FIELD)]
 
 
 def _lines(file: BinaryIO, name: str) -> Iterator[bytes]:

@@ -1,5 +1,8 @@
 """Fake engines with known causes: another mechanism, a fault in the code, a stale buffer. ``fake_causes:Class``."""
 
+import os
+import time
+
 import numpy as np
 from fake_engines import LateByOneStep, LowOrder, Right, about
 
@@ -20,6 +23,24 @@ class DenseAndLight(Right):
 
     def __init__(self, system):
         super().__init__(RodChain(system.lengths, density=1.25 * system.density, gravity=9.80))
+
+
+class LostInEnergy(DenseAndLight):
+    """The same, and takes its process along in its energies."""
+
+    info = about("LostInEnergy", adapter="fake_causes:LostInEnergy")
+
+    def energy(self, theta, omega):
+        os.abort()
+
+
+class HangsInEnergy(DenseAndLight):
+    """The same, and never comes back from its energies."""
+
+    info = about("HangsInEnergy", adapter="fake_causes:HangsInEnergy")
+
+    def energy(self, theta, omega):
+        time.sleep(3600)
 
 
 class Dense(Right):

@@ -5,7 +5,8 @@ states the engine takes one step, and so does every scheme of :mod:`furiko.refer
 order the engine's makers give theirs. The one that fits is named. An order that is measured passes any error of that
 order; this does not: a wrong scheme misses by a power of step × fastest rate, 1e-9 and more, the right one by 1e-15.
 
-How far rounding takes them apart is bounded, not chosen: see :mod:`furiko.checks.step_rounding`. A scheme hands the
+How far rounding takes them apart is bounded, not chosen: see :mod:`furiko.checks.step_rounding`, and for the sharp line
+sampled (:mod:`furiko.reference.rounding.stepped`). A scheme hands the
 accelerations' errors on to the rates times the step, to the angles times its square; that later stages start from
 earlier ones' errors multiplies them by at most exp(stages × step × fastest rate).
 
@@ -16,7 +17,7 @@ The step is an eighth over the fastest rate at which links turn or nearby states
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -24,15 +25,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engines import Integrator
-from ...models.units import in_units, units_of
 from ...records.check import Result
-from ...reference import literal_accelerations
-from ...reference.integration.schemes import RADIUS, SCHEMES, Scheme, alpha_parameters
+from ...reference.integration.schemes import RADIUS, alpha_parameters
 from ...reference.integration.variation import fastest_rate
-from ...reference.maximal_coordinates import MaximalCoordinates, generalized_alpha_index_3, trapezoidal_index_2
 from ...reference.rounding.bounds import EPSILON
+from .. import sharp
 from ..cell import Cell, quotient, worst
-from ..step_rounding import acceleration_error, conversion, joints_apart
+from ..step_rounding import acceleration_error, conversion, disturbed, joints_apart, sharp_steps
+from ..textbook import MAXIMAL, Candidate, candidates
 
 Array = NDArray[np.float64]
 Wide = NDArray[Any]
@@ -52,20 +52,6 @@ class Steps:
     omega: Array
     alpha: Array
     h: float
-
-
-@dataclass(frozen=True)
-class Candidate:
-    """A textbook scheme in some coordinates, and how it takes one step from states (B, n) in extended precision."""
-
-    scheme: Scheme
-    coordinates: str
-    step: Callable[[Wide, Wide, float], tuple[Wide, Wide]]
-
-    @property
-    def name(self) -> str:
-        """As it is called in the report."""
-        return f"{self.scheme.name} in {self.coordinates}"
 
 
 def compare(cell: Cell) -> Iterator[Result]:
@@ -95,7 +81,7 @@ class Textbook:
 
     def __init__(self, cell: Cell, steps: Steps) -> None:
         self._steps = steps
-        self._candidates = candidates(cell, steps)
+        self._candidates = candidates(cell, steps.omega)
         self._ends: dict[str, tuple[Wide, Wide]] = {}
 
     def of_order(self, order: int | None) -> list[Candidate]:
@@ -105,8 +91,7 @@ class Textbook:
     def end(self, candidate: Candidate) -> tuple[Wide, Wide]:
         """θ and ω after its step, (B, n) each."""
         if candidate.name not in self._ends:
-            theta, omega = (values.astype(np.longdouble) for values in (self._steps.theta, self._steps.omega))
-            self._ends[candidate.name] = candidate.step(theta, omega, self._steps.h)
+            self._ends[candidate.name] = candidate.end(self._steps.theta, self._steps.omega, self._steps.h)
         return self._ends[candidate.name]
 
 
@@ -127,13 +112,13 @@ def _compare(cell: Cell, integrator: Integrator, steps: Steps, textbook: Textboo
         fits = all_fits(None)
     best, *rest = fits
     agrees = best.excess <= 1 and best.candidate.scheme.order == integrator.order
+    line = sharp_line(cell, integrator, steps, textbook, best.candidate, got) if agrees else None
     return cell.result(
         f"{NAME} {integrator.name}",
-        "agrees" if agrees else "differs",
+        **sharp.verdict(agrees, line, _reason(integrator, fits)),
         measured=best.measured,
         allowed=best.bound,
         unit="rad/s",
-        reason=_reason(integrator, fits),
         details={
             "integrator": integrator.name,
             "scheme": best.candidate.scheme.name,
@@ -142,8 +127,21 @@ def _compare(cell: Cell, integrator: Integrator, steps: Steps, textbook: Textboo
             "states": len(got),
             "error of the angles": best.angles,
             "next best": {"scheme": rest[0].candidate.name, "error": rest[0].measured} if rest else None,
-        },
+        }
+        | (line.details() if line else {}),
     )
+
+
+def sharp_line(
+    cell: Cell, integrator: Integrator, steps: Steps, textbook: Textbook, candidate: Candidate, got: Array
+) -> sharp.Line:
+    """The engine's step (B, 2, n) against what rounding does to each angle and rate of it."""
+    by = disturbed(cell, integrator, steps.theta, steps.omega, steps.alpha)
+    size = sharp_steps(cell, candidate, steps.theta, steps.omega, by, steps.h)
+    error = (got - np.stack(textbook.end(candidate), axis=1)).astype(np.float64)
+    rounding, left = (values.swapaxes(0, 1) for values in (size.rounding, size.left))
+    states = cell.states.at(np.arange(len(cell.states))[-STATES:])
+    return sharp.line(error, rounding, sharp.for_steps(integrator), states, len(states), left)
 
 
 @dataclass(frozen=True)
@@ -174,53 +172,6 @@ def fit(got: Array, textbook: Textbook, candidate: Candidate, bounds: Array) -> 
     return SchemeFit(candidate, excess.value, bound, float(off[0].max()))
 
 
-def candidates(cell: Cell, steps: Steps) -> list[Candidate]:
-    """Every scheme, in the coordinates that the engine may apply it in."""
-    system = cell.scene.system
-
-    def accelerations(theta: Wide, omega: Wide) -> Wide:
-        return literal_accelerations(system, theta, omega)
-
-    found = [
-        Candidate(scheme, "angles", lambda t, w, h, step=scheme.step: step(accelerations, t, w, h))  # type: ignore[misc]
-        for scheme in SCHEMES
-    ]
-    if cell.info.coordinates == "maximal":
-        units = units_of(system.tree()).fitting(system.gravity, steps.omega)
-        bodies = MaximalCoordinates(in_units(system.tree(), units))
-        found += [
-            Candidate(scheme, "maximal coordinates", _one_by_one(bodies, step, units.time))
-            for scheme, step in MAXIMAL_SCHEMES
-        ]
-    return found
-
-
-_Step = Callable[[MaximalCoordinates, Wide, Wide, Any], tuple[Wide, Wide]]
-
-MAXIMAL_SCHEMES: tuple[tuple[Scheme, _Step], ...] = tuple(
-    (Scheme(name, 2, lambda *_: (np.empty(0), np.empty(0)), reach=2.0, stages=3), step)
-    for name, step in (
-        (
-            "generalized-α, ρ∞ = 0.9, positions held together",
-            lambda bodies, t, w, h: generalized_alpha_index_3(bodies, t, w, h, RADIUS),
-        ),
-        ("trapezoidal rule, velocities held together", trapezoidal_index_2),
-    )
-)
-
-
-def _one_by_one(
-    bodies: MaximalCoordinates, step: _Step, second: float
-) -> Callable[[Wide, Wide, float], tuple[Wide, Wide]]:
-    """Steps of ``bodies`` whose unit of time has so many seconds."""
-
-    def each(theta: Wide, omega: Wide, h: float) -> tuple[Wide, Wide]:
-        ends = [step(bodies, t, w * second, np.longdouble(h / second)) for t, w in zip(theta, omega, strict=True)]
-        return np.stack([end[0] for end in ends]), np.stack([end[1] for end in ends]) / second
-
-    return each
-
-
 def rounding_bounds(
     cell: Cell, integrator: Integrator, steps: Steps, candidate: Candidate, acceleration: Array
 ) -> Array:
@@ -232,7 +183,7 @@ def rounding_bounds(
     sums = EPSILON * (scheme.stages + 2)  # additions of a term for each stage, and the changes of coordinates
     rates = h * amplified * acceleration + sums * conversion(cell, size)
     angles = h * rates + sums * conversion(cell, turns)
-    if candidate.coordinates == "maximal coordinates":
+    if candidate.coordinates == MAXIMAL:
         apart = joints_apart(cell, integrator, steps.theta)
         # Where positions are held, the rates follow by γ/(βh) times that.
         beta, gamma, _, _ = map(float, alpha_parameters(RADIUS))

@@ -21,7 +21,10 @@ from ...models.systems import DocumentSystem
 from ...records.check import Result
 from ...reference import literal_accelerations, mass_matrix
 from ...reference.integration.variation import variation
+from ...reference.kernels.forward_dynamics import plain_accelerations
+from ...reference.rounding import spread
 from ...reference.rounding.bounds import EPSILON, Amplitudes, allowed, amplitudes, turns
+from .. import sharp
 from ..cell import Cell, Worst, quotient, worst
 from .accelerations import SINGULAR
 
@@ -42,7 +45,8 @@ TWO_PI_ERROR = 2.45e-16
 class Image:
     """The image of a mechanism and its states under a symmetry: ``before`` and ``after`` must answer alike.
 
-    ``back``: the first accelerations, from the second's; ``moved``: rounding of the angles in making the image [rad].
+    ``back``: the first accelerations, from the second's; ``moved``: rounding of the angles in making the image [rad];
+    ``alike``: nothing but signs and powers of two are changed, so that the image's rounding is the same but for these.
     """
 
     before: DocumentSystem
@@ -51,6 +55,26 @@ class Image:
     omega: Array
     back: Callable[[Array], Array]
     moved: float = 0.0
+    alike: bool = False
+
+    def by_angles(self, theta: Array, omega: Array) -> Array | float:
+        """What the rounding of the image's angles does to its accelerations at most [rad/s²], (B, n)."""
+        if not self.moved:
+            return 0.0
+        return np.asarray(self.moved * np.abs(variation(self.before, theta, omega).by_theta).sum(-1))
+
+
+@dataclass(frozen=True)
+class Difference:
+    """Of the two answers [rad/s²], and what rounding explains of it at most, (B, n) each."""
+
+    difference: Array
+    bound: Array
+
+    @property
+    def worst(self) -> Worst:
+        """The largest part of the bound."""
+        return worst(quotient(self.difference, self.bound))
 
 
 @dataclass(frozen=True)
@@ -78,13 +102,15 @@ def compare(cell: Cell) -> Iterator[Result]:
     images = _images(system, theta, omega)
     refused = {name: why for name, image in images.items() if (why := cannot(cell.info, image.after))}
     taken = {name: image for name, image in images.items() if name not in refused}
-    found = excesses(taken, theta, omega, engine, cell.amplitude_of, cell.info.accuracy)
+    found = differences(taken, theta, omega, engine, cell.amplitude_of, cell.info.accuracy)
     theory = _theory(system, theta.tobytes(), omega.tobytes())
+    lines = sharp_lines(cell, taken, found, theta, omega)
     for symmetry in SYMMETRIES:
         if symmetry.name in refused:
             yield cell.result(f"{NAME} {symmetry.name}", "skipped", reason=f"the image: {refused[symmetry.name]}")
         elif symmetry.name in found:
-            yield _result(cell, symmetry, found[symmetry.name], theory[symmetry.name].value)
+            line = lines.get(symmetry.name)
+            yield _result(cell, symmetry, found[symmetry.name].worst, theory[symmetry.name].worst.value, line)
 
 
 def _images(system: DocumentSystem, theta: Array, omega: Array) -> dict[str, Image]:
@@ -92,10 +118,10 @@ def _images(system: DocumentSystem, theta: Array, omega: Array) -> dict[str, Ima
     return {name: image for name, image in found.items() if image is not None}
 
 
-def excesses(
+def differences(
     images: dict[str, Image], theta: Array, omega: Array, ask: Accelerations, amplitude: AmplitudeOf, accuracy: float
-) -> dict[str, Worst]:
-    """For each symmetry: the difference of the two answers over what rounding explains of it, where it is worst."""
+) -> dict[str, Difference]:
+    """For each symmetry: the difference of the two answers, and what rounding explains of it."""
     answers: dict[DocumentSystem, tuple[Array, Array]] = {}
     found = {}
     for name, image in images.items():
@@ -103,15 +129,40 @@ def excesses(
             answers[image.before] = _answer(image.before, theta, omega, ask, amplitude, accuracy)
         first, bound = answers[image.before]
         second, error = map(image.back, _answer(image.after, image.theta, image.omega, ask, amplitude, accuracy))
-        bound = bound + np.abs(error)
-        if image.moved:
-            bound = bound + image.moved * np.abs(variation(image.before, theta, omega).by_theta).sum(-1)
-        found[name] = worst(quotient(first - second, bound))
+        found[name] = Difference(first - second, bound + np.abs(error) + image.by_angles(theta, omega))
     return found
 
 
+def sharp_lines(
+    cell: Cell, images: dict[str, Image], found: dict[str, Difference], theta: Array, omega: Array
+) -> dict[str, sharp.Line]:
+    """Each difference against what rounding really does to the two answers, in as many states as that is quick for."""
+    info = cell.info
+    most = sharp.states_for_symmetries(info, cell.scene.system.n)
+    if not most:
+        return {}
+    states = cell.states.at(np.arange(len(cell.states))[-len(theta) :][:most])
+    factor = sharp.MAXIMAL if info.coordinates == "maximal" else sharp.ACCELERATIONS
+
+    def size(system: DocumentSystem, angles: Array, rates: Array) -> Array:
+        exact = plain_accelerations(system, angles, rates)
+        return spread.accelerations(info, system, cell.amplitude_of(system), angles, rates, exact)
+
+    firsts: dict[DocumentSystem, Array] = {}
+    lines = {}
+    for name, image in images.items():
+        if image.before not in firsts:
+            firsts[image.before] = size(image.before, theta[:most], omega[:most])
+        first = firsts[image.before]
+        second = first if image.alike else image.back(size(image.after, image.theta[:most], image.omega[:most]))
+        besides = image.by_angles(theta[:most], omega[:most])
+        error = found[name].difference[:most]
+        lines[name] = sharp.line(error, np.hypot(first, second), factor, states, len(theta), besides)
+    return lines
+
+
 @lru_cache(maxsize=4)
-def _theory(system: DocumentSystem, theta: bytes, omega: bytes) -> dict[str, Worst]:
+def _theory(system: DocumentSystem, theta: bytes, omega: bytes) -> dict[str, Difference]:
     """The same of the documents' own formula; the states as bytes, so that every engine's cell can share it."""
     angles, rates = (np.frombuffer(values).reshape(-1, system.n) for values in (theta, omega))
 
@@ -119,10 +170,10 @@ def _theory(system: DocumentSystem, theta: bytes, omega: bytes) -> dict[str, Wor
         return amplitudes(other, "absolute")
 
     images = _images(system, angles, rates)
-    return excesses(images, angles, rates, literal_accelerations, absolute, EPSILON)
+    return differences(images, angles, rates, literal_accelerations, absolute, EPSILON)
 
 
-def _result(cell: Cell, symmetry: Symmetry, found: Worst, theory: float) -> Result:
+def _result(cell: Cell, symmetry: Symmetry, found: Worst, theory: float, line: sharp.Line | None) -> Result:
     state, angle = found.index
     label = cell.states.labels[-STATES:][state]
     if theory > 1:
@@ -133,12 +184,12 @@ def _result(cell: Cell, symmetry: Symmetry, found: Worst, theory: float) -> Resu
         reason = symmetry.says
     return cell.result(
         f"{NAME} {symmetry.name}",
-        "agrees" if max(found.value, theory) <= 1 else "differs",
+        **sharp.verdict(max(found.value, theory) <= 1, line, reason),
         measured=found.value,
         allowed=1.0,
         unit="×",
-        reason=reason,
-        details={"states": STATES, "state": label, "angle": angle + 1, "documents' formula": theory},
+        details={"states": STATES, "state": label, "angle": angle + 1, "documents' formula": theory}
+        | (line.details() if line else {}),
     )
 
 
@@ -162,12 +213,12 @@ def _same(alpha: Array) -> Array:
 
 def mirrored(system: DocumentSystem, theta: Array, omega: Array) -> Image:
     """Left and right changed over: θ, ω → -θ, -ω."""
-    return Image(system, system, -theta, -omega, np.negative)
+    return Image(system, system, -theta, -omega, np.negative, alike=True)
 
 
 def reversed_rates(system: DocumentSystem, theta: Array, omega: Array) -> Image:
     """Time reversed: ω → -ω."""
-    return Image(system, system, theta, -omega, _same)
+    return Image(system, system, theta, -omega, _same, alike=True)
 
 
 def turned_round(system: DocumentSystem, theta: Array, omega: Array) -> Image:
@@ -201,19 +252,19 @@ def leg_split(system: DocumentSystem, theta: Array, omega: Array) -> Image | Non
 
 def masses_scaled(system: DocumentSystem, theta: Array, omega: Array) -> Image:
     """Eight times the mass everywhere."""
-    return Image(system, _scaled(system, mass=8.0), theta, omega, _same)
+    return Image(system, _scaled(system, mass=8.0), theta, omega, _same, alike=True)
 
 
 def lengths_scaled(system: DocumentSystem, theta: Array, omega: Array) -> Image:
     """Four times the length, and twice the time."""
-    return Image(system, _scaled(system, length=4.0), theta, omega / 2, lambda alpha: 4 * alpha)
+    return Image(system, _scaled(system, length=4.0), theta, omega / 2, lambda alpha: 4 * alpha, alike=True)
 
 
 def gravity_scaled(system: DocumentSystem, theta: Array, omega: Array) -> Image | None:
     """Four times gravity, and half the time."""
     if not system.gravity:
         return None
-    return Image(system, _scaled(system, gravity=4.0), theta, 2 * omega, lambda alpha: alpha / 4)
+    return Image(system, _scaled(system, gravity=4.0), theta, 2 * omega, lambda alpha: alpha / 4, alike=True)
 
 
 def support_turned(system: DocumentSystem, theta: Array, omega: Array) -> Image:

@@ -13,6 +13,9 @@ the truth's times at which the coarse run is still near the fine one.
 
 Rounding (:mod:`furiko.checks.step_rounding`) comes on top, in each of the finest run's steps, and what it does to a
 step grows until the end as any small difference does: how much, two runs from states beside the first tell.
+
+What the extrapolation is sure to is far more than rounding. The sharp line is therefore drawn elsewhere: the coarsest
+run, or the first of its steps, against the same steps of the textbook scheme, from which only rounding can part it.
 """
 
 from __future__ import annotations
@@ -26,14 +29,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engines import Integrator
+from ...models.states import States
 from ...records.check import Result
 from ...reference.integration.richardson import amplified, at_step_zero, follows
 from ...reference.integration.schemes import SCHEMES
 from ...reference.kernels.forward_dynamics import plain_accelerations
 from ...reference.rounding.bounds import EPSILON
 from ...reference.truth.end_points import PARTS, lookup
+from .. import sharp
 from ..cell import Cell, EngineFault
-from ..step_rounding import conversion, iterations_error, joints_apart, rounding_error
+from ..step_rounding import conversion, disturbed, iterations_error, joints_apart, rounding_error, sharp_steps
+from ..textbook import Candidate, candidates
 
 Array = NDArray[np.float64]
 
@@ -49,6 +55,8 @@ ORDER_SETTLED = 0.2
 MOST_STEPS = 1 << 17  # of the finest run; what has not converged by then does not
 FEW_STEPS, FEW_STEPS_FIRST_ORDER = 1 << 10, 1 << 14  # of ten links; no longer time is looked at for more
 KERNELS = 1e-14  # what furiko's own accelerations are sure to, of the largest
+ALIKE = 1e-6  # of a state: the step of another scheme of the same order is further off, or does not matter
+LARGEST_MAXIMAL = 20  # links of which maximal coordinates are stepped in extended precision beside an engine
 SHIFT = 2.0**-24  # half of double precision's digits: the difference and its own rounding part evenly
 
 
@@ -138,10 +146,22 @@ def compare(cell: Cell) -> Iterator[Result]:
     alpha = plain_accelerations(scene.system, theta, omega)
     off = measured_error(cell, theta, omega, alpha)
     for integrator in cell.info.integrators:
-        yield _compare(cell, integrator, points, rounding(cell, integrator, theta, omega, alpha, off))
+        rounded = rounding(cell, integrator, theta, omega, alpha, off)
+        yield _compare(cell, integrator, points, rounded, Passed(theta, omega, alpha))
 
 
-def _compare(cell: Cell, integrator: Integrator, points: tuple[EndPoint, ...], rounded: Rounding) -> Result:
+@dataclass(frozen=True)
+class Passed:
+    """States that the motion passes, the first being the scene's own, and their accelerations, (B, n) each."""
+
+    theta: Array
+    omega: Array
+    alpha: Array
+
+
+def _compare(
+    cell: Cell, integrator: Integrator, points: tuple[EndPoint, ...], rounded: Rounding, passed: Passed
+) -> Result:
     name, p = f"{NAME} {integrator.name}", integrator.order
     point, ladder = settled(cell, integrator, points, rounded)
     limit, uncertainty = ladder.limit(p)
@@ -154,13 +174,13 @@ def _compare(cell: Cell, integrator: Integrator, points: tuple[EndPoint, ...], r
     coarser, order = ladder.orders()
     fits = order > p - 0.5 or not ladder.judges(p, noise)
     agrees = missed <= bound and fits
+    line = sharp_line(cell, integrator, ladder, passed) if agrees else None
     return cell.result(
         name,
-        "agrees" if agrees else "differs",
+        **sharp.verdict(agrees, line, _reason(integrator, order, missed, bound, fits, ladder.settled(p))),
         measured=missed,
         allowed=bound,
         unit="rad",
-        reason=_reason(integrator, order, missed, bound, fits, ladder.settled(p)),
         details={
             "integrator": integrator.name,
             "nominal order": p,
@@ -172,8 +192,49 @@ def _compare(cell: Cell, integrator: Integrator, points: tuple[EndPoint, ...], r
             "extrapolated error": missed,
             "rounding": noise,
             "growth of rounding": grown[0],
-        },
+        }
+        | (line.details() if line else {}),
     )
+
+
+def sharp_line(cell: Cell, integrator: Integrator, ladder: Ladder, passed: Passed) -> sharp.Line | None:
+    """The coarsest run's angles against those of the textbook scheme that it is, after the same steps.
+
+    The two have the scheme's error in common, and rounding is all that is between them: by what it is in the states
+    that the motion passes, sampled along the run. None where no scheme of the order does as the first step does, which
+    is for the step map to say, or steps are too long for one of them.
+    """
+    theta, omega = passed.theta[:1], passed.omega[:1]
+    if cell.info.coordinates == "maximal" and theta.size > LARGEST_MAXIMAL:
+        return None
+    steps = min(ladder.steps, sharp.steps_together(integrator, cell.scene.system.n))
+    candidate = scheme_of(cell, integrator, theta, omega, ladder.step)
+    if candidate is None:
+        return None
+    by = disturbed(cell, integrator, passed.theta[:2], passed.omega[:2], passed.alpha[:2]).worst()
+    try:
+        found = sharp_steps(cell, candidate, theta, omega, by, ladder.step, steps)
+    except ArithmeticError:
+        return None
+    end = ladder.ends[0] if steps == ladder.steps else run(cell, integrator, steps * ladder.step, steps)
+    error = (end[:1] - found.exact[0]).astype(np.float64)
+    state = States((f"after {steps} steps of {ladder.step:.3g} s",), theta, omega)
+    return sharp.line(error, found.rounding[0], sharp.for_steps(integrator), state, 1, found.left[0])
+
+
+def scheme_of(cell: Cell, integrator: Integrator, theta: Array, omega: Array, h: float) -> Candidate | None:
+    """The textbook scheme of the integrator's order whose step from a state (1, n) is the nearest to the engine's."""
+    got = run(cell, integrator, h, 1)
+    best: tuple[float, Candidate] | None = None
+    for candidate in candidates(cell, omega, literal=False):
+        if candidate.scheme.order == integrator.order:
+            try:
+                end = np.concatenate(candidate.steps(theta, omega, h, 1)).astype(np.float64)
+            except ArithmeticError:
+                continue
+            off = float((np.abs(got - end) / (np.abs(end) + h * np.abs(end).max())).max())
+            best = (off, candidate) if best is None or off < best[0] else best
+    return best[1] if best and best[0] < ALIKE else None
 
 
 def measured_error(cell: Cell, theta: Array, omega: Array, alpha: Array) -> float:

@@ -15,14 +15,17 @@ from ...models import InvalidInput
 from ...models.mechanism import Mechanism
 from ...models.readers.model_file import ModelFile
 from ...reference import planar_tree as planar
+from ...reference.rounding.bounds import EPSILON
+from ..explain_motion import explain_motion
 from ..finding import Finding
 from ..measurement import Array, measure
 from .engine_causes import accuracy_for, engine_causes
-from .engine_view import theory_for, view_for_comparison
+from .engine_view import EngineView, theory_for, view_for_comparison, with_hinges_cleared
 from .result import mechanism_to_json
 
 TIMEOUT = 60.0  # [s] for one engine; ten links take less than one
 MOST_FINDINGS = 40  # shown for one engine
+SOMETIMES = {"contact", "limit", "frictionloss"}  # features that act in some states only
 LONGEST_MESSAGE = 300  # characters of an engine's own message
 
 
@@ -32,7 +35,8 @@ class EngineAnswer:
 
     ``status``: ``agrees``, ``differs``, ``missing``, ``refused`` or ``failed``; ``accelerations``: in the probe states,
     (S, n) [rad/s²]; ``residual``: the largest residual torque over its tolerance; ``native``: whether the engine reads
-    the file itself.
+    the file itself. ``motion``: why its runs, with the integrator that the file asks for, do not follow accelerations
+    that agree; properties of its time steps, which change no verdict on the file.
     """
 
     name: str
@@ -45,12 +49,14 @@ class EngineAnswer:
     accelerations: Array | None = None
     residual: float = 0.0
     native: bool = True
+    motion: list[Finding] = field(default_factory=list)
 
     def to_json(self) -> dict[str, Any]:
         """The engine's entry in the JSON of ``furiko diagnose``."""
         content: dict[str, Any] = {"status": self.status, "says": self.says, "reads the file itself": self.native}
         if self.compiled is not None:
             content |= {"compiled": mechanism_to_json(self.compiled), "residual": self.residual, **self.settings}
+            content["motion"] = [finding.to_json() for finding in self.motion]
         return content
 
 
@@ -107,7 +113,24 @@ def _compared(reader: Reader, engine: FileEngine, file: ModelFile) -> EngineAnsw
         answer.status = "differs"
         answer.findings = [_with_engine_name(finding, reader.name) for finding in found]
         answer.says = f"{len(found)} finding{'s' * (len(found) != 1)}"
+    elif theory.tilt <= EPSILON:  # a step is held to rounding
+        answer.motion = _motion_causes(reader, view, theory)
     return answer
+
+
+def _motion_causes(reader: Reader, view: EngineView, theory: Mechanism) -> list[Finding]:
+    """What the time steps do, without limits, contacts and dry friction, which act in some states only."""
+    integrator = view.engine.integrator()
+    if integrator is None:
+        return []
+    for feature in SOMETIMES & set(reader.features):
+        view = view.switched_off(feature)
+    try:
+        return explain_motion(view, with_hinges_cleared(theory, ("friction",)), integrator, who=reader.name)
+    except (RuntimeError, ValueError) as error:
+        return [
+            Finding("unexplained", reader.name, None, None, f"{reader.name}: {integrator.name}: {_one_line(error)}")
+        ]
 
 
 def _with_engine_name(finding: Finding, name: str) -> Finding:

@@ -25,6 +25,10 @@ class EngineView:
         """Generalised forces [N m] of the absolute angles, (B, n)."""
         return self.engine.inverse_dynamics(theta, omega, alpha, without=self.without)
 
+    def trajectory(self, theta: Array, omega: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
+        """θ [rad] and ω [rad/s], (n,) each, after ``steps`` steps of ``step`` [s]."""
+        return self.engine.trajectory(theta, omega, integrator, step, steps, self.without)
+
     def compiled(self) -> Mechanism:
         """The mechanism that the engine holds."""
         return self.engine.compiled()

@@ -57,6 +57,10 @@ class Diagnosis:
             lines.append(f"  {finding.cause} at {finding.where}")
             lines.append(f"      {finding.says}")
             lines.append(f"      {finding.cause}: {CAUSES[finding.cause]}")
+        for found in (found for engine in self.engines.values() for found in engine.get("motion", ())):
+            lines.append(f"  in its time steps: {found['cause']} at {found['where']}")
+            lines.append(f"      {found['says']}")
+            lines.append(f"      {found['cause']}: {CAUSES[found['cause']]}")
         lines += [f"  note: {note}" for note in self.notes]
         return "\n".join(lines)
 

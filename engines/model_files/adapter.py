@@ -17,6 +17,7 @@ from ...models.coordinates import forces_to_absolute, to_absolute, to_relative
 from ...models.mechanism import Mechanism
 from ...models.readers.model_file import ModelFile
 from ...models.tree import SUPPORT
+from ..info import Integrator
 from ..protocol import Array
 
 
@@ -45,6 +46,22 @@ class FileEngine(Protocol):
         self, theta: Array, omega: Array, alpha: Array, without: frozenset[str] = frozenset()
     ) -> Array:
         """Generalised forces [N m] of the absolute angles, (B, n)."""
+        ...
+
+    def integrator(self) -> Integrator | None:
+        """The integrator that the file asks for; None where the engine has none, or the file cannot ask for one."""
+        ...
+
+    def trajectory(
+        self,
+        theta: Array,
+        omega: Array,
+        integrator: str,
+        step: float,
+        steps: int,
+        without: frozenset[str] = frozenset(),
+    ) -> tuple[Array, Array]:
+        """θ [rad] and ω [rad/s], (n,) each, after ``steps`` steps of ``step`` [s]. Only with an :meth:`integrator`."""
         ...
 
     def contacts(self, theta: Array) -> list[tuple[int, str]]:
@@ -119,6 +136,10 @@ class FileCoordinates:
     def rates(self, omega: Array) -> Array:
         """q̇ or q̈, (B, n)."""
         return self._placed(self._sense * to_relative(self._parents, omega))
+
+    def angles(self, positions: Array) -> Array:
+        """θ from q: the reverse of :meth:`positions`."""
+        return to_absolute(self._parents, np.asarray(self._sense * (positions[:, self._columns] - self._zero)))
 
     def absolute(self, rates: Array) -> Array:
         """θ̇ or θ̈ from q̇ or q̈."""

@@ -77,6 +77,9 @@ class ExudynFile:
     def settings(self) -> Mapping[str, Any]:
         return {}
 
+    def integrator(self) -> None:
+        return None
+
     def accelerations(self, theta: Array, omega: Array, without: frozenset[str] = frozenset()) -> Array:
         return np.asarray(self._engine.accelerations(theta, omega))
 

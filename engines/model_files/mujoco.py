@@ -6,7 +6,8 @@ and the file's own number is set in the compiled model, whose equations need no 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
 
@@ -16,6 +17,7 @@ from ...models.mechanism import Mechanism
 from ...models.projection import Body, SpatialHinge, planar_mechanism
 from ...models.readers.model_file import ModelFile
 from ...models.spatial import Inertial, Pose, from_quaternion
+from ..info import Integrator
 from ..mujoco import quiet_data
 from ..protocol import Array
 from .adapter import FileCoordinates, in_order
@@ -24,6 +26,7 @@ from .adapter import FileCoordinates, in_order
 mujoco: Any = import_module("mujoco")
 
 LEAST_INERTIA = {"mjcf": 1e-15, "urdf": 1e-14}  # the smallest that its two readers accept [kg m²]
+ORDERS = {"EULER": 1, "RK4": 4, "IMPLICIT": 1, "IMPLICITFAST": 1}  # as its documentation gives them
 REFUSED = ("mjMINVAL", "positive eigenvalues")
 SWITCHES = {
     "contact": mujoco.mjtDisableBit.mjDSBL_CONTACT,
@@ -122,7 +125,7 @@ class MujocoFile:
     def settings(self) -> Mapping[str, Any]:
         option = self._model.opt
         return {
-            "integrator": mujoco.mjtIntegrator(option.integrator).name.removeprefix("mjINT_"),
+            "integrator": self._integrator_name(),
             "timestep": float(option.timestep),
             "geoms that may collide": int(((self._model.geom_contype | self._model.geom_conaffinity) != 0).sum()),
         }
@@ -144,18 +147,13 @@ class MujocoFile:
     def accelerations(self, theta: Array, omega: Array, without: frozenset[str] = frozenset()) -> Array:
         model, data = self._model, self._data
         found = np.empty_like(theta)
-        kept = model.opt.disableflags
-        for feature in without:
-            model.opt.disableflags |= int(SWITCHES[feature])
-        try:
-            positions, rates = self._coordinates.positions(theta), self._coordinates.rates(omega)
+        positions, rates = self._coordinates.positions(theta), self._coordinates.rates(omega)
+        with _switched_off(model, without):
             for row, (q, v) in enumerate(zip(positions, rates, strict=True)):
                 data.qpos[:], data.qvel[:] = q, v
                 data.qacc_warmstart[:] = 0.0
                 mujoco.mj_forward(model, data)
                 found[row] = data.qacc
-        finally:
-            model.opt.disableflags = kept
         return self._coordinates.absolute(found)
 
     def inverse_dynamics(
@@ -163,18 +161,55 @@ class MujocoFile:
     ) -> Array:
         model, data = self._model, self._data
         forces = np.empty_like(theta)
-        kept = model.opt.disableflags
-        for feature in without:
-            model.opt.disableflags |= int(SWITCHES[feature])
-        try:
-            where = self._coordinates.positions(theta), self._coordinates.rates(omega), self._coordinates.rates(alpha)
+        where = self._coordinates.positions(theta), self._coordinates.rates(omega), self._coordinates.rates(alpha)
+        with _switched_off(model, without):
             for row, (q, v, a) in enumerate(zip(*where, strict=True)):
                 data.qpos[:], data.qvel[:], data.qacc[:] = q, v, a
                 mujoco.mj_inverse(model, data)
                 forces[row] = data.qfrc_inverse
-        finally:
-            model.opt.disableflags = kept
         return self._coordinates.absolute_forces(forces)
+
+    def integrator(self) -> Integrator | None:
+        name = self._integrator_name()
+        return Integrator(name, ORDERS[name]) if name in ORDERS else None
+
+    def trajectory(
+        self,
+        theta: Array,
+        omega: Array,
+        integrator: str,
+        step: float,
+        steps: int,
+        without: frozenset[str] = frozenset(),
+    ) -> tuple[Array, Array]:
+        model, option = self._model, self._model.opt
+        kept = option.timestep
+        data = quiet_data(model)
+        data.qpos[:], data.qvel[:] = (
+            self._coordinates.positions(theta[None])[0],
+            self._coordinates.rates(omega[None])[0],
+        )
+        with _switched_off(model, without):
+            option.timestep = step
+            try:
+                mujoco.mj_step(model, data, nstep=steps)
+            finally:
+                option.timestep = kept
+        return self._coordinates.angles(data.qpos[None])[0], self._coordinates.absolute(data.qvel[None])[0]
+
+    def _integrator_name(self) -> str:
+        return str(mujoco.mjtIntegrator(self._model.opt.integrator).name).removeprefix("mjINT_")
+
+
+@contextmanager
+def _switched_off(model: Any, features: frozenset[str]) -> Iterator[None]:
+    kept = model.opt.disableflags
+    for feature in features:
+        model.opt.disableflags |= int(SWITCHES[feature])
+    try:
+        yield
+    finally:
+        model.opt.disableflags = kept
 
 
 def _linear(coefficients: Any) -> float:

@@ -93,6 +93,9 @@ class PinocchioFile:
     def settings(self) -> Mapping[str, Any]:
         return {"nq": int(self._model.nq), "nv": int(self._model.nv)}
 
+    def integrator(self) -> None:
+        return None
+
     def accelerations(self, theta: Array, omega: Array, without: frozenset[str] = frozenset()) -> Array:
         torques = np.zeros(self._model.nv)
         found = np.empty_like(theta)

@@ -51,7 +51,8 @@ def bench(
     make_folder(out)  # first: the benchmark takes a while
     with status_line() as watch:
         found = run_bench(scenes or None, engines or None, budget=budget, skips=skips, sharpness=sharpness, watch=watch)
-    status = DIFFERS if any(not skip.same for skip in found.skips) else AGREES
+    differs = any(not skip.same for skip in found.skips) or any(motion.causes for motion in found.motions)
+    status = DIFFERS if differs else AGREES
     page = out / "bench.html"
     try:
         write(out, found)

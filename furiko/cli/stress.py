@@ -6,9 +6,9 @@ from pathlib import Path
 
 import click
 
-from ..records.exit_status import AGREES, DIFFERS
+from ..records.exit_status import AGREES, DIFFERS, INCOMPLETE
 from .options import jobs_option, json_option
-from .output import print_json
+from .output import print_failure, print_json
 from .progress import stress_progress
 
 
@@ -54,24 +54,33 @@ def stress(
 
     Writes stress.jsonl, stress.html and chain.html. A second run with the same folder resumes the first.
     """
+    from ..stress import StressNotWritten
     from ..stress import stress as run_stress
 
+    unwritten = ""
     with stress_progress() as watch:
-        found = run_stress(
-            axes or None,
-            engines or None,
-            budget=budget,
-            seed=seed,
-            out=out,
-            fresh=fresh,
-            jobs=jobs,
-            timeout=timeout,
-            watch=watch,
-        )
+        try:
+            found = run_stress(
+                axes or None,
+                engines or None,
+                budget=budget,
+                seed=seed,
+                out=out,
+                fresh=fresh,
+                jobs=jobs,
+                timeout=timeout,
+                watch=watch,
+            )
+        except StressNotWritten as error:
+            found, unwritten = error.summary, str(error)
+    if unwritten:
+        print_failure(unwritten)
     if as_json:
         print_json(found)
     else:
         from ..reports.terminal.stress import print_stress
 
-        print_stress(found, out / "stress.html")
-    return DIFFERS if found.kernels.broken else AGREES
+        print_stress(found, None if unwritten else out / "stress.html")
+    if found.kernels.broken:
+        return DIFFERS
+    return INCOMPLETE if unwritten else AGREES

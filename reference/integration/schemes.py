@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 Array = NDArray[Any]
 Acceleration = Callable[[Array, Array], Array]
 Step = Callable[[Acceleration, Array, Array, Any], tuple[Array, Array]]
+Between = Callable[[Array, Array], tuple[Array, Array]]
 
 ITERATIONS = 200  # of an implicit step; each at least halves the error
 
@@ -32,6 +33,7 @@ class Scheme:
 
     ``reach``: an error of at most 1 in every acceleration it evaluates, with accelerations that do not depend on the
     state, moves the rates by at most ``reach`` times the step. ``stages``: accelerations that follow on each other.
+    ``remembers``: where a step hands on more than angles and rates to the next, what takes several.
     """
 
     name: str
@@ -39,6 +41,7 @@ class Scheme:
     step: Step
     reach: float = 1.0
     stages: int = 1
+    remembers: AlphaScheme | None = None
 
 
 @dataclass(frozen=True)
@@ -123,17 +126,17 @@ def implicit_midpoint(a: Acceleration, theta: Array, omega: Array, h: Any) -> tu
     return 2 * angles - theta, 2 * rates - omega
 
 
-def newmark(beta: Any, gamma: Any) -> Step:
+def newmark(beta: Any, gamma: Any) -> AlphaScheme:
     """θ₁ = θ + h ω + h²((½-β) a + β a₁), ω₁ = ω + h((1-γ) a + γ a₁); β = ¼, γ = ½: the trapezoidal rule."""
-    return _newmark_family(beta, gamma, 0, 0)
+    return AlphaScheme(beta, gamma, 0, 0)
 
 
-def generalized_alpha(radius: Any) -> Step:
+def generalized_alpha(radius: Any) -> AlphaScheme:
     """Chung and Hulbert's, ``radius`` their ρ∞, in Arnold and Brüls' form, from a state whose accelerations are true.
 
     (1-α_m) ã₁ + α_m ã = (1-α_f) a₁ + α_f a, and Newmark's formulas with ã in place of a.
     """
-    return _newmark_family(*alpha_parameters(radius))
+    return AlphaScheme(*alpha_parameters(radius))
 
 
 def alpha_parameters(radius: Any) -> tuple[Any, Any, Any, Any]:
@@ -143,18 +146,67 @@ def alpha_parameters(radius: Any) -> tuple[Any, Any, Any, Any]:
     return (gamma + 0.5) ** 2 / 4, gamma, alpha_m, alpha_f
 
 
-def _newmark_family(beta: Any, gamma: Any, alpha_m: Any, alpha_f: Any) -> Step:
-    def step(a: Acceleration, theta: Array, omega: Array, h: Any) -> tuple[Array, Array]:
-        start = a(theta, omega)
+@dataclass(frozen=True)
+class AlphaScheme:
+    """Newmark's formulas with algorithmic accelerations ã, which a step hands on to the next besides the true ones."""
 
-        def state(acceleration: Array) -> tuple[Array, Array]:
-            end = ((1 - alpha_f) * acceleration + (alpha_f - alpha_m) * start) / (1 - alpha_m)
-            angles = theta + h * omega + h * h * ((0.5 - beta) * start + beta * end)
-            return angles, omega + h * ((1 - gamma) * start + gamma * end)
+    beta: Any
+    gamma: Any
+    alpha_m: Any
+    alpha_f: Any
 
-        return state(_fixed_point(a, state, start))
+    def algorithmic(self, after: Array, before: Array, kept: Array) -> Array:
+        """ã₁ of the accelerations ``after`` and ``before`` a step and ã, ``kept`` from the last."""
+        weighed: Array = (1 - self.alpha_f) * after + self.alpha_f * before - self.alpha_m * kept
+        return np.asarray(weighed / (1 - self.alpha_m))
 
-    return step
+    def moved(self, x: Array, v: Array, h: Any, kept: Array, end: Array) -> tuple[Array, Array]:
+        """Coordinates and rates after a step, from ã and ã₁."""
+        beta, gamma = self.beta, self.gamma
+        moved: Array = x + h * v + h * h * ((0.5 - beta) * kept + beta * end)
+        return moved, v + h * ((1 - gamma) * kept + gamma * end)
+
+    def step(self, a: Acceleration, theta: Array, omega: Array, h: Any) -> tuple[Array, Array]:
+        """One step from a state whose accelerations are true."""
+        return self.run(a, theta, omega, h, 1, _as_it_is)
+
+    def run(
+        self, a: Acceleration, theta: Array, omega: Array, h: Any, steps: int, then: Between
+    ) -> tuple[Array, Array]:
+        """As :func:`run`."""
+        before = kept = a(theta, omega)
+        for _ in range(steps):
+
+            def state(
+                after: Array, x: Array = theta, v: Array = omega, before: Array = before, kept: Array = kept
+            ) -> tuple[Array, Array]:
+                return self.moved(x, v, h, kept, self.algorithmic(after, before, kept))
+
+            after = _fixed_point(a, state, before)
+            theta, omega = then(*state(after))
+            before, kept = after, self.algorithmic(after, before, kept)
+        return theta, omega
+
+
+def _as_it_is(theta: Array, omega: Array) -> tuple[Array, Array]:
+    return theta, omega
+
+
+def run(
+    scheme: Scheme,
+    a: Acceleration,
+    theta: Array,
+    omega: Array,
+    h: Any,
+    steps: int,
+    then: Between = _as_it_is,
+) -> tuple[Array, Array]:
+    """θ and ω after so many steps of ``h`` seconds; ``then`` may change both after each step, as rounding does."""
+    if scheme.remembers is not None:
+        return scheme.remembers.run(a, theta, omega, h, steps, then)
+    for _ in range(steps):
+        theta, omega = then(*scheme.step(a, theta, omega, h))
+    return theta, omega
 
 
 def _fixed_point(a: Acceleration, state: Callable[[Array], tuple[Array, Array]], guess: Array) -> Array:
@@ -237,6 +289,11 @@ DORMAND_PRINCE = Tableau(
 
 RADIUS = _fraction(9, 10)  # Exudyn's default ρ∞
 
+
+def _alpha(name: str, scheme: AlphaScheme, reach: float = 1.0) -> Scheme:
+    return Scheme(name, 2, scheme.step, reach=reach, stages=3, remembers=scheme)
+
+
 SCHEMES: tuple[Scheme, ...] = (
     Scheme("explicit Euler", 1, explicit_euler),
     Scheme("semi-implicit Euler", 1, semi_implicit_euler),
@@ -246,9 +303,9 @@ SCHEMES: tuple[Scheme, ...] = (
     Tableau(((), (_half,)), (0, 1)).scheme("explicit midpoint", 2),
     Tableau(((), (1,)), (_half, _half)).scheme("Heun's second order", 2),
     Scheme("implicit midpoint", 2, implicit_midpoint, stages=2),
-    Scheme("trapezoidal rule (Newmark β = 1/4, γ = 1/2)", 2, newmark(_half / 2, _half), stages=3),
-    Scheme("generalized-α, ρ∞ = 0.9", 2, generalized_alpha(RADIUS), reach=2.0, stages=3),
-    Scheme("generalized-α, ρ∞ = 1", 2, generalized_alpha(np.longdouble(1)), reach=2.0, stages=3),
+    _alpha("trapezoidal rule (Newmark β = 1/4, γ = 1/2)", newmark(_half / 2, _half)),
+    _alpha("generalized-α, ρ∞ = 0.9", generalized_alpha(RADIUS), reach=2.0),
+    _alpha("generalized-α, ρ∞ = 1", generalized_alpha(np.longdouble(1)), reach=2.0),
     Tableau(((), (_third,), (0, 2 * _third)), (_half / 2, 0, 3 * _half / 2)).scheme("Heun's third order", 3),
     Tableau(((), (_half,), (-1, 2)), (_sixth, 2 * _third, _sixth)).scheme("Kutta's third order", 3),
     CLASSICAL.scheme("classical Runge-Kutta", 4),

@@ -32,16 +32,19 @@ ASIDE = 3e7  # what else a state costs, in the same unit
 
 
 @dataclass(frozen=True)
-class _Equations:
+class Equations:
     """The system in one state: matrix (5n, 5n), right-hand side, and magnitudes that meet in the latter, (5n,).
 
-    ``levers``: of each entry of the matrix that is a lever's component, the lever's length, (5n, 5n).
+    ``levers``: of each entry of the matrix that is a lever's component, the lever's length, (5n, 5n). ``position`` and
+    ``velocity``: of all coordinates, (3n,). All in ``units``.
     """
 
     matrix: Array
     levers: Array
     right: Array
     rounded: Array
+    position: Array
+    velocity: Array
     units: Units
 
 
@@ -73,10 +76,10 @@ def elimination(system: DocumentSystem, theta: Array, omega: Array) -> tuple[Arr
 
 
 def _one(system: DocumentSystem, theta: Array, omega: Array) -> tuple[Array, Array]:
-    n, equations = system.n, _equations(system, theta, omega)
-    units, matrix = equations.units, equations.matrix
+    n, state = system.n, equations(system, theta, omega)
+    units, matrix = state.units, state.matrix
     inverse = np.linalg.inv(matrix)
-    unknowns = np.abs(np.linalg.solve(matrix, equations.right))
+    unknowns = np.abs(np.linalg.solve(matrix, state.right))
     size = (_met(matrix[None], _random_orders(5 * n, ORDERS))[0] * unknowns).sum(axis=-1).max(axis=0)
     by_angle = np.abs(mass_matrix(system, theta) / units.inertia @ inverse[2 : 3 * n : 3])
     by_force = np.abs(inverse[3 * n :])
@@ -92,15 +95,15 @@ def maximal_spread(system: DocumentSystem, theta: Array, omega: Array) -> tuple[
     motion: velocities meet there before they cancel.
     """
     n = system.n
-    equations = [_equations(system, t, w) for t, w in zip(theta, omega, strict=True)]
+    all_states = [equations(system, t, w) for t, w in zip(theta, omega, strict=True)]
     orders = np.vstack([_from_the_tips(n), np.arange(5 * n), _random_orders(5 * n, spread_orders(n))])
-    met = _met(np.stack([state.matrix for state in equations]), orders).max(axis=1)
-    pairs = [_spread(n, state, entries) for state, entries in zip(equations, met, strict=True)]
+    met = _met(np.stack([state.matrix for state in all_states]), orders).max(axis=1)
+    pairs = [_spread(n, state, entries) for state, entries in zip(all_states, met, strict=True)]
     alpha, forces = (np.array(values) for values in zip(*pairs, strict=True))
     return alpha, forces
 
 
-def _spread(n: int, state: _Equations, met: Array) -> tuple[Array, Array]:
+def _spread(n: int, state: Equations, met: Array) -> tuple[Array, Array]:
     inverse, units = np.linalg.inv(state.matrix), state.units
     rows = (met**2 + state.levers**2) @ (inverse @ state.right) ** 2 + state.rounded**2
     found = ONE_ROUNDING * np.sqrt(inverse**2 @ rows)
@@ -108,7 +111,26 @@ def _spread(n: int, state: _Equations, met: Array) -> tuple[Array, Array]:
     return found[2 : 3 * n : 3] / units.time**2, forces * units.force
 
 
-def _equations(system: DocumentSystem, theta: Array, omega: Array) -> _Equations:
+def joint_spread(system: DocumentSystem, theta: Array, omega: Array) -> tuple[Array, Array]:
+    """Root mean squares of what holding the joints together does to angles [rad] and rates [rad/s], (B, n) each.
+
+    Places, velocities and levers are rounded where a joint's constraint, or its derivative, is evaluated.
+    """
+    n, pairs = system.n, []
+    for angles, rates in zip(theta, omega, strict=True):
+        state = equations(system, angles, rates)
+        answer = np.linalg.inv(state.matrix)[2 : 3 * n : 3, 3 * n :] ** 2
+        jacobian, lever = state.matrix[3 * n :, : 3 * n] ** 2, state.levers[3 * n :, 2 : 3 * n : 3] ** 2
+        squared = [values.astype(np.float64) ** 2 for values in (state.position, state.velocity)]
+        apart = jacobian @ squared[0] + lever.sum(axis=-1)
+        parting = jacobian @ squared[1] + lever @ squared[1][2::3]
+        pairs.append((np.sqrt(answer @ apart), np.sqrt(answer @ parting) / state.units.time))
+    by_angle, by_rate = (ONE_ROUNDING * np.array(values) for values in zip(*pairs, strict=True))
+    return by_angle, by_rate
+
+
+def equations(system: DocumentSystem, theta: Array, omega: Array) -> Equations:
+    """The system in one state, (n,) each."""
     tree, n = system.tree(), system.n
     units = units_of(tree).fitting(system.gravity, omega)
     bodies = MaximalCoordinates(in_units(tree, units))
@@ -126,7 +148,7 @@ def _equations(system: DocumentSystem, theta: Array, omega: Array) -> _Equations
     rounded = np.concatenate([np.zeros(3 * n), np.repeat(meets, 2)])
     levers = np.zeros((5 * n, 5 * n))
     levers[3 * n :, 2 : 3 * n : 3] = np.repeat(lever, 2, axis=0)
-    return _Equations(bodies.kkt_matrix(G), levers + levers.T, right, rounded, units)
+    return Equations(bodies.kkt_matrix(G), levers + levers.T, right, rounded, q, v, units)
 
 
 def _met(matrices: Array, orders: NDArray[np.intp]) -> Array:

@@ -142,7 +142,7 @@ def _rounded_precisely(enclose: Callable[[], Array]) -> tuple[Floats, Floats, Fl
     while True:
         try:
             with precision(bits):
-                found = _rounded(enclose())
+                found = rounded(enclose())
         except ZeroDivisionError:  # balls too wide to divide by
             found = None
         if found is not None and _narrow(found[0], found[2]):
@@ -157,7 +157,7 @@ def _narrow(high: Floats, radius: Floats) -> bool:
     return bool((rows_radius.max(-1) <= np.maximum(RELATIVE_RADIUS * rows_high.max(-1), AS_GOOD_AS_ZERO)).all())
 
 
-def _rounded(values: Array) -> tuple[Floats, Floats, Floats]:
+def rounded(values: Array) -> tuple[Floats, Floats, Floats]:
     """Balls as a sum of two doubles and a radius."""
     high, low, radius = _split_each(values)
     return high.astype(np.float64), low.astype(np.float64), radius.astype(np.float64)

@@ -61,6 +61,8 @@ def _motion(motion: Motion, console: PlainConsole) -> None:
         console.line(f"not reached by {'; '.join(found)}: {reason}", "dim")
     for sentence in motion.left_out:
         console.line(f"left out: {sentence}", "dim")
+    for cause in motion.causes:
+        console.line(f"{cause.cause}: {cause.says}", "differs")
 
 
 def _reasons(motion: Motion) -> dict[str, list[str]]:

@@ -15,8 +15,8 @@ WIDTH = 160  # columns in a pipe: a column for each engine
 Rows = Sequence[tuple[str, ...]]
 
 
-def print_stress(found: StressSummary, page: Path) -> None:
-    """Print it; as wide as the terminal, or 160 columns in a pipe. ``page``: where the HTML page is."""
+def print_stress(found: StressSummary, page: Path | None) -> None:
+    """Print it; as wide as the terminal, or 160 columns in a pipe. ``page``: where the HTML page is, if it is."""
     console = PlainConsole(sys.stdout, None if sys.stdout.isatty() else WIDTH)
     for heading, rows in _tables(found):
         if rows:
@@ -105,10 +105,10 @@ def _long_runs(found: StressSummary) -> tuple[tuple[str, ...], Rows]:
     return ("energy in the long run", "steps", "energy is", "H", "largest |ΔE|/E"), rows
 
 
-def _end(found: StressSummary, page: Path) -> str:
+def _end(found: StressSummary, page: Path | None) -> str:
     broken = len(found.kernels.broken)
     told = f"{count(found.cases, 'case')}; "
     told += f"{count(broken, 'case')} in which furiko's own kernels exceed their error bound; " if broken else ""
     if found.open:
         told += f"{count(found.open, 'question')} open: run again with the same folder to resume; "
-    return f"{told}page: {page}"
+    return f"{told}page: {page}" if page else told.rstrip("; ")

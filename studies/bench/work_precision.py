@@ -15,6 +15,7 @@ import numpy as np
 from ...models import Scene
 from ...records.bench import Motion, Point, Reach
 from .methods import FURIKO, End, Method, end_error, methods, truth
+from .motion_causes import motion_causes
 from .timing import FEWEST, Subject, Times, interleaved, once
 
 ERRORS = (1e-6, 1e-9, 1e-12)  # at which ratios are given
@@ -64,6 +65,7 @@ def work_precision(
         points=points,
         reaches=reaches(points, stopped),
         left_out=left_out,
+        causes=motion_causes(scene, engines, watch),
     )
 
 

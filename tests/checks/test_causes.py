@@ -6,9 +6,11 @@ import pytest
 
 import furiko
 from furiko.checks.cache import Cache
+from furiko.checks.diagnoses import joined
 from furiko.checks.jobs import CellJob, Facts, TruthJob, messages_of
 from furiko.checks.plan import make_plan
 from furiko.records.check import Diagnosis, Result
+from furiko.records.findings import Difference
 
 
 @pytest.fixture
@@ -20,7 +22,7 @@ def diagnosed():
         (truth,) = (m for m in messages_of(TruthJob(task.scene, 20)) if isinstance(m, Facts))
         messages = messages_of(CellJob(replace(task, random_states=20), truth.content))
         results = {m.check: m for m in messages if isinstance(m, Result)}
-        return results, [m for m in messages if isinstance(m, Diagnosis)]
+        return results, [m for m in messages if isinstance(m, Diagnosis)][-1:]  # each has all of those before it
 
     return run
 
@@ -95,3 +97,45 @@ def test_kept_results_come_with_their_diagnosis(tmp_path):
     cache = Cache(tmp_path)
     cache.keep_results(task, [result], [found])
     assert cache.results(task).diagnoses == [found]
+
+
+@pytest.mark.parametrize("engine", ["LostInEnergy", "HangsInEnergy"])
+def test_a_worker_that_is_lost_leaves_the_causes_that_it_had_found(engine):
+    """The worker is gone in the energies: after the accelerations, before the trajectories."""
+    report = furiko.check(["rods-2"], [f"fake_causes:{engine}"], use_cache=False, timeout=3.0)
+    (found,) = report.diagnoses
+    assert [finding.cause for finding in found.findings] == ["gravity", "density"]
+    assert {"accelerations", "terms M"} <= set(found.explains)
+    assert {r.check for r in report.results if r.outcome == "error"} == {"energy"}
+    moving = [result for result in report.results if result.comparison == "trajectory"]
+    assert {result.outcome for result in moving} == {"skipped"}  # as where no worker was lost
+    assert report.complete
+
+
+def test_an_engine_that_is_given_up_keeps_the_causes_of_every_cell():
+    scenes = ["rods-1", "rods-2", "rods-3"]
+    report = furiko.check(scenes, ["fake_causes:HangsInEnergy"], use_cache=False, timeout=2.0, jobs=1)
+    hung = {result.scene for result in report.results if "it hangs" in result.reason}
+    assert len(hung) == 2
+    assert {found.scene for found in report.diagnoses} == hung
+    assert all(found.findings for found in report.diagnoses)
+
+
+def finding(cause, where):
+    return Difference(cause=cause, where=where, measured=None, expected=None, says=f"{cause} at {where}")
+
+
+def test_two_parts_of_a_diagnosis_are_one():
+    mass, gravity, late = (
+        finding("mass", "link 1"),
+        finding("gravity", "gravity"),
+        finding("stale-derived-state", "RK4"),
+    )
+    first = Diagnosis(scene="s", engine="e", findings=[mass], alternatives=[gravity], explains=["accelerations"])
+    second = Diagnosis(scene="s", engine="e", findings=[mass, gravity, late], explains=["accelerations", "trajectory"])
+    both = joined(first, second)
+    assert both.findings == [mass, gravity, late]
+    assert both.alternatives == []  # gravity is certain by now
+    assert both.explains == ["accelerations", "trajectory"]
+    assert joined(None, first) == joined(first, None) == first
+    assert joined(None, None) is None

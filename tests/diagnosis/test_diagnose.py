@@ -226,3 +226,35 @@ def test_where_nothing_weighs_only_coupling_tells():
     # An inner inertia that makes up for the longer arm leaves the coupling alone to tell.
     links = (replace(links[0], inertia=links[0].inertia - 2.0 * (1.1**2 - 1)), links[1])
     assert not same_motion(replace(longer, links=links), still)
+
+
+NO_RESET = '<option integrator="{}"><flag autoreset="disable"/></option>'
+
+
+@pytest.mark.parametrize(
+    ("option", "expected"),
+    [
+        (NO_RESET.format("RK4"), []),
+        (NO_RESET.format("Euler"), ["implicit-damping"]),  # as MuJoCo's documentation of its integrators says
+        ('<option integrator="Euler"/>', ["silent-reset", "implicit-damping"]),
+        ('<option integrator="Euler"><flag eulerdamp="disable" autoreset="disable"/></option>', []),
+    ],
+)
+def test_the_time_steps_of_the_files_integrator_are_explained(option, expected):
+    text = ACROBOT.replace('<option timestep="0.01" integrator="RK4"/>', option)
+    against = model_from_text(ACROBOT, "arm.xml").mechanism
+    found = diagnose(model_from_text(text, "arm.xml"), against, {"mujoco": READERS["mujoco"]})
+    assert (found.verdict, found.findings) == ("agrees", ())  # the same equations of motion, in other steps
+    assert [cause["cause"] for cause in found.engines["mujoco"]["motion"]] == expected
+    assert [line for line in found.text().splitlines() if "in its time steps" in line] == [
+        f"  in its time steps: {cause} at mujoco, {found.engines['mujoco']['integrator']}" for cause in expected
+    ]
+
+
+def test_a_limit_that_a_step_runs_into_is_no_fault_of_the_time_steps():
+    """One degree either way: a step of the probe turns the hinge by up to three."""
+    text = ACROBOT.replace('name="elbow" type="hinge"', 'name="elbow" type="hinge" limited="true" range="-1 1"')
+    text = text.replace('integrator="RK4"/>', 'integrator="RK4"><flag autoreset="disable"/></option>')
+    text = text.replace('<geom name="floor" size="3 3 .2" type="plane"/>', "")
+    mujoco = diagnose(model_from_text(text, "arm.xml"), engines={"mujoco": READERS["mujoco"]}).engines["mujoco"]
+    assert (mujoco["status"], mujoco["motion"]) == ("agrees", [])

@@ -69,3 +69,32 @@ def test_a_path_ends_where_the_run_ends(engine, scheme):
         np.testing.assert_allclose(
             [angles[steps], rates[steps]], adapter.trajectory(*start, scheme.name, 1e-2, steps), rtol=0, atol=1e-13
         )
+
+
+IMPLICIT = [(engine, scheme) for engine, scheme in SCHEMES if scheme.tolerance]
+
+
+@pytest.mark.parametrize(("engine", "scheme"), IMPLICIT, ids=[f"{e}-{s.name}" for e, s in IMPLICIT])
+def test_iterations_end_where_the_registry_says(engine, scheme, monkeypatch):
+    """The bound of a step counts a residual of ``tolerance`` times a norm that is at least one for each link.
+
+    An iteration ends at the sum of both of Exudyn's tolerances, so that neither may be more than that.
+    """
+    from furiko.engines import exudyn_settings
+
+    links, told = 3, []
+    adapter = load_engine(engine, RodChain((1.0, 0.8, 0.6)))
+    solve = exudyn_settings.exudyn.SolveDynamic
+
+    def listening(mbs, settings, **named):
+        newton = settings.timeIntegration.newton
+        told.append((newton.relativeTolerance, newton.absoluteTolerance))
+        return solve(mbs, settings, **named)
+
+    monkeypatch.setattr(exudyn_settings.exudyn, "SolveDynamic", listening)
+    theta, omega = adapter.trajectory([0.3, 0.4, 0.5], [0.1, 0.2, 0.3], scheme.name, 0.01, 2)
+    assert np.isfinite(theta).all()
+    assert np.isfinite(omega).all()
+    ((relative, absolute),) = told
+    assert relative == scheme.tolerance
+    assert 0 < absolute < links * scheme.tolerance

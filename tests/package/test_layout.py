@@ -16,7 +16,7 @@ ROOMS = {
             ("readers.bounded_file",),
             ("readers.toml_text", "writers.whole_file"),
             (".",),
-            ("readers.xml_file", "readers.attributes"),
+            ("readers.xml_file", "readers.attributes", "readers.meshes"),
             ("readers.mjcf",),
             ("readers", "writers"),
         ],

@@ -104,3 +104,16 @@ def test_a_file_that_is_no_stream_of_this_format_is_not_changed(tmp_path, conten
     with pytest.raises(InvalidInput, match=r"line 1|not a result stream"):
         write(path, [1])
     assert path.read_text() == content
+
+
+def test_a_finished_run_that_was_changed_by_hand_is_not_resumed(tmp_path):
+    path = tmp_path / "stress.jsonl"
+    write(path, [1, 2])
+    kept = path.read_text()
+    assert '"check":"c 1"' in kept
+    path.write_text(kept.replace('"check":"c 1"', '"check":"c 9"'))
+    with pytest.raises(InvalidInput, match=r"altered or damaged.*--fresh"):
+        write(path, [3])
+    path.write_text(kept)
+    write(path, [3])
+    assert read_stream(path).complete

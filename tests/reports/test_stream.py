@@ -1,5 +1,6 @@
 """The stream is read back as it was written; what was cut off, damaged or is foreign never passes for a whole run."""
 
+import hashlib
 import io
 import json
 import os
@@ -363,3 +364,55 @@ def test_no_bytes_crash_the_reader(make, content, place):
     except InvalidInput:
         return
     assert not (report.complete and place < 3)
+
+
+# --- the digest
+
+
+def test_every_byte_that_is_changed_by_hand_is_noticed(make, tmp_path):
+    """Each digit that stands in a line becomes another digit, so that the line is still a record."""
+    found = [make.result(measured=1.5, allowed=3.25), make.result("skipped", check="energy", reason="since 1931")]
+    whole = written(tmp_path / "report.jsonl", make.header(scenes=[], engines=[]), found)
+    assert read_stream(io.BytesIO(whole)).complete
+    first = whole.index(b"\n") + 1
+    digits = [at for at in range(first, len(whole)) if whole[at : at + 1].isdigit()]
+    assert len(digits) > 20
+    for at in digits:
+        other = b"%d" % ((int(whole[at : at + 1]) + 1) % 10 or 1)
+        changed = whole[:at] + other + whole[at + 1 :]
+        if changed == whole:
+            continue
+        report = read_stream(io.BytesIO(changed))
+        assert not report.complete, changed[at - 20 : at + 20]
+        assert "altered or damaged" in report.flaws[0]
+        assert report.exit_status == 3
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (lambda text: text.replace('"measured":1.5', '"measured":0.5'), "not those that the run wrote"),
+        (lambda text: text.replace('"seconds":2.5', '"seconds":0.5'), "not those that the run wrote"),
+        (lambda text: text.replace("rods", "legs"), "not those that the run wrote"),
+        (lambda text: text.replace("\n", " \n", 1), "not those that the run wrote"),
+        (lambda text: re.sub(r'"digest":"\w+"', '"digest":""', text), "not those that the run wrote"),
+        (lambda text: re.sub(r',"digest":"\w+"', "", text), "not those that the run wrote"),
+        (lambda text: re.sub(r'("digest":"\w+")}', r'\1,"digest":"00"}', text), "not those that the run wrote"),
+    ],
+)
+def test_what_was_changed_says_so_and_is_no_whole_run(make, tmp_path, change, says):
+    path = tmp_path / "report.jsonl"
+    text = written(path, make.header(), [make.result(measured=1.5, allowed=3.0)]).decode()
+    assert change(text) != text
+    path.write_text(change(text), encoding="utf-8")
+    report = read_stream(path)
+    assert says in " ".join(report.flaws)
+    assert not report.complete
+    assert report.exit_status == 3
+    assert report.verdict.startswith("Incomplete: ")
+
+
+def test_the_digest_is_that_of_the_bytes_before_it(make, tmp_path):
+    whole = written(tmp_path / "report.jsonl", make.header(), [make.result()])
+    before, _, rest = whole.rpartition(b'"digest":"')
+    assert rest == hashlib.sha256(before + b'"digest":"').hexdigest().encode() + b'"}\n'

@@ -9,6 +9,7 @@ from fake_integrators import Damped, Fake, LongStep
 from furiko.checks.comparisons import trajectories
 from furiko.checks.comparisons.trajectories import Ladder
 from furiko.models import NLegPendulum, RodChain, Scene
+from furiko.reference.rounding.bounds import EPSILON
 
 
 def ladder(error, steps=8):
@@ -100,3 +101,26 @@ def test_a_fault_of_1e_7_or_less_is_found_at_step_zero(make_cell, fake, monkeypa
     monkeypatch.setattr(trajectories, "ORDER_SETTLED", -0.02)  # refine until the next term is small
     (result,) = trajectories.compare(make_cell(fake, "double-pendulum"))
     assert result.outcome == "differs", result
+
+
+@pytest.mark.parametrize("worst", [0, 1, 2])
+def test_rounding_is_that_of_the_worst_state_on_the_way(make_cell, worst):
+    """In absolute angles, of an explicit scheme of order four: the largest angle, rate and acceleration of all states.
+
+    A step adds up to five numbers (four stages and the state), each sure to ε; every acceleration is off by 1e-9.
+    """
+    cell = make_cell(Fake, "double-pendulum")
+    theta, omega, alpha = (np.full((3, 2), 0.25) for _ in range(3))
+    theta[worst, 1], omega[(worst + 1) % 3, 0], alpha[(worst + 2) % 3, 1] = -3.0, -7.0, 11.0
+    found = trajectories.rounding(cell, Fake.integrators[0], theta, omega, alpha, 1e-9)
+    assert found.angle == 3 * EPSILON
+    assert found.rate == 7 * EPSILON
+    assert found.turning == 5 * 7 * EPSILON
+    reach = (found.speeding - 5 * 11 * EPSILON) / 1e-9  # the stages' weights: they add up to one, each in magnitude
+    assert 1.0 <= reach < 2.0
+
+
+def test_rounding_of_a_run_grows_with_its_steps_and_its_time():
+    """Ten steps and two seconds: angles and rates of every step, and what turns and speeds in every second."""
+    found = trajectories.Rounding(angle=1.0, rate=10.0, turning=100.0, speeding=1000.0)
+    assert found.after(10, 2.0, (3.0, 5.0)) == (10 * 1.0 + 2 * 100.0) * 3.0 + (10 * 10.0 + 2 * 1000.0) * 5.0

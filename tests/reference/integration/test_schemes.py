@@ -125,6 +125,37 @@ def test_relative_and_absolute_angles_give_the_same_step(scheme):
         np.testing.assert_allclose(one.astype(float), (S @ other).astype(float), rtol=1e-15)
 
 
+def test_generalized_alpha_hands_its_algorithmic_accelerations_on():
+    """On θ̈ = -θ each step is three linear equations in Chung and Hulbert's own form: a_{1-α_m} = -d_{1-α_f}."""
+    radius, h = 0.9, 0.25
+    alpha_m, alpha_f = (2 * radius - 1) / (radius + 1), radius / (radius + 1)
+    gamma, beta = 0.5 - alpha_m + alpha_f, 0.25 * (1 - alpha_m + alpha_f) ** 2
+    left = np.array([[1, 0, -h * h * beta], [0, 1, -h * gamma], [1 - alpha_f, 0, 1 - alpha_m]])
+    right = np.array([[1, h, h * h * (0.5 - beta)], [0, 1, h * (1 - gamma)], [-alpha_f, 0, -alpha_m]])
+    state = np.array([0.7, -0.4, -0.7])  # it starts from a = -θ
+    for _ in range(5):
+        state = np.linalg.solve(left, right @ state)
+    (scheme,) = (scheme for scheme in SCHEMES if scheme.name == "generalized-α, ρ∞ = 0.9")
+    start = np.array([WIDE("0.7")]), np.array([WIDE("-0.4")])
+    theta, omega = schemes.run(scheme, lambda t, w: -t, *start, WIDE(h), 5)
+    # A few roundings a step in the comparison's double precision.
+    np.testing.assert_allclose([float(theta[0]), float(omega[0])], state[:2], rtol=0, atol=1e-14)
+    again = start
+    for _ in range(5):  # as if every step were the first: another motion
+        again = scheme.step(lambda t, w: -t, *again, WIDE(h))
+    assert abs(float(again[0][0] - theta[0])) > 1e-4
+
+
+@pytest.mark.parametrize("name", ["classical Runge-Kutta", "trapezoidal rule (Newmark β = 1/4, γ = 1/2)"])
+def test_several_steps_of_a_scheme_that_forgets_are_one_after_the_other(name):
+    (scheme,) = (scheme for scheme in SCHEMES if scheme.name == name)
+    state = np.array([WIDE("0.7")]), np.array([WIDE("-0.4")])
+    found = schemes.run(scheme, lambda t, w: -t - w, *state, WIDE(0.125), 3)
+    for _ in range(3):
+        state = scheme.step(lambda t, w: -t - w, *state, WIDE(0.125))
+    np.testing.assert_allclose(np.float64(found), np.float64(state), rtol=1e-15)
+
+
 def test_a_step_too_long_for_an_implicit_scheme_is_refused():
     with pytest.raises(ArithmeticError, match="too long"):
         schemes.implicit_euler(lambda t, w: -1e6 * t, np.ones(1), np.zeros(1), 1.0)
@@ -175,6 +206,24 @@ def test_schemes_in_maximal_coordinates_have_a_local_error_of_third_order_in_the
         return float(np.abs(step(bodies, theta, omega, WIDE(h))[0] - true[0]).max())
 
     assert np.log2(error(2**-9) / error(2**-10)) == pytest.approx(3, abs=0.2)
+
+
+@pytest.mark.parametrize(
+    ("steps", "order"),
+    [(lambda *a: generalized_alpha_index_3(*a[:-1], WIDE("0.9"), a[-1]), 2), (trapezoidal_index_2, 2)],
+)
+def test_runs_in_maximal_coordinates_converge_with_second_order(steps, order):
+    """As they do only if accelerations are handed on: generalized-α from true ones at every step is of first order."""
+    system = NLegPendulum([1.0, 0.5, 0.8], [1.0, 2.0, 0.3])
+    bodies, (theta, omega) = MaximalCoordinates(system.tree()), a_state(system)
+
+    def error(count):
+        true = theta, omega
+        for _ in range(64):
+            true = BUTCHER_6.step(lambda t, w: literal_accelerations(system, t, w), *true, WIDE(1) / 512)
+        return float(np.abs(steps(bodies, theta, omega, WIDE(1) / (8 * count), count)[0] - true[0]).max())
+
+    assert np.log2(error(16) / error(32)) == pytest.approx(order, abs=0.2)
 
 
 def test_the_classical_step_is_the_classical_tableaus():

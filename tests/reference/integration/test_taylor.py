@@ -1,6 +1,7 @@
 """Trajectories against closed forms, against the literal equations in quadruple precision, and conservation laws."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -168,6 +169,19 @@ def test_a_coarser_tolerance_takes_less_work_and_is_kept():
     assert 0 < np.abs(fine.theta - coarse.theta).max() <= 1e-5
     assert coarse.warning == ""
     assert coarse.error.max() > fine.error.max()
+
+
+def test_a_tolerance_that_is_just_kept_is_no_warning():
+    found = simulate(RODS, np.linspace(1, 2, 3), np.zeros(3), [0.0, 2.0])
+    error = float(found.error.max())
+    assert error > 0
+    assert replace(found, tolerance=error).warning == ""
+    short = replace(found, tolerance=np.nextafter(error, 0)).warning
+    assert "not reached" in short
+    assert f"estimated error {error:.1e}" in short
+    # A few roundings are what doubles hold; more than a hundred are the motion's growth.
+    assert ("double precision" in short) == (error < 100 * 2.0**-52)
+    assert ("multiplies rounding errors by about" in short) == (error >= 100 * 2.0**-52)
 
 
 def test_a_scaled_mechanism_moves_the_same():

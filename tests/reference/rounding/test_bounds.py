@@ -7,7 +7,7 @@ import pytest
 
 from furiko.checks.comparisons import accelerations, energy, joint_forces, symmetries, terms
 from furiko.checks.registry import CHECKS as REGISTERED
-from furiko.models import NLegPendulum, RodChain, Scene
+from furiko.models import Link, NLegPendulum, PlanarTree, RodChain, Scene
 from furiko.models.coordinates import absolute_from_relative
 from furiko.reference import centrifugal_matrix
 from furiko.reference.rounding import bounds as rounding
@@ -92,6 +92,38 @@ def test_no_configuration_reaches_beyond_an_arm_by_way_of_the_trees_centre(syste
         middle = np.average(centres, weights=system.masses)
         apart.append((np.abs(hinges - middle)[:, None] + np.abs(centres - middle)) * carried)
     assert (np.max(apart, axis=0) <= about.arm * (1 + 1e-14)).all()
+
+
+# A bob of 1 kg at 2 m, and one of 3 kg at 3 m from it; the support's hinge is 1 m from the origin.
+TWO_BOBS = PlanarTree(
+    (Link(-1, (1.0, 0.0), 2.0, (2.0, 0.0), 1.0, 0.0), Link(0, (2.0, 0.0), 3.0, (3.0, 0.0), 3.0, 0.0)), 9.81
+)
+
+
+def test_lever_arms_of_two_bobs_by_hand():
+    to_hinge, to_centre = levers.from_support(TWO_BOBS)
+    np.testing.assert_array_equal(to_hinge, [1.0, 3.0])
+    np.testing.assert_array_equal(to_centre, [3.0, 6.0])
+    own = levers.relative_levers(TWO_BOBS)
+    np.testing.assert_array_equal(own.arm, [[2.0, 5.0], [0.0, 3.0]])
+    np.testing.assert_array_equal(own.to_point, [[0.0, 2.0], [0.0, 0.0]])
+    # Weighed by 1/4 and 3/4: from hinge 1 to the bobs 2 and 5, from hinge 2 0 and 3, from bob 1 0 and 3, from bob 2 3
+    # and 0. The mean of the paths is 17/4, 9/4, 9/4 and 3/4.
+    about, placed = levers.tree_levers(TWO_BOBS)
+    np.testing.assert_array_equal(about.arm, [[9 / 4 + 17 / 4, 3 / 4 + 17 / 4], [0.0, 3 / 4 + 9 / 4]])
+    np.testing.assert_array_equal(about.to_point, [[17 / 4, 17 / 4], [0.0, 9 / 4]])
+    # Points in the world are known to their path from the origin: each arm has a centre and a hinge in it.
+    np.testing.assert_array_equal(placed.arm, [[3.0 + 1.0, 6.0 + 1.0], [0.0, 6.0 + 3.0]])
+    np.testing.assert_array_equal(placed.to_point, [[1.0, 1.0], [0.0, 3.0]])
+    world = levers.world_errors(TWO_BOBS)  # only the place of hinge 2 on link 1 is a difference
+    np.testing.assert_array_equal(world.arm, [[0.0, 3.0], [0.0, 0.0]])
+
+
+def test_lever_arms_beside_the_axis_by_hand():
+    """Hinge 2 is at (3, 4) on link 1, its centre at (0, 4): 5 m and 4 m from hinge 1, and 3 m apart."""
+    links = Link(-1, (0.0, 0.0), 5.0, (0.0, 4.0), 1.0, 0.0), Link(0, (3.0, 4.0), 1.0, (1.0, 0.0), 1.0, 0.0)
+    path = levers.path_lengths(PlanarTree(links, 9.81))
+    np.testing.assert_array_equal(path, [[0, 5, 4, 6], [5, 0, 3, 1], [4, 3, 0, 4], [6, 1, 4, 0]])
 
 
 def test_ways_along_the_links_of_a_branching_tree():

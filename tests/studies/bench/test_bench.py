@@ -16,6 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from furiko.bench import bench, write
+from furiko.cli.main import run
 from furiko.engines import engine_names, engine_version, load_engine
 from furiko.models import EngineMissing, InvalidInput, RodChain, Scene
 from furiko.models.benchmark_scenes import BENCHMARKS
@@ -148,6 +149,15 @@ def test_refinement_stops_at_rounding():
     method = made_up([1e-2, 1e-4, 1e-6, 1e-8, 2e-8, 3e-8, 1e-20])
     runs, why = refine(method, own_error, math.inf)
     assert [run.error for run in runs] == [1e-2, 1e-4, 1e-6, 1e-8, 2e-8, 3e-8]
+    assert "rounding" in why
+
+
+def test_errors_that_still_fall_by_a_third_are_no_rounding_and_those_that_fall_by_a_fifth_are():
+    falling = [1e-2, 1e-4, 0.66e-4, 0.44e-4, 0.29e-4, 0.19e-4]
+    assert [run.error for run in refine(made_up(falling), own_error, math.inf)[0]] == falling
+    stuck = [1e-2, 1e-4, 0.8e-4, 0.64e-4, 1e-9]
+    runs, why = refine(made_up(stuck), own_error, math.inf)
+    assert [run.error for run in runs] == stuck[:4]
     assert "rounding" in why
 
 
@@ -417,3 +427,38 @@ def test_kept_ends_of_a_benchmark_are_computed_again():
     (same,) = [old for old in kept.values() if old["scene"] == scene.name]
     new, old = (np.array(e["states"], dtype=np.longdouble) for e in (entry, same))
     assert np.abs(new - old).max() < 1e-18  # a long double's own rounding of the decimals
+
+
+# --- causes
+
+
+@pytest.mark.parametrize(
+    ("engine", "causes"),
+    [
+        ("fake_engines:Right", []),
+        ("fake_causes:LowOrderRuns", ["first-order-integrator"]),
+        ("fake_causes:LateRuns", ["stale-derived-state"]),
+        ("fake_causes:VelocitySign", ["velocity-terms-sign"]),
+    ],
+)
+def test_a_timed_engine_that_is_wrong_is_said_to_be(engine, causes, monkeypatch, capsys):
+    monkeypatch.setattr("furiko.bench.BENCHMARKS", {"rods": RODS})
+    found = bench(["rods"], [engine], budget=1.0)
+    (motion,) = found.motions
+    assert [cause.cause for cause in motion.causes] == causes
+    print_bench(found)
+    shown, page = capsys.readouterr().out, to_html(found)
+    for cause in motion.causes:
+        assert cause.says in " ".join(shown.split())
+        assert cause.cause in page
+        assert engine in cause.says
+
+
+def test_a_benchmark_of_a_wrong_engine_has_the_status_of_a_difference(tmp_path, capsys):
+    scene = tmp_path / "rods.toml"
+    scene.write_text(
+        '[system]\nkind = "rod-chain"\nlengths = [1.0, 0.5]\n[state]\ntheta = [1.0, 2.0]\nduration = 0.5\n'
+    )
+    for engine, status in (("fake_engines:Right", 0), ("fake_causes:LateRuns", 1)):
+        arguments = ["bench", str(scene), "-e", engine, "--budget", "1", "--out", str(tmp_path / "bench")]
+        assert run(arguments) == status, capsys.readouterr()

@@ -73,11 +73,39 @@ def test_a_silent_reset_is_found_and_rest_is_none():
     assert of_path(rest, rest) is None
 
 
+def test_what_comes_first_in_a_run_is_its_failure():
+    theta, omega = np.arange(8.0)[:, None], np.ones((8, 1))
+    theta[4] = theta[0]
+    omega[6] = np.nan
+    assert of_path(theta, omega) == ("silent reset", 4)
+    theta[4], theta[6], omega[6] = 4.0, theta[0], 1.0
+    omega[3] = np.inf
+    assert of_path(theta, omega) == ("NaN", 3)
+    omega[3], theta[6] = 1.0, 6.0
+    theta[5, 0] = np.nan  # the angle alone
+    assert of_path(theta, omega) == ("NaN", 5)
+
+
+def test_a_state_of_several_links_is_the_initial_one_only_if_every_angle_and_rate_is():
+    theta = np.outer(np.arange(6.0), [1.0, 0.0])  # the second angle stays where it was
+    omega = np.ones((6, 2))
+    assert of_path(theta, omega) is None
+    theta[4] = theta[0]
+    omega[4, 1] = 2.0  # an angle that comes back with another rate is a swing
+    assert of_path(theta, omega) is None
+    omega[4, 1] = 1.0
+    assert of_path(theta, omega) == ("silent reset", 4)
+    omega[2, 0] = np.nan
+    assert of_path(theta, omega) == ("NaN", 2)
+
+
 def test_energy_that_runs_away_is_found_and_when():
     values = np.array([1.0, 1.2, 0.9, 1.6, 3.0])
     assert of_energy(values, 1.0, 0.5) == 3
     assert of_energy(np.array([1.0, np.inf]), 1.0, 0.5) == 1
     assert of_energy(values[:3], 1.0, 0.5) is None
+    assert of_energy(np.array([1.0, 1.5, 0.25]), 1.0, 0.5) == 2  # at the limit it is not beyond it
+    assert of_energy(np.array([1.0, 3.0, 9.0]), 4.0, 0.5) == 2
 
 
 def test_answers_are_named_by_their_error():
@@ -86,6 +114,13 @@ def test_answers_are_named_by_their_error():
     assert of_answer(fine, 1e-7) == "half its digits lost"
     assert of_answer(fine, 0.5) == "wrong numbers that look right"
     assert of_answer(fine * np.nan, 0.0) == "NaN"
+    one = fine.copy()
+    one[1, 2] = np.inf
+    assert of_answer(one, 0.0) == "NaN"
+    # Half the digits of a double are 2⁻²⁶, and a hundredth is the second digit.
+    assert of_answer(fine, 2.0**-26) is None
+    assert of_answer(fine, 0.0099) == "half its digits lost"
+    assert of_answer(fine, 0.01) == "wrong numbers that look right"
 
 
 def test_what_shows_first_names_the_failure():

@@ -11,9 +11,11 @@ from pathlib import Path
 
 import pytest
 
+from furiko.cli.main import run
 from furiko.engines import engine_info
 from furiko.models import InvalidInput
 from furiko.reports import read_stream
+from furiko.reports.journal import Journal
 from furiko.stress import STREAM, stress
 from furiko.studies.stress.accelerations import AccelerationCase
 from furiko.studies.stress.axes import find_axes
@@ -252,3 +254,34 @@ def test_bad_usage_is_one_clear_line(arguments, told, tmp_path):
     (line,) = done.stderr.splitlines()
     assert told in line
     assert list(tmp_path.iterdir()) == []
+
+
+ONE_AXIS = ["stress", "--axis", "long-rods", "-e", "document", "--budget", "5", "--jobs", "1"]
+
+
+def test_where_the_pages_cannot_be_written_the_table_is_shown_all_the_same(tmp_path, capfd):
+    (tmp_path / "stress.html").mkdir()
+    assert run([*ONE_AXIS, "--out", str(tmp_path)]) == 3
+    shown, failure = capfd.readouterr()
+    assert "long-rods" in shown
+    assert "page: " not in shown
+    assert "stress.html: cannot be written: Is a directory" in failure
+    assert read_stream(tmp_path / STREAM).complete
+
+
+def test_where_the_journal_takes_no_more_the_table_is_shown_all_the_same(tmp_path, capfd, monkeypatch):
+    """As on a disk that fills up: the header is there, and results, but no footer."""
+    written = Journal.write
+
+    def full(self, result):
+        if len(read_stream(self.path).results) == 2:
+            raise InvalidInput(f"{self.path}: cannot be written: No space left on device")
+        return written(self, result)
+
+    monkeypatch.setattr(Journal, "write", full)
+    assert run([*ONE_AXIS, "--out", str(tmp_path), "--json"]) == 3
+    shown, failure = capfd.readouterr()
+    assert json.loads(shown)["cases"] > 2
+    assert "No space left" in failure
+    report = read_stream(tmp_path / STREAM)
+    assert (len(report.results), report.footer) == (2, None)

@@ -1,0 +1,78 @@
+"""Named deviations from what MJCF and URDF documents say: each flag has furiko's reader make one engine's mistake.
+
+A reading with a flag is what an engine that makes this mistake has; where it reproduces the engine's numbers, the
+mistake is named. Without flags the reader does as the formats' documentation says.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
+
+
+def _mistake(says: str) -> Any:
+    """A flag, not set; ``says`` continues "the engine …"."""
+    return field(default=False, metadata={"says": says})
+
+
+@dataclass(frozen=True)
+class MjcfRules:
+    """What an engine does differently from MuJoCo's documentation where it reads MJCF."""
+
+    first_root_only: bool = _mistake("reads only the first <body> of the world")
+    geoms_without_contact_weigh_nothing: bool = _mistake('gives no mass to geoms with contype="0" and conaffinity="0"')
+    pose_of_first_fixed_body_dropped: bool = _mistake("drops the pose of the first body where it has no joint")
+    mesh_weighs_one_kilogram: bool = _mistake(
+        "gives each geom of type mesh, plane or hfield 1 kg and the inertia diag(1, 1, 1) kg m² at its pos"
+    )
+    default_joint_pos_dropped: bool = _mistake("ignores the pos of a joint that comes from a default class")
+    default_geom_mass_dropped: bool = _mistake("ignores the mass of a geom that comes from a default class")
+    default_geom_pose_dropped: bool = _mistake("ignores the pose of a geom that comes from a default class")
+    childclass_behind_class: bool = _mistake("puts the childclass behind an element's own class")
+    total_mass_ignored: bool = _mistake("ignores settotalmass")
+    inertia_group_ignored: bool = _mistake("ignores inertiagrouprange: geoms of every group weigh")
+    balance_inertia_ignored: bool = _mistake("ignores balanceinertia")
+    bound_inertia_on_given_axes: bool = _mistake(
+        "applies boundmass and boundinertia to <inertial> alone, and to its diagonal as it is written"
+    )
+    bound_ignored: bool = _mistake("ignores boundmass and boundinertia")
+    upper_euler_as_lower: bool = _mistake("reads upper-case letters of eulerseq (fixed axes) as lower-case ones")
+    include_not_followed: bool = _mistake("does not follow <include>")
+    late_sections_ignored: bool = _mistake("ignores <default> and <compiler> after <worldbody>")
+    later_sections_ignored: bool = _mistake("of several <compiler> or <default> reads only the first")
+    bare_bodies_lost: bool = _mistake(
+        "loses a <body> without any attribute, with its joints, and hangs its children in the world"
+    )
+    unnamed_sibling_twice: bool = _mistake("reads the first of several unnamed sibling bodies again for each other one")
+    first_ref_ignored: bool = _mistake("ignores ref of the first of several joints of a body")
+    gravity_not_read: bool = _mistake("does not read gravity: 9.81 m/s² along −z, whatever the file says")
+    damping_dropped_on_free_and_ball: bool = _mistake("drops damping and dry friction of free and ball joints")
+    springs_not_held: bool = _mistake("has no joint springs")
+    pos_of_last_joint_for_all: bool = _mistake(
+        "applies the pose of a body with several joints at the last of them, not the first"
+    )
+    armature_needs_actuator: bool = _mistake("drops armature of joints without an actuator")
+    nested_class_inherits_nothing: bool = _mistake(
+        "has a nested default class inherit nothing for an element that the class does not mention itself"
+    )
+    frame_ignored: bool = _mistake("ignores <frame> and all that is inside")
+
+
+@dataclass(frozen=True)
+class Rules:
+    """How both formats are read."""
+
+    mjcf: MjcfRules = MjcfRules()
+
+
+AS_DOCUMENTED = Rules()
+
+
+def flags_of(rules: type[MjcfRules]) -> dict[str, str]:
+    """The flags of a format, by name, each with the sentence that says what such an engine does."""
+    return {flag.name: flag.metadata["says"] for flag in fields(rules)}
+
+
+def with_mjcf(*flags: str) -> Rules:
+    """MJCF read with these mistakes. Raises TypeError for a name that is no flag."""
+    return replace(AS_DOCUMENTED, mjcf=MjcfRules(**dict.fromkeys(flags, True)))
