@@ -86,8 +86,10 @@ def singles(sizes: Sequence[int] = SIZES, seed: int = 1) -> Tally:
     return tally
 
 
-def _single(answer: Grade, mistake: Mistake, classes: dict[str, tuple[int, ...]], m: Symbols) -> tuple[str, str]:
+def _single(answer: Grade, mistake: Mistake, classes: dict[str, tuple[int, ...]], m: Symbols) -> tuple[str, str]:  # noqa: PLR0911 -- one for each outcome
     where = f"{m.kind} {m.n} {mistake.name}"
+    if answer.assumes and answer.verdict == "correct":
+        return "right on a condition that is said", ""
     if answer.verdict != "wrong":
         return "NOT DETECTED", where
     if not answer.findings:
@@ -132,6 +134,8 @@ def _pair(
     answer: Grade, planted: tuple[Mistake, Mistake], classes: dict[str, tuple[int, ...]], m: Symbols
 ) -> tuple[str, str]:
     where = f"{m.kind} {m.n} {[p.name for p in planted]} -> {[n.name for n in answer.mistakes]}"
+    if answer.assumes and answer.verdict == "correct":
+        return "right on a condition that is said", ""
     if answer.verdict != "wrong":
         return "NOT DETECTED", where
     wanted = sorted(classes[p.name] for p in planted)

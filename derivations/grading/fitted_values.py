@@ -102,15 +102,16 @@ def _least_squares(
     tables = [states.table(row, accelerations, free) for row in right]
     with np.errstate(all="ignore"):
         for start in range(STARTS):
-            x = np.array([draw.uniform(-1, 1) if start else 0.0 for _ in free])
+            x: Array = np.array([draw.uniform(-1, 1) if start else 0.0 for _ in free])
             damping = 1e-2
             residual, jacobian = _residual(tables, x)
             for _ in range(STEPS):
                 normal = jacobian.T @ jacobian
                 step = np.linalg.lstsq(normal + damping * np.eye(len(x)), -jacobian.T @ residual, rcond=None)[0]
-                moved, slope = _residual(tables, x + np.clip(step, -1, 1))
+                there: Array = np.asarray(x + np.clip(step, -1, 1), dtype=np.float64)
+                moved, slope = _residual(tables, there)
                 if moved @ moved < residual @ residual:
-                    x, residual, jacobian, damping = x + np.clip(step, -1, 1), moved, slope, damping / 10
+                    x, residual, jacobian, damping = there, moved, slope, damping / 10
                 else:
                     damping *= 10
                 if np.abs(residual).max() < 1e-14 or damping > 1e12:

@@ -137,10 +137,8 @@ def merged(s: Submission, variant: Variant) -> dict[int, Formula]:
 
 def absent(s: Submission, mechanism: Mechanism) -> list[int]:
     """The places of the mechanism's parameters that the derivation never mentions."""
-    n, space = s.space.n, s.space
-    there = set().union(*(space.places(row) for row in mechanism.rows))
-    used = {_place(space, letter, max(index, 1) - 1) for letter, index in s.used if letter in "lmgrIc"}
-    return sorted(place for place in there if place >= 2 * n and place not in used)
+    used = {_place(s.space, letter, max(index, 1) - 1) for letter, index in s.used if letter in "lmgrIc"}
+    return sorted(mechanism.parameters - used)
 
 
 def _place(space: Space, letter: str, k: int) -> int:

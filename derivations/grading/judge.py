@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from flint import fmpq
 
 from ..algebra.equivalence import Comparison, System, compare
-from ..algebra.fingerprint import RandomPoint
+from ..algebra.fingerprint import point_of
 from ..algebra.multiples import is_multiple
 from ..algebra.trig import COS, Formula, Key, Space, constant
 from ..reading.submission import Submission
@@ -18,6 +18,7 @@ from .fitted_values import fitted
 from .hypotheses import MOST_LINKS_FREE, Hypothesis, Said, absent, hypotheses, simple_values, value_words
 
 MOST_FITTED = 4  # links; nobody writes numbers for more
+MOST_FITTED_ANYHOW = 2  # links up to which numbers are looked for in every convention
 GRAVITIES = ("9.80665", "9.81", "9.8", "10")
 
 
@@ -46,7 +47,7 @@ class Judge:
     def __init__(self, s: Submission) -> None:
         self.s = s
         self.space = s.space
-        self.point = RandomPoint(s.space)
+        self.point = point_of(s.space)
         rows = [f for _, f in s.rows] if s.lagrangian is None else lagrange_rows(s.space, s.lagrangian)
         self.rows = rows
         self._systems: dict[int, System] = {}
@@ -64,7 +65,7 @@ class Judge:
         """Whether the derivation is right for one hypothesis."""
         given = self.given(h)
         if self.s.lagrangian is None:
-            return compare(given, System(self.space, h.mechanism.rows, self.point))
+            return compare(given, h.mechanism.system)
         rows = _given_rows(self, h)
         return Comparison("same" if one_scale(self.space, rows, h.mechanism.rows) else "different")
 
@@ -114,7 +115,8 @@ def _specials(court: Judge, h: Hypothesis) -> Iterator[Hypothesis]:
         return
     for values in simple_values(s, places):
         yield _special(h, space, values)
-    if len(court.given(h).lines) == space.n <= MOST_FITTED:
+    likely = h.convention == s.convention or space.n <= MOST_FITTED_ANYHOW
+    if likely and len(court.given(h).lines) == space.n <= MOST_FITTED:
         fixed, unknown = _fixed(s, places)
         free = [p for p in places if p not in fixed]
         found = fitted(space, [*_given_rows(court, h)], h.mechanism.rows, free, fixed) if free else fixed

@@ -11,6 +11,8 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
+from ..algebra.equivalence import System
+from ..algebra.fingerprint import point_of
 from ..algebra.trig import COS, HALF, NOTHING, SIN, Formula, Space
 from .derivation import add, lagrange_rows
 
@@ -95,8 +97,21 @@ class Mechanism:
         forces = [self._valued(f) for f in self.forces]
         return tuple(row - forces[i] if forces else row for i, row in enumerate(rows))
 
+    @cached_property
+    def parameters(self) -> frozenset[int]:
+        """The places of the parameters that occur in the rows."""
+        found = set().union(*(self.space.places(row) for row in self.rows))
+        return frozenset(place for place in found if place >= 2 * self.space.n)
+
+    @cached_property
+    def system(self) -> System:
+        """The rows, and their values at the point where systems of this space are compared."""
+        return System(self.space, self.rows, point_of(self.space))
+
     def with_values(self, values: dict[int, Formula]) -> Mechanism:
         """The same mechanism where the symbols at these places have these values."""
+        if not values:
+            return self
         return replace(self, values={**self.values, **values})
 
     def _valued(self, f: Formula) -> Formula:
