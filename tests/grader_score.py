@@ -86,7 +86,7 @@ def singles(sizes: Sequence[int] = SIZES, seed: int = 1) -> Tally:
     return tally
 
 
-def _single(answer: Grade, mistake: Mistake, classes: dict[str, tuple[int, ...]], m: Symbols) -> tuple[str, str]:  # noqa: PLR0911 -- one for each outcome
+def _single(answer: Grade, mistake: Mistake, classes: dict[str, tuple[int, ...]], m: Symbols) -> tuple[str, str]:
     where = f"{m.kind} {m.n} {mistake.name}"
     if answer.assumes and answer.verdict == "correct":
         return "right on a condition that is said", ""
@@ -130,7 +130,7 @@ def _compatible(one: Mistake, two: Mistake) -> bool:
     return stages.isdisjoint(NEWTON_STAGES) or stages.isdisjoint(LAGRANGE_STAGES)
 
 
-def _pair(
+def _pair(  # noqa: PLR0911 -- one for each outcome
     answer: Grade, planted: tuple[Mistake, Mistake], classes: dict[str, tuple[int, ...]], m: Symbols
 ) -> tuple[str, str]:
     where = f"{m.kind} {m.n} {[p.name for p in planted]} -> {[n.name for n in answer.mistakes]}"
