@@ -15,9 +15,9 @@ from ...models import PlanarTree
 from ...models.tree import SUPPORT
 from . import tree_frame
 from .composite import about_centre_of_mass, in_link_frames
-from .lever_arms import from_support
+from .lever_arms import differences_lost
 from .link_frames import Inertia, Turn, forward_dynamics, in_world, inverse_dynamics, joint_turns, rigid_inertia
-from .monte_carlo import Noise, Noisy, spread
+from .monte_carlo import MAGNIFIED, Noise, Noisy, spread
 
 Array = NDArray[np.float64]
 
@@ -72,15 +72,18 @@ class _Run:
         return joint_turns(self.relative(theta), self._places(placed))
 
     def _places(self, placed: str) -> list[tuple[Any, Any]]:
-        """The joints' places on their parents; off by the rounding of the way from the support if had from there."""
+        """The joints' places on their parents, off by what they lose if had as differences of places in the world.
+
+        That is so much and no other, in all links together. Every other sample has the opposite of it, so that their
+        mean is that of places which have lost nothing.
+        """
+        turns = MAGNIFIED * (-1.0) ** np.arange(SAMPLES)[:, None]
         places: list[tuple[Any, Any]] = [link.hinge for link in self.tree.links]
         if placed == "world":
-            way = from_support(self.tree)[0]
-            for i, link in enumerate(self.tree.links):
-                if link.parent != SUPPORT:
-                    error = self.number(way[i]).value - way[i]
-                    x, y = link.hinge
-                    places[i] = (Noisy(x + error, self.noise), y)
+            for i, lost in enumerate(differences_lost(self.tree)):
+                if lost:
+                    x, y = places[i]
+                    places[i] = (Noisy(np.broadcast_to(x + lost * turns, self.shape), self.noise), y)
         return places
 
 
