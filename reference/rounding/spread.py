@@ -56,6 +56,8 @@ class Formulation(Protocol):
     @property
     def interchanges(self) -> bool: ...
     @property
+    def ordering(self) -> str: ...
+    @property
     def accuracy(self) -> float: ...
 
 
@@ -65,7 +67,7 @@ def accelerations(
     """Spread of θ̈ [rad/s²], (B, n), in states (B, n) whose true accelerations are ``alpha``."""
     mass = mass_matrix(system, theta)
     if how.coordinates == "maximal":
-        found = maximal_spread(system, theta, omega)[0] * _coarser(how)
+        found = maximal_spread(system, theta, omega, how.ordering)[0] * _coarser(how)
     elif how.algorithm == "aba":
         found = aba_accelerations(system.tree(), theta, omega, alpha, accuracy=how.accuracy, placed=how.placed)
     else:
@@ -168,7 +170,7 @@ def joint_forces(
 ) -> Array:
     """Spread of the length of each joint's force, (B, n) [N], in the true motion."""
     if how.coordinates == "maximal":
-        found = maximal_spread(system, theta, omega)[1] * _coarser(how)
+        found = maximal_spread(system, theta, omega, how.ordering)[1] * _coarser(how)
     elif how.inverse != "matrix":
         facts: dict[str, Any] = {"accuracy": how.accuracy, "placed": how.placed, "moments": how.moments}
         found = rnea(system.tree(), theta, omega, alpha, gravity=np.full(len(theta), system.gravity), **facts)[1]
