@@ -27,10 +27,10 @@ from .cell import quotient, worst
 Array = NDArray[np.float64]
 
 # Spreads beyond which a result is loose, for each quantity.
-ACCELERATIONS = 50.0
+ACCELERATIONS = 25.0
 TERMS = 15.0
 JOINT_FORCES = 15.0
-ENERGY = 60.0
+ENERGY = 15.0
 STEPS = 10.0  # angles and rates after steps of an explicit scheme
 ITERATED = 30.0  # the same of an implicit one, whose tolerance comes besides
 MAXIMAL = 5.0  # accelerations and joint forces of engines in maximal coordinates

@@ -172,6 +172,22 @@ def in_world(tree: PlanarTree, turns: Sequence[Turn], forces: Sequence[Spatial])
     return [(c * f.x - s * f.y, s * f.x + c * f.y) for (c, s), f in zip(total, forces, strict=True)]
 
 
+def depths(tree: PlanarTree, turns: Sequence[Turn]) -> list[Any]:
+    """Of the links' centres of mass below the support [m]: places in the world, joint after joint."""
+    found: list[Any] = []
+    frames: list[tuple[Any, Any, Any]] = []  # of each link: its joint's depth, cosine and sine of its angle
+    for link, turn in zip(tree.links, turns, strict=True):
+        if link.parent == SUPPORT:
+            x, c, s = turn.x, turn.cos, turn.sin
+        else:
+            x, c, s = frames[link.parent]
+            x = x + (c * turn.x - s * turn.y)
+            c, s = c * turn.cos - s * turn.sin, s * turn.cos + c * turn.sin
+        frames.append((x, c, s))
+        found.append(x + (c * link.com[0] - s * link.com[1]))
+    return found
+
+
 def forward_dynamics(
     tree: PlanarTree,
     turns: Sequence[Turn],

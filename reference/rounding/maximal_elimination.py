@@ -3,9 +3,9 @@
 The KKT system of free bodies and hinges, (M, Gᵀ; G, 0) (q̈, λ) = b, is solved by Gaussian elimination with row
 interchanges. Its backward error is |L||U||x| (Higham, Accuracy and Stability of Numerical Algorithms, theorem 9.3), not
 row by row: a row of a light link may be added to one of a heavy link and share its rounding. The size depends on the
-order in which unknowns are eliminated, which a sparse solver chooses by rules of its own. For the proven bound the worst
-of several random orders is taken; for the spread, too, unless the solver's rules are known (COLAMD, SuperLU's column
-ordering, which Eigen's ``SparseLU`` follows): then SuperLU itself is asked.
+order in which unknowns are eliminated, which a sparse solver chooses by rules of its own. For the proven bound the
+worst of several random orders is taken; for the spread, too, unless the solver's rules are known (COLAMD, SuperLU's
+column ordering, which Eigen's ``SparseLU`` follows): then SuperLU itself is asked.
 """
 
 from __future__ import annotations
