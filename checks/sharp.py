@@ -27,7 +27,8 @@ from .cell import quotient, worst
 Array = NDArray[np.float64]
 
 # Spreads beyond which a result is loose, for each quantity.
-ACCELERATIONS = 25.0
+ACCELERATIONS = 25.0  # of a mass matrix that is factorised
+ARTICULATED = 15.0  # of articulated bodies
 TERMS = 15.0
 JOINT_FORCES = 15.0
 ENERGY = 15.0
@@ -105,6 +106,13 @@ def chosen(excess: Array, most: int) -> NDArray[np.intp]:
     bad = np.argsort(-excess, kind="stable")[: (most + 1) // 2]
     even = np.linspace(0, count - 1, most - len(bad)).round().astype(np.intp)
     return np.union1d(bad, even)
+
+
+def for_accelerations(info: EngineInfo) -> float:
+    """The factor for accelerations of this engine."""
+    if info.coordinates == "maximal":
+        return MAXIMAL
+    return ARTICULATED if info.algorithm == "aba" else ACCELERATIONS
 
 
 def for_steps(integrator: Integrator) -> float:

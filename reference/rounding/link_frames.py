@@ -204,7 +204,7 @@ def forward_dynamics(
     for i in range(tree.n - 1, -1, -1):
         if tree.links[i].parent != SUPPORT:
             parent = tree.links[i].parent
-            reduced, felt = _without_joint(inertia[i], _yields_exactly(tree, i))
+            reduced, felt = _without_joint(inertia[i])
             share = -bias[i].w * (1.0 / inertia[i].ww)
             column = Spatial(inertia[i].ww * share, inertia[i].wx * share, inertia[i].wy * share)
             c = coriolis[i]
@@ -224,28 +224,18 @@ def forward_dynamics(
     return found
 
 
-def _yields_exactly(tree: PlanarTree, i: int) -> bool:
-    """Whether a tip's inertia about its joint leaves nothing once the joint yields: D (1/D) = 1 in double precision."""
-    if i in tree.parents:
-        return False
-    inertia = float(rigid_inertia(tree, i, float).ww)
-    return inertia * (1.0 / inertia) == 1.0
-
-
-def _without_joint(i: Inertia, exactly: bool) -> tuple[Inertia, Spatial]:
+def _without_joint(i: Inertia) -> tuple[Inertia, Spatial]:
     """I - (U / D) Uᵀ: what is left of an articulated inertia once its joint yields; and its first row as it stands.
 
     Its first row and column are zero but for rounding, which stands beside the inertias of what carries the link. These
     may be far smaller. U / D has been rounded, so that row and column are not the same: what carries the link has the
-    column's, its acceleration meets the row.
+    column's, its acceleration meets the row. D (1 / D) may well be one: the last digit of D decides, which depends on
+    how m l² is multiplied out and on how a file's numbers were read.
     """
     inverse = 1.0 / i.ww
     wx, wy = i.wx * inverse, i.wy * inverse
-    if exactly:
-        row = Spatial(0.0, 0.0, 0.0)
-    else:
-        one = i.ww * inverse
-        row = Spatial(i.ww - one * i.ww, i.wx - one * i.wx, i.wy - one * i.wy)
+    one = i.ww * inverse
+    row = Spatial(i.ww - one * i.ww, i.wx - one * i.wx, i.wy - one * i.wy)
     column = Inertia(
         row.w,
         i.wx - wx * i.ww,
