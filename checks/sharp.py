@@ -33,12 +33,12 @@ TERMS = 15.0
 JOINT_FORCES = 15.0
 ENERGY = 15.0
 STEPS = 10.0  # angles and rates after steps of an explicit scheme
-ITERATED = 30.0  # the same of an implicit one, whose tolerance comes besides
-MAXIMAL = 5.0  # accelerations and joint forces of engines in maximal coordinates
+ITERATED = 60.0  # the same of an implicit one, whose tolerance comes besides
+MAXIMAL = 8.0  # accelerations and joint forces of engines in maximal coordinates
 
 ENTRIES = 1_000  # states times links that are looked at for accelerations
 SYMMETRIES = 64  # the same for symmetries, each of which has an image
-COLUMNS = 200  # for terms, where each state costs n rows of inverse dynamics
+COLUMNS = 100  # for terms, where each state costs n rows of inverse dynamics
 LONGEST = 200  # links of the longest mechanism for which terms, or maximal coordinates, are looked at
 FEW = 10  # states in maximal coordinates, at most
 
@@ -129,7 +129,7 @@ def states_for_accelerations(info: EngineInfo, n: int) -> int:
 
 def steps_together(integrator: Integrator, n: int) -> int:
     """How many steps of a run are taken beside the engine's: what costs some hundredths of a second."""
-    return max(4, round((8 if integrator.tolerance else 64 // integrator.order) * min(1.0, 4 / n)))
+    return max(3, round((4 if integrator.tolerance else 24 // integrator.order) * min(1.0, 4 / n)))
 
 
 def states_for_symmetries(info: EngineInfo, n: int) -> int:
@@ -141,12 +141,12 @@ def states_for_symmetries(info: EngineInfo, n: int) -> int:
 
 def states_for_energy(n: int) -> int:
     """The same for energies."""
-    return max(4, ENTRIES // n)
+    return max(4, ENTRIES // (4 * n))
 
 
 def states_for_terms(n: int) -> int:
     """The same for the terms of the equations of motion."""
-    return max(2, COLUMNS // n, min(8, 3 * COLUMNS // n)) if n <= LONGEST else 0
+    return max(2, COLUMNS // n, min(8, 6 * COLUMNS // n)) if n <= LONGEST else 0
 
 
 def verdict(agrees: bool, sharp: Line | None, reason: str) -> dict[str, Any]:

@@ -13,6 +13,7 @@ tolerance allows it.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -111,18 +112,35 @@ class Disturbed:
         return Disturbed(*(values.max(axis=0, keepdims=True) for values in vars(self).values()))
 
 
-def disturbed(cell: Cell, integrator: Integrator, theta: Array, omega: Array, alpha: Array) -> Disturbed:
-    """What disturbs this integrator in states (B, n) of this cell's mechanism."""
-    system, nothing = cell.scene.system, np.zeros_like(theta)
-    accelerations = spread.accelerations(cell.info, system, cell.amplitude, theta, omega, alpha)
-    left, speeds, angles, rates = nothing, nothing, nothing, nothing
-    if cell.info.coordinates == "maximal":
-        angles, rates = joint_spread(system, theta, omega)
-        if integrator.tolerance:
-            left, speeds = left_in_maximal_coordinates(system, theta, omega, integrator.tolerance)
-    elif integrator.tolerance:
-        left = left_in_accelerations(system, cell.amplitude, theta, omega, alpha, integrator.tolerance)
-    return Disturbed(accelerations, left, speeds, angles, rates)
+@dataclass(frozen=True)
+class Passed:
+    """States (B, n) that an engine steps from, and their true accelerations; what disturbs its steps there."""
+
+    cell: Cell
+    theta: Array
+    omega: Array
+    alpha: Array
+
+    @cached_property
+    def _accelerations(self) -> Array:
+        cell = self.cell
+        return spread.accelerations(cell.info, cell.scene.system, cell.amplitude, self.theta, self.omega, self.alpha)
+
+    @cached_property
+    def _joints(self) -> tuple[Array, Array]:
+        if self.cell.info.coordinates != "maximal":
+            return np.zeros_like(self.theta), np.zeros_like(self.theta)
+        return joint_spread(self.cell.scene.system, self.theta, self.omega)
+
+    def disturbed(self, integrator: Integrator) -> Disturbed:
+        """What disturbs this one of the engine's integrators."""
+        cell, system, tolerance = self.cell, self.cell.scene.system, integrator.tolerance
+        left, speeds = np.zeros_like(self.theta), np.zeros_like(self.theta)
+        if tolerance and cell.info.coordinates == "maximal":
+            left, speeds = left_in_maximal_coordinates(system, self.theta, self.omega, tolerance)
+        elif tolerance:
+            left = left_in_accelerations(system, cell.amplitude, self.theta, self.omega, self.alpha, tolerance)
+        return Disturbed(self._accelerations, left, speeds, *self._joints)
 
 
 def sharp_steps(

@@ -31,7 +31,7 @@ from ...reference.integration.variation import fastest_rate
 from ...reference.rounding.bounds import EPSILON
 from .. import sharp
 from ..cell import Cell, quotient, worst
-from ..step_rounding import acceleration_error, conversion, disturbed, joints_apart, sharp_steps
+from ..step_rounding import Passed, acceleration_error, conversion, joints_apart, sharp_steps
 from ..textbook import MAXIMAL, Candidate, candidates
 
 Array = NDArray[np.float64]
@@ -63,8 +63,9 @@ def compare(cell: Cell) -> Iterator[Result]:
         return
     steps = chosen_steps(cell)
     textbook = Textbook(cell, steps)
+    passed = Passed(cell, steps.theta, steps.omega, steps.alpha)
     for integrator in cell.info.integrators:
-        yield _compare(cell, integrator, steps, textbook)
+        yield _compare(cell, integrator, steps, textbook, passed)
 
 
 def chosen_steps(cell: Cell) -> Steps:
@@ -84,6 +85,11 @@ class Textbook:
         self._candidates = candidates(cell, steps.omega)
         self._ends: dict[str, tuple[Wide, Wide]] = {}
 
+    @property
+    def h(self) -> float:
+        """How long a step is [s]."""
+        return self._steps.h
+
     def of_order(self, order: int | None) -> list[Candidate]:
         """The candidates of this order, all of them for None."""
         return [candidate for candidate in self._candidates if order in (None, candidate.scheme.order)]
@@ -95,7 +101,7 @@ class Textbook:
         return self._ends[candidate.name]
 
 
-def _compare(cell: Cell, integrator: Integrator, steps: Steps, textbook: Textbook) -> Result:
+def _compare(cell: Cell, integrator: Integrator, steps: Steps, textbook: Textbook, passed: Passed) -> Result:
     pairs = zip(steps.theta, steps.omega, strict=True)
     got = np.array([cell.trajectory(t, w, integrator, steps.h, 1) for t, w in pairs])
     off = acceleration_error(cell, integrator, steps.theta, steps.omega, steps.alpha)
@@ -112,7 +118,7 @@ def _compare(cell: Cell, integrator: Integrator, steps: Steps, textbook: Textboo
         fits = all_fits(None)
     best, *rest = fits
     agrees = best.excess <= 1 and best.candidate.scheme.order == integrator.order
-    line = sharp_line(cell, integrator, steps, textbook, best.candidate, got) if agrees else None
+    line = sharp_line(cell, integrator, passed, textbook, best.candidate, got) if agrees else None
     return cell.result(
         f"{NAME} {integrator.name}",
         **sharp.verdict(agrees, line, _reason(integrator, fits)),
@@ -133,11 +139,11 @@ def _compare(cell: Cell, integrator: Integrator, steps: Steps, textbook: Textboo
 
 
 def sharp_line(
-    cell: Cell, integrator: Integrator, steps: Steps, textbook: Textbook, candidate: Candidate, got: Array
+    cell: Cell, integrator: Integrator, passed: Passed, textbook: Textbook, candidate: Candidate, got: Array
 ) -> sharp.Line:
     """The engine's step (B, 2, n) against what rounding does to each angle and rate of it."""
-    by = disturbed(cell, integrator, steps.theta, steps.omega, steps.alpha)
-    size = sharp_steps(cell, candidate, steps.theta, steps.omega, by, steps.h)
+    by = passed.disturbed(integrator)
+    size = sharp_steps(cell, candidate, passed.theta, passed.omega, by, textbook.h)
     error = (got - np.stack(textbook.end(candidate), axis=1)).astype(np.float64)
     rounding, left = (values.swapaxes(0, 1) for values in (size.rounding, size.left))
     states = cell.states.at(np.arange(len(cell.states))[-STATES:])

@@ -46,7 +46,8 @@ class Image:
     """The image of a mechanism and its states under a symmetry: ``before`` and ``after`` must answer alike.
 
     ``back``: the first accelerations, from the second's; ``moved``: rounding of the angles in making the image [rad];
-    ``alike``: nothing but signs and powers of two are changed, so that the image's rounding is the same but for these.
+    ``alike``: nothing but signs, powers of two and whole turns are changed, so that the image's rounding is the same
+    but for these, and for ``moved``.
     """
 
     before: DocumentSystem
@@ -225,7 +226,7 @@ def turned_round(system: DocumentSystem, theta: Array, omega: Array) -> Image:
     """Every angle once round, this way and that in turn."""
     rounds = 2 * np.pi * (-1.0) ** np.arange(system.n)
     largest = float(np.abs(theta).max(initial=0.0)) + 2 * np.pi
-    return Image(system, system, theta + rounds, omega, _same, moved=EPSILON / 2 * largest + TWO_PI_ERROR)
+    return Image(system, system, theta + rounds, omega, _same, EPSILON / 2 * largest + TWO_PI_ERROR, alike=True)
 
 
 def legs_permuted(system: DocumentSystem, theta: Array, omega: Array) -> Image | None:

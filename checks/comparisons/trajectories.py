@@ -38,7 +38,7 @@ from ...reference.rounding.bounds import EPSILON
 from ...reference.truth.end_points import PARTS, lookup
 from .. import sharp
 from ..cell import Cell, EngineFault
-from ..step_rounding import conversion, disturbed, iterations_error, joints_apart, rounding_error, sharp_steps
+from ..step_rounding import Passed, conversion, iterations_error, joints_apart, rounding_error, sharp_steps
 from ..textbook import Candidate, candidates
 
 Array = NDArray[np.float64]
@@ -145,18 +145,10 @@ def compare(cell: Cell) -> Iterator[Result]:
     theta, omega = np.array([scene.theta, *truth.theta]), np.array([scene.omega, *truth.omega])
     alpha = plain_accelerations(scene.system, theta, omega)
     off = measured_error(cell, theta, omega, alpha)
+    passed = Passed(cell, theta[:2], omega[:2], alpha[:2])  # where the first steps are
     for integrator in cell.info.integrators:
         rounded = rounding(cell, integrator, theta, omega, alpha, off)
-        yield _compare(cell, integrator, points, rounded, Passed(theta, omega, alpha))
-
-
-@dataclass(frozen=True)
-class Passed:
-    """States that the motion passes, the first being the scene's own, and their accelerations, (B, n) each."""
-
-    theta: Array
-    omega: Array
-    alpha: Array
+        yield _compare(cell, integrator, points, rounded, passed)
 
 
 def _compare(
@@ -211,7 +203,7 @@ def sharp_line(cell: Cell, integrator: Integrator, ladder: Ladder, passed: Passe
     candidate = scheme_of(cell, integrator, theta, omega, ladder.step)
     if candidate is None:
         return None
-    by = disturbed(cell, integrator, passed.theta[:2], passed.omega[:2], passed.alpha[:2]).worst()
+    by = passed.disturbed(integrator).worst()
     try:
         found = sharp_steps(cell, candidate, theta, omega, by, ladder.step, steps)
     except ArithmeticError:

@@ -186,14 +186,14 @@ def joint_forces(
 def energy(how: Formulation, system: DocumentSystem, amplitude: Amplitudes, theta: Array, omega: Array) -> Array:
     """Spread of kinetic and potential energy, (B, 2) [J].
 
-    As sampled, and the last digits of the whole weight times its greatest depth: what is zero at the height of the
-    support may be counted from elsewhere.
+    As sampled, and the last digits of n sums up to the whole weight times its greatest depth: what is zero at the
+    height of the support may be counted from elsewhere.
     """
     tree = system.tree()
     facts: dict[str, Any] = {"accuracy": how.accuracy, "placed": how.placed, "moments": how.moments}
     found = energies(tree, theta, omega, matrix=how.inverse == "crba", **facts)
     depth = float(from_support(tree)[1] @ amplitude.mass) * system.gravity
-    last = np.array([0.0, depth]) * ONE_ROUNDING * _coarser(how)
+    last = np.array([0.0, depth * np.sqrt(tree.n)]) * ONE_ROUNDING * _coarser(how)
     return np.asarray(np.hypot(found, last) * turns(theta)[:, None] + EPSILON * amplitude.underflow(omega))
 
 
