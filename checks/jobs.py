@@ -22,9 +22,6 @@ if TYPE_CHECKING:
     from .causes import Causes
     from .cell import Cell
 
-# Most jobs need them: a worker imports them while its first job is still being decided on.
-MODULES = ("furiko.checks.facts", "furiko.checks.causes")
-
 
 @dataclass(frozen=True)
 class Facts:

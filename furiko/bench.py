@@ -10,9 +10,9 @@ from pathlib import Path
 from . import __version__
 from .engines import engine_info, engine_names, engine_version
 from .models import EngineMissing, InvalidInput, Scene, find_scene, find_scenes
-from .models.benchmark_scenes import BENCHMARKS
 from .records import provenance
 from .records.bench import Bench, Motion, Sharpness, Skip, Speed
+from .studies.bench.scenes import BENCHMARKS
 
 SKIP_SCENES = ("double-pendulum", "rods-5")
 THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")

@@ -187,13 +187,16 @@ def _first_sign(values: Sequence[float]) -> float:
 def _link(link: _SpatialLink, plane: Plane) -> Link:
     inertial = link.inertial
     com = plane.point(inertial.centre) if inertial.mass or inertial.tensor.any() else (0.0, 0.0)
+    moment = float(plane.axis @ inertial.tensor @ plane.axis)
+    if inertial.mass < 0 or moment < -1e-12 * float(np.abs(inertial.tensor).max()):  # less is rounding
+        raise InvalidInput(f"link {link.name!r}: a negative mass, or moment of inertia about its hinge")
     return Link(
         parent=link.parent,
         hinge=plane.point(link.anchor),
         length=2 * math.hypot(*com),
         com=com,
         mass=inertial.mass,
-        inertia=max(float(plane.axis @ inertial.tensor @ plane.axis), 0.0),
+        inertia=max(moment, 0.0),
     )
 
 

@@ -6,6 +6,7 @@ mistake is named. Without flags the reader does as the formats' documentation sa
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
@@ -43,9 +44,12 @@ class MjcfRules:
     bare_bodies_lost: bool = _mistake(
         "loses a <body> without any attribute, with its joints, and hangs its children in the world"
     )
-    unnamed_sibling_twice: bool = _mistake("reads the first of several unnamed sibling bodies again for each other one")
+    unnamed_sibling_twice: bool = _mistake(
+        "reads the first of several unnamed sibling bodies again in place of each other one"
+    )
     first_ref_ignored: bool = _mistake("ignores ref of the first of several joints of a body")
     gravity_not_read: bool = _mistake("does not read gravity: 9.81 m/s² along −z, whatever the file says")
+    gravity_flag_ignored: bool = _mistake('does not read <flag gravity="disable"/>: gravity acts')
     damping_dropped_on_free_and_ball: bool = _mistake("drops damping and dry friction of free and ball joints")
     springs_not_held: bool = _mistake("has no joint springs")
     pos_of_last_joint_for_all: bool = _mistake(
@@ -59,16 +63,34 @@ class MjcfRules:
 
 
 @dataclass(frozen=True)
+class UrdfRules:
+    """What an engine does differently from URDF's documentation where it reads URDF."""
+
+    planar_axis_ignored: bool = _mistake("ignores the axis of planar joints: the plane is always that of x and y")
+    damping_dropped_on_planar_and_floating: bool = _mistake("drops damping and friction of planar and floating joints")
+    fixed_massless_inertia_dropped: bool = _mistake(
+        "drops the inertia of a link without mass where it is fixed to another link (fusestatic)"
+    )
+    collision_weighs: bool = _mistake("gives links without <inertial> the mass of their collision geometry, 1000 kg/m³")
+    extension_honoured: bool = _mistake("does what MuJoCo's own <mujoco> in the file says")
+    impossible_inertia_becomes_sphere: bool = _mistake(
+        "puts a solid sphere of 1000 kg/m³, of 1 kg if massless, for an inertial that no rigid body has"
+    )
+    drake_rotor_counted: bool = _mistake("adds the rotor inertias that Drake's own tags in <transmission> give")
+
+
+@dataclass(frozen=True)
 class Rules:
     """How both formats are read."""
 
     mjcf: MjcfRules = MjcfRules()
+    urdf: UrdfRules = UrdfRules()
 
 
 AS_DOCUMENTED = Rules()
 
 
-def flags_of(rules: type[MjcfRules]) -> dict[str, str]:
+def flags_of(rules: type[MjcfRules | UrdfRules]) -> dict[str, str]:
     """The flags of a format, by name, each with the sentence that says what such an engine does."""
     return {flag.name: flag.metadata["says"] for flag in fields(rules)}
 
@@ -76,3 +98,18 @@ def flags_of(rules: type[MjcfRules]) -> dict[str, str]:
 def with_mjcf(*flags: str) -> Rules:
     """MJCF read with these mistakes. Raises TypeError for a name that is no flag."""
     return replace(AS_DOCUMENTED, mjcf=MjcfRules(**dict.fromkeys(flags, True)))
+
+
+def with_urdf(*flags: str) -> Rules:
+    """URDF read with these mistakes. Raises TypeError for a name that is no flag."""
+    return replace(AS_DOCUMENTED, urdf=UrdfRules(**dict.fromkeys(flags, True)))
+
+
+def mistakes_in(language: str) -> dict[str, str]:
+    """The flags of ``mjcf`` or ``urdf``, by name, with their sentences."""
+    return flags_of(MjcfRules if language == "mjcf" else UrdfRules)
+
+
+def with_mistakes(language: str, flags: Iterable[str]) -> Rules:
+    """``mjcf`` or ``urdf`` read with these mistakes."""
+    return with_mjcf(*flags) if language == "mjcf" else with_urdf(*flags)

@@ -19,6 +19,12 @@ LARGEST_FILE = 8_000_000  # bytes
 MOST_ELEMENTS = 50_000
 DEEPEST = 2_000
 LONGEST_ATTRIBUTE = 10_000  # characters; a list of a few hundred numbers
+# Lists as long as their file: shapes, positions of whole models, and what users add. None is read number by number
+# unless a reader asks for it.
+LONG_LISTS = {
+    *("vertex", "normal", "texcoord", "elemtexcoord", "face", "vertid", "vertweight", "element", "node", "point"),
+    *("body", "elevation", "grid", "qpos", "qvel", "act", "ctrl", "mpos", "mquat", "data", "user", "value", "id"),
+}
 
 
 @dataclass
@@ -117,7 +123,7 @@ class _Builder:
         if len(self._open) >= DEEPEST:
             raise element.wrong(f"nested more than {DEEPEST} levels deep")
         for name, value in attributes.items():
-            if len(value) > LONGEST_ATTRIBUTE:
+            if len(value) > LONGEST_ATTRIBUTE and name not in LONG_LISTS:
                 raise element.wrong(f"{name[:60]}: {len(value)} characters; at most {LONGEST_ATTRIBUTE} are read")
         if self._open:
             self._open[-1].children.append(element)

@@ -136,10 +136,10 @@ def test_a_small_difference_between_a_mechanism_and_its_image_is_loose(make_cell
 
 
 def test_a_light_links_iterations_are_held_to_its_own_torque():
-    """Of masses 1e6 apart: within 1e-10 of its acceleration, where the heavy link's torque would leave it 1e-6."""
+    """Of masses 1e6 apart: within 1e-8 of its acceleration, where the heavy link's torque would leave it 1e-6."""
     system = NLegPendulum((1.0, 1.0), (1e6, 1.0))
     theta, omega = np.array([[0.5, 1.0]]), np.array([[1.0, -2.0]])
     alpha = literal_accelerations(system, theta, omega)
     left = left_in_accelerations(system, amplitudes(system, "absolute"), theta, omega, alpha, 1e-12)
     assert (left > 1e-12 * np.abs(alpha) / 2).all()
-    assert (left < 1e-10 * np.abs(alpha)).all()
+    assert (left < 1e-8 * np.abs(alpha)).all()

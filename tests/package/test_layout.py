@@ -16,8 +16,16 @@ ROOMS = {
             ("readers.bounded_file",),
             ("readers.toml_text", "writers.whole_file"),
             (".",),
-            ("readers.xml_file", "readers.attributes", "readers.meshes"),
+            (
+                "readers.xml_file",
+                "readers.attributes",
+                "readers.meshes",
+                "readers.rules",
+                "readers.placement",
+                "readers.folders",
+            ),
             ("readers.mjcf",),
+            ("readers.urdf",),
             ("readers", "writers"),
         ],
     ),
@@ -45,7 +53,7 @@ ROOMS = {
     ),
     "derivations": (
         {"models", "reference"},
-        [(".",), ("algebra",), ("steps",), ("mistakes",), ("grading",), ("audit", "lesson")],
+        [(".",), ("algebra",), ("steps",), ("reading",), ("mistakes",), ("grading",), ("audit", "lesson")],
     ),
     "reports": ({"models", "records"}, [(".",), ("pages", "terminal")]),
     "furiko": ({"*"}, [(".",), ("cli",)]),
@@ -67,7 +75,7 @@ LAZY = {
     "reports.write": "the renderings are imported when a report is written",
     "engines.registry": "adapters are found by name",
 }
-ENGINES = {"mujoco", "pinocchio", "exudyn"}
+ENGINES = {"mujoco", "pinocchio", "exudyn", "pydrake"}
 
 
 def place(module):

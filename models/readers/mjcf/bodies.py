@@ -3,76 +3,228 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
 
-from ...projection import MOST_BODIES, Body, SpatialHinge
-from ...spatial import IDENTITY, Pose
-from ..attributes import axis, not_negative, number, numbers, refuse, word
+import numpy as np
+
+from ...projection import MOST_BODIES
+from ...spatial import ZERO_INERTIAL, Inertial
+from ...spatial_mechanism import WORLD, Joint, RigidBody
+from ..attributes import number, word
+from ..placement import HERE, Placement
 from ..xml_file import Element
 from .defaults import Defaults, strip
-from .frames import pose_of
-from .inertials import Inertials, remove
+from .frames import placement_of
+from .geoms import collides
+from .inertials import Inertials, PlacedGeom
+from .joints import read_joint, spring_damper
+from .notes import Notes
 from .options import Compiler, Options
 
-KNOWN = ("site", "camera", "light", "geom", "inertial", "joint", "freejoint", "body", "frame")  # inside a body
+KEPT = ("geom", "inertial", "joint", "freejoint", "body", "frame")  # inside a body
+LEFT_OUT = ("site", "camera", "light")
+REFUSED = {
+    "composite": "it stands for bodies and joints that only MuJoCo makes; write them out",
+    "flexcomp": "a body that bends is not a tree of rigid bodies",
+    "attach": "write out the bodies of the model that it stands for",
+}
 
 
+@dataclass(frozen=True)
+class Place:
+    """An element of a body: ``element`` itself, the body or frame that holds it, where its frames are in the body, and
+    the class of what is inside that names none."""
+
+    element: Element
+    holder: Element
+    frame: Placement
+    childclass: str
+
+
+@dataclass(frozen=True)
+class Pending:
+    """A body that is still to be read. ``called``: what a reader calls it that names bodies by their parent's name."""
+
+    element: Element
+    parent: int
+    frame: Placement
+    childclass: str
+    above: str
+
+
+@dataclass
 class Bodies:
-    """Reads every ``<worldbody>`` of a document into :attr:`bodies`, and strips the elements of what has no effect."""
+    """Reads every ``<worldbody>`` of a document into ``bodies``, and strips the elements of what has no effect.
 
-    def __init__(self, compiler: Compiler, defaults: Defaults, options: Options, inertials: Inertials) -> None:
-        self.bodies: list[Body] = []
-        self._compiler = compiler
-        self._defaults = defaults
-        self._options = options
-        self._inertials = inertials
-        self._names: dict[str, set[str]] = {}
+    ``springs``: by joint, what ``springdamper`` gives; ``elements``: by joint, its element. ``acting``: sentences on
+    what acts on bodies and is left out; ``colliding``: how many geoms may touch others.
+    """
+
+    compiler: Compiler
+    defaults: Defaults
+    options: Options
+    inertials: Inertials
+    notes: Notes
+    bodies: list[RigidBody] = field(default_factory=list)
+    springs: dict[str, tuple[float, float]] = field(default_factory=dict)
+    elements: dict[str, Element] = field(default_factory=dict)
+    acting: set[str] = field(default_factory=set)
+    colliding: int = 0
+    _names: dict[str, set[str]] = field(default_factory=dict)
+    _first: dict[str, int] = field(default_factory=dict)  # by what a reader calls it that names by the parent's name
+    _once: dict[int, Inertial] = field(default_factory=dict)  # the inertial of a body, however often it is read
+    _aligned: list[tuple[int, Element]] = field(default_factory=list)
+    _roots: int = 0
 
     def read(self, world: Element) -> None:
-        """Add the bodies of a ``<worldbody>``. Raises :class:`InvalidInput` for what no planar tree of hinges has."""
-        pending: list[tuple[Element, int, Pose, str]] = [(world, -1, IDENTITY, "main")]
+        """Add the bodies of a ``<worldbody>``. Raises :class:`InvalidInput`."""
+        childclass = world.get("childclass", "main")
+        pending: list[Pending] = []
+        for place in reversed(list(self._contents(world, childclass))):
+            if place.element.tag in ("joint", "freejoint", "inertial"):
+                raise place.element.wrong("in the world, which does not move")
+            if place.element.tag == "geom":
+                self._world_geom(place)
+            elif place.element.tag == "body":
+                pending.append(Pending(place.element, WORLD, place.frame, place.childclass, ""))
+        if self.compiler.rules.first_root_only:
+            pending = pending[-1:] if not self._roots else []
+        self._roots += len(pending)
         while pending:
-            element, parent, outer, childclass = pending.pop()
-            frame = outer if element is world else outer @ pose_of(element, self._compiler)
-            childclass = element.get("childclass", childclass)
-            self._defaults.require(element, childclass, "childclass")
-            inner = IDENTITY
-            if element.tag == "body":
-                parent = self._body(element, parent, frame, childclass)
-            elif element.tag == "frame":
-                inner = frame
-            elif any(element.all("joint", "freejoint", "inertial")):
-                raise refuse(next(element.all("joint", "freejoint", "inertial")), "in the world, which does not move")
-            for child in element.children:
-                if child.tag not in KNOWN:
-                    raise child.wrong(
-                        f"<{child.tag}> in a body is not supported; write out the bodies that it stands for"
-                    )
-            element.children = [c for c in element.children if c.tag not in ("site", "camera", "light")]
-            below = [(child, parent, inner, childclass) for child in element.children if child.tag in ("body", "frame")]
-            pending.extend(reversed(below))
-            if element.tag == "worldbody":
-                self._world_geoms(element, childclass)
+            pending.extend(reversed(self._body(pending.pop())))
 
-    def _world_geoms(self, world: Element, childclass: str) -> None:
-        for geom in list(_geoms_in(world)):
-            full = self._defaults.applied(geom, childclass)
-            strip(geom)
-            if full.get("type", "sphere") in ("mesh", "hfield", "sdf"):
-                remove(world, geom)
+    def finish(self) -> None:
+        """Look at what could not be judged before the last body was read. Raises :class:`InvalidInput`."""
+        parents = {body.parent for body in self.bodies}
+        for index, joint in self._aligned:
+            inertial = self.bodies[index].inertial
+            off = inertial.centre.any() or (inertial.tensor - np.diag(np.diag(inertial.tensor))).any()
+            if index not in parents and off:
+                raise joint.wrong(
+                    "align: the body's frame is turned to its principal axes, whose order and sense MJCF leaves open",
+                )
 
-    def _body(self, element: Element, parent: int, frame: Pose, childclass: str) -> int:
+    def _contents(self, element: Element, childclass: str) -> Iterator[Place]:
+        """What is in a body, in the document's order; frames are seen through. Strips what has no effect."""
+        pending = [Place(element, element, HERE, childclass)]
+        while pending:
+            at = pending.pop()
+            if at.element is not element:
+                if at.element.tag != "frame":
+                    yield at
+                    continue
+                self.notes.unknown(at.element)
+            holder = at.element
+            for child in holder.children:
+                if child.tag in REFUSED:
+                    raise child.wrong(f"<{child.tag}>: {REFUSED[child.tag]}")
+                if child.tag == "plugin":
+                    self.acting.add("plugins")
+                elif child.tag not in (*KEPT, *LEFT_OUT):
+                    self.notes.strange(child)
+            holder.children = [child for child in holder.children if child.tag in KEPT]
+            inside = []
+            for child in holder.children:
+                if child.tag == "frame":
+                    if self.compiler.rules.frame_ignored:
+                        continue
+                    inner = child.get("childclass", at.childclass)
+                    self.defaults.require(child, inner, "childclass")
+                    inside.append(Place(child, holder, at.frame @ placement_of(child, self.compiler), inner))
+                else:
+                    inside.append(Place(child, holder, at.frame, at.childclass))
+            pending.extend(reversed(inside))
+
+    def _world_geom(self, place: Place) -> None:
+        full = self.defaults.applied(place.element, place.childclass)
+        self.colliding += collides(full)
+        strip(place.element)
+        if full.get("type", "sphere") in ("mesh", "hfield", "sdf") or full.get("mesh"):
+            place.holder.children = [child for child in place.holder.children if child is not place.element]
+
+    def _body(self, at: Pending) -> list[Pending]:
+        """Read one body; the bodies that it carries come back."""
+        element, rules = at.element, self.compiler.rules
+        self.notes.unknown(element)
+        childclass = element.get("childclass", at.childclass)
+        self.defaults.require(element, childclass, "childclass")
+        inside = list(self._contents(element, childclass))
+        children = [place for place in inside if place.element.tag == "body"]
+        if rules.bare_bodies_lost and not element.attributes:
+            return [Pending(place.element, WORLD, place.frame, place.childclass, "") for place in children]
+        called = element.get("name") or f"{at.above}Bis"
+        index = first = self._add(at, inside, childclass)
+        if rules.unnamed_sibling_twice:
+            first = self._first.setdefault(called, index)
+        if first == index:
+            self._once[index] = self.bodies[index].inertial
+        else:
+            self._read_again(first, index)
+        return [Pending(place.element, first, place.frame, place.childclass, called) for place in children]
+
+    def _add(self, at: Pending, inside: list[Place], childclass: str) -> int:
+        element, rules = at.element, self.compiler.rules
         name = self._named(element, "body")
         if len(self.bodies) >= MOST_BODIES:
             raise element.wrong(f"more than {MOST_BODIES} bodies")
-        if element.get("mocap") == "true":
-            raise refuse(element, "mocap: a body that is moved from outside")
-        if number(element, "gravcomp") != 0:
-            raise element.wrong("gravcomp: gravity compensation is not modelled; remove it")
-        joints = element.all("joint", "freejoint")
-        hinges = tuple(self._hinge(self._defaults.applied(joint, childclass), joint) for joint in joints)
-        inertial = self._inertials.of_body(element, name, childclass)
-        self.bodies.append(Body(name, parent, frame, hinges, inertial, str(element)))
+        placement = placement_of(element, self.compiler)
+        joints = [self._joint(place, at.parent) for place in inside if place.element.tag in ("joint", "freejoint")]
+        self._acts_on(element, at.parent, bool(joints))
+        given = next(((place.element, place.frame) for place in inside if place.element.tag == "inertial"), None)
+        if given is not None:
+            self.notes.unknown(given[0])
+        geoms = self._geoms(inside)
+        inertial = self.inertials.of_body(name, placement.position, given, geoms)
+        self._strip(geoms)
+        placement = at.frame @ placement
+        if rules.pose_of_first_fixed_body_dropped and not self.bodies and not joints:
+            placement = HERE
+        if rules.first_ref_ignored and len(joints) > 1:
+            joints[0] = replace(joints[0], ref=0.0)
+        parent = at.parent
+        if rules.pos_of_last_joint_for_all and len(joints) > 1:
+            self.bodies.append(RigidBody(f"{name} before its last joint", parent, joints=tuple(joints[:-1])))
+            parent, joints = len(self.bodies) - 1, joints[-1:]
+        where = str(element)
+        self.bodies.append(
+            RigidBody(name, parent, placement.position, placement.quaternion, tuple(joints), inertial, where)
+        )
         return len(self.bodies) - 1
+
+    def _read_again(self, first: int, index: int) -> None:
+        """Have the body ``index`` be the ``first`` again, whose inertial grows by as much, as one reader has it."""
+        master, again = self.bodies[first], self.bodies[index]
+        own = again.joints + tuple(replace(j, name=f"{j.name} of {again.name}") for j in master.joints)
+        joints = tuple(replace(j, name=other.name) for j, other in zip(master.joints, own, strict=False))
+        self.bodies[index] = replace(master, name=again.name, joints=joints, inertial=ZERO_INERTIAL)
+        if joints:  # what is fixed weighs once, however often it is read
+            self.bodies[first] = replace(master, inertial=master.inertial + self._once[first])
+
+    def _acts_on(self, element: Element, parent: int, moves: bool) -> None:
+        if word(element, "mocap", ("true", "false"), "false") == "true":
+            if parent != WORLD or moves:
+                raise element.wrong("mocap: only a body of the world without joints can be moved from outside")
+            self.acting.add("mocap bodies, which stay where the file has them")
+        if number(element, "gravcomp") != 0:
+            self.acting.add("gravity compensation (gravcomp)")
+        for name in ("mocap", "gravcomp"):
+            element.attributes.pop(name, None)
+
+    def _geoms(self, inside: list[Place]) -> list[PlacedGeom]:
+        found = []
+        for place in inside:
+            if place.element.tag == "geom":
+                full = self.defaults.applied(place.element, place.childclass)
+                self.colliding += collides(full)
+                found.append(PlacedGeom(place.element, full, place.frame, place.holder))
+        return found
+
+    def _strip(self, geoms: list[PlacedGeom]) -> None:
+        for geom in geoms:
+            strip(geom.given)
+            if geom.from_file:
+                geom.holder.children = [child for child in geom.holder.children if child is not geom.given]
+                self.notes.add("geoms that are meshes do not collide in furiko's own text of the file")
 
     def _named(self, element: Element, kind: str) -> str:
         """The element's name, given one where it has none, so that engines can be asked for it."""
@@ -84,53 +236,20 @@ class Bodies:
         element.attributes["name"] = name
         return name
 
-    def _hinge(self, full: Element, given: Element) -> SpatialHinge:
-        """``given`` as a hinge; ``full`` is the same element with its defaults."""
-        kind = "free" if given.tag == "freejoint" else full.get("type", "hinge")
-        if kind != "hinge":
-            raise refuse(given, f"a joint of type {kind[:20]!r}")
+    def _joint(self, place: Place, parent: int) -> Joint:
+        given = place.element
+        self.notes.unknown(given)
+        full = given if given.tag == "freejoint" else self.defaults.applied(given, place.childclass)
         name = self._named(given, "joint")
-        if "springdamper" in full.attributes:
-            raise given.wrong("springdamper: not supported; give stiffness and damping")
-        compiler, options = self._compiler, self._options
-        zero = compiler.angle(number(full, "ref"))
-        springref = compiler.angle(number(full, "springref"))
-        return SpatialHinge(
-            name=name,
-            axis=axis(full, "axis", (0.0, 0.0, 1.0)),
-            anchor=numbers(full, "pos", 3, (0.0, 0.0, 0.0)),
-            armature=not_negative(full, "armature"),
-            damping=options.enabled(_coefficient(full, "damping"), "damper", "passive"),
-            friction=options.enabled(not_negative(full, "frictionloss"), "frictionloss", "constraint"),
-            stiffness=options.enabled(_coefficient(full, "stiffness"), "spring", "passive"),
-            rest=springref - zero,
-            limits=None if options.disabled & {"limit", "constraint"} else self._limits(full, zero),
-            zero=zero,
-            where=str(given),
-        )
-
-    def _limits(self, joint: Element, zero: float) -> tuple[float, float] | None:
-        limited = word(joint, "limited", ("true", "false", "auto"), "auto")
-        ends = numbers(joint, "range", 2, (0.0, 0.0))
-        if limited == "false" or (limited == "auto" and ("range" not in joint.attributes or not ends.any())):
-            return None
-        if limited == "auto" and not self._compiler.autolimits:
-            raise joint.wrong("range without limited='true', and autolimits is off; MuJoCo refuses that: say limited")
-        low, high = (self._compiler.angle(float(end)) - zero for end in ends)
-        if low >= high:
-            raise joint.wrong(f"range={joint.get('range')!r}: the lower limit must be the smaller")
-        return low, high
-
-
-def _geoms_in(element: Element) -> Iterator[Element]:
-    yield from element.all("geom")
-    for frame in element.all("frame"):
-        yield from _geoms_in(frame)
-
-
-def _coefficient(element: Element, attribute: str) -> float:
-    """The linear coefficient of a spring or damper; coefficients of higher powers after it must be zero."""
-    values = numbers(element, attribute, (1, 3), (0.0,))
-    if values[0] < 0 or values[1:].any():
-        raise element.wrong(f"{attribute}={element.get(attribute)!r}: one number, not negative, is needed")
-    return float(values[0])
+        joint = read_joint(full, given, place.frame, self.compiler, self.options)
+        if joint.kind == "free" and parent != WORLD:
+            raise given.wrong("a free joint on a body that another one carries")
+        self.elements[name] = given
+        found = spring_damper(full)
+        if found is not None:
+            self.springs[name] = found
+        if joint.kind == "free":
+            aligned = word(given, "align", ("true", "false", "auto"), "auto")
+            if aligned == "true" or (aligned == "auto" and self.compiler.align_free):
+                self._aligned.append((len(self.bodies), given))
+        return joint

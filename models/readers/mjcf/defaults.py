@@ -4,31 +4,44 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from ..rules import MjcfRules
 from ..xml_file import Element
+from .frames import ROTATIONS
+
+Attributes = dict[str, dict[str, str]]  # tag → attributes
+KEPT = ("default", "joint", "geom")
+REFERENCES = ("material", "mesh", "hfield", "fluidshape")
 
 
 class Defaults:
     """The document's default classes. ``main`` is the class of an element that names none."""
 
-    def __init__(self) -> None:
-        self._classes: dict[str, dict[str, dict[str, str]]] = {"main": {}}  # class → tag → attributes
+    def __init__(self, rules: MjcfRules) -> None:
+        self._rules = rules
+        self._classes: dict[str, Attributes] = {"main": {}}
+        self._chains: dict[str, list[Element]] = {"main": []}
 
     def read(self, element: Element) -> None:
         """Add a ``<default>`` and the classes nested in it, which inherit from it."""
-        pending: list[tuple[Element, dict[str, dict[str, str]], str]] = [(element, {}, "main")]
+        pending: list[tuple[Element, Attributes, list[Element], str]] = [(element, {}, [], "main")]
         while pending:
-            at, inherited, name = pending.pop()
+            at, inherited, chain, name = pending.pop()
             called = at.get("class", name)
             if not called:
                 raise at.wrong("class: a nested <default> needs a name")
-            own = dict(self._classes.get(called, inherited))
+            if called in self._classes and at is not element:
+                raise at.wrong(f"class={called[:60]!r}: a second <default> of that class; names must be unique")
+            own = dict(self._classes.get(called, {} if self._rules.nested_class_inherits_nothing else inherited))
+            chain = [*self._chains.get(called, chain)]
             for child in at.children:
                 if child.tag != "default":
+                    behind = own.get(child.tag, inherited.get(child.tag, {}))
+                    own[child.tag] = _over(child.attributes, behind)
+                    chain.append(replace(child, attributes=dict(child.attributes)))
                     strip(child)
-                    own[child.tag] = {**own.get(child.tag, {}), **child.attributes}
-            self._classes[called] = own
-            at.children = [child for child in at.children if child.tag in ("default", "joint", "geom")]
-            pending.extend((child, own, "") for child in at.all("default"))
+            self._classes[called], self._chains[called] = own, chain
+            at.children = [child for child in at.children if child.tag in KEPT]
+            pending.extend((child, own, chain, "") for child in at.all("default"))
 
     def require(self, element: Element, name: str, attribute: str) -> None:
         """Raise :class:`InvalidInput` where no class is called ``name``, which ``element`` gives as ``attribute``."""
@@ -39,12 +52,38 @@ class Defaults:
         """The element with the defaults of its class, ``childclass`` where it names none, behind its own attributes."""
         called = element.get("class", childclass)
         self.require(element, called, "class")
-        return replace(element, attributes={**self._classes[called].get(element.tag, {}), **element.attributes})
+        behind = self._classes[called].get(element.tag, {})
+        if self._rules.childclass_behind_class:
+            behind = _over(behind, self._classes[childclass].get(element.tag, {}))
+        return replace(element, attributes=_over(element.attributes, self._without_mistakes(element.tag, behind)))
+
+    def chain(self, element: Element) -> list[Element]:
+        """The elements of default classes that stand behind ``element``, from the outermost class inwards."""
+        called = element.get("class", "main")
+        self.require(element, called, "class")
+        return self._chains[called]
+
+    def _without_mistakes(self, tag: str, given: dict[str, str]) -> dict[str, str]:
+        """Default attributes less those that a mistaken reader drops."""
+        dropped: set[str] = set()
+        if tag == "joint" and self._rules.default_joint_pos_dropped:
+            dropped.add("pos")
+        if tag == "geom" and self._rules.default_geom_mass_dropped:
+            dropped.add("mass")
+        if tag == "geom" and self._rules.default_geom_pose_dropped:
+            dropped.update(("pos", *ROTATIONS))
+        return {name: value for name, value in given.items() if name not in dropped} if dropped else given
+
+
+def _over(given: dict[str, str], behind: dict[str, str]) -> dict[str, str]:
+    """``given`` attributes over those ``behind`` them. There is one orientation, in whichever way it is written."""
+    if any(name in given for name in ROTATIONS):
+        behind = {name: value for name, value in behind.items() if name not in ROTATIONS}
+    return {**behind, **given}
 
 
 def strip(element: Element) -> None:
     """Remove attributes that refer to other files or to elements that have been left out, and all children."""
-    for name in ("material", "mesh", "hfield", "fluidshape"):
-        if name != "mesh" or element.get("type") in ("mesh", "sdf"):
-            element.attributes.pop(name, None)
+    for name in REFERENCES:
+        element.attributes.pop(name, None)
     element.children.clear()

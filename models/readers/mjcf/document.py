@@ -1,91 +1,174 @@
-"""An MJCF document as a whole: which sections are read, which are left out, and which are refused.
-
-An element that the reader does not know is refused by name. Elements that cannot matter to a pendulum (cameras,
-sensors, actuators without control) are left out of the text that engines are given.
-"""
+"""An MJCF document as a whole: which sections are read, which act and are left out, and what engines are given."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ...projection import Body
 from ...spatial import Inertial
-from ..attributes import Array, refuse
+from ...spatial_mechanism import RigidBody
+from ..attributes import Array
+from ..folders import Folders
+from ..rules import MjcfRules
 from ..xml_file import Element
+from .acting import left_out
+from .actuators import Actuators
+from .assets import Assets
 from .bodies import Bodies
 from .defaults import Defaults
-from .includes import with_includes
+from .includes import with_includes, without_includes
 from .inertials import Inertials, scaled_to_total_mass
+from .notes import Notes
 from .options import Compiler, read_options
+from .replicate import write_out_copies
+from .spring_dampers import with_spring_dampers
 
-LEFT_OUT = ("actuator", "sensor", "keyframe", "visual", "statistic", "asset", "custom", "size")
-KEPT = ("compiler", "option", "default", "worldbody", "contact")
-TENDON_FORCES = ("stiffness", "damping", "frictionloss", "range", "limited")
+KEPT = ("compiler", "option", "default", "worldbody", "contact")  # what engines are given
+READ = ("actuator", "asset", "equality", "tendon", "deformable", "extension")
+OF_NO_EFFECT = ("sensor", "keyframe", "visual", "statistic", "custom", "size")
 
 
 @dataclass(frozen=True)
 class Mjcf:
     """An MJCF document as furiko understands it.
 
-    ``root``: the elements that engines are given; ``bodies``: parents first; ``gravity`` (3,) [m/s²] in the world;
-    ``timestep`` [s]. The rest as :class:`furiko.models.readers.model_file.ModelFile` has it.
+    ``root``: the elements that engines are given, without what acts besides bodies and joints; ``bodies``: parents
+    first; ``gravity`` (3,) [m/s²] in the world; ``timestep`` [s]. The rest as
+    :class:`furiko.models.readers.model_file.ModelFile` has it.
     """
 
     root: Element
-    bodies: list[Body]
+    bodies: tuple[RigidBody, ...]
     gravity: Array
     integrator: str
     timestep: float
     notes: list[str]
+    without: list[str]
+    servos: list[tuple[str, str]]
     from_geoms: list[str]
     geoms: Mapping[str, Inertial]
     tensors: Mapping[str, tuple[Inertial, Array]]
 
 
-def read_mjcf(root: Element, path: Path) -> Mjcf:
-    """Understand the MJCF document of the file ``path``, whose includes are read. Raises :class:`InvalidInput`."""
-    root = with_includes(root, path)
+def read_mjcf(root: Element, path: Path, rules: MjcfRules | None = None, others: Sequence[Path] = ()) -> Mjcf:
+    """Understand the MJCF document of the file ``path``, whose includes are read; ``root`` is changed.
+
+    ``rules``: mistakes that are made on purpose; ``others``: folders besides the file's own that files may be read
+    from. Raises :class:`InvalidInput`.
+    """
+    rules = MjcfRules() if rules is None else rules
+    folders, notes = Folders(path, others), Notes()
+    root = without_includes(root) if rules.include_not_followed else with_includes(root, path, folders)
     kept = Element("mujoco", dict(root.attributes), str(path), root.line)
-    compiler, defaults = Compiler(), Defaults()
-    inertials = Inertials(compiler, defaults)
-    _choose_sections(root, kept, inertials.notes)
-    for element in root.all("compiler"):
+    kept.children = [element for element in root.children if element.tag in KEPT]
+    for element in root.children:
+        if element.tag not in (*KEPT, *READ, *OF_NO_EFFECT):
+            notes.strange(element)
+    compiler, defaults = Compiler(rules), Defaults(rules)
+    for element in _sections(root, "compiler", rules):
         compiler.read(element)
-    for element in root.all("default"):
+    for element in _sections(root, "default", rules):
         defaults.read(element)
-    options = read_options(root.all("option"))
-    bodies = Bodies(compiler, defaults, options, inertials)
+    options = read_options(root.all("option"), rules)
+    assets = Assets(compiler, defaults, folders)
+    assets.read(root.all("asset"))
+    inertials = Inertials(compiler, assets, notes)
+    bodies = Bodies(compiler, defaults, options, inertials, notes)
     for world in root.all("worldbody"):
+        write_out_copies(world, compiler)
         bodies.read(world)
+    bodies.finish()
+    actuators = Actuators(defaults)
+    actuators.read(root.all("actuator"))
+    read = scaled_to_total_mass(_with_actuators(bodies.bodies, actuators, rules, notes), compiler)
+    read = _with_springs(read, bodies, root, rules)
+    _write_joints(read, bodies, actuators)
+    _clean_contacts(kept, {body.name for body in read})
+    acting = left_out(root, read, defaults, options, actuators, bodies.colliding)
     return Mjcf(
         root=kept,
-        bodies=scaled_to_total_mass(bodies.bodies, compiler),
+        bodies=read,
         gravity=options.acting_gravity,
         integrator=options.integrator,
         timestep=options.timestep,
-        notes=inertials.notes,
+        notes=list(notes),
+        without=acting + sorted(bodies.acting),
+        servos=[] if "actuation" in options.disabled else actuators.servos,
         from_geoms=inertials.from_geoms,
         geoms=inertials.geoms,
         tensors=inertials.tensors,
     )
 
 
-def _choose_sections(root: Element, kept: Element, notes: list[str]) -> None:
-    """Keep the sections that the motion depends on, leave out those it does not depend on, refuse the rest."""
+def _sections(root: Element, tag: str, rules: MjcfRules) -> list[Element]:
+    """The document's sections called ``tag``; fewer where a mistaken reader misses some."""
+    found, after = [], False
     for element in root.children:
-        if element.tag == "equality":
-            for constraint in element.children:
-                if constraint.get("active") != "false":
-                    raise refuse(constraint, "a constraint besides the hinges")
-        elif element.tag == "tendon":
-            for tendon in element.children:
-                if any(name in tendon.attributes for name in TENDON_FORCES):
-                    raise refuse(tendon, "a tendon that pulls")
-        elif element.tag in KEPT:
-            kept.children.append(element)
-        elif element.tag not in LEFT_OUT:
-            raise element.wrong(f"<{element.tag}> is not supported; remove it")
-        if element.tag == "actuator" and element.children:
-            notes.append("actuators are left out: nothing is driven")
+        after = after or element.tag == "worldbody"
+        if element.tag == tag and not (after and rules.late_sections_ignored):
+            found.append(element)
+    return found[:1] if rules.later_sections_ignored else found
+
+
+def _with_actuators(
+    bodies: Sequence[RigidBody], actuators: Actuators, rules: MjcfRules, notes: Notes
+) -> tuple[RigidBody, ...]:
+    """The bodies, whose joints have the armature and damping that actuators add."""
+    found = []
+    for body in bodies:
+        joints = []
+        for joint in body.joints:
+            armature = joint.armature + actuators.armature.get(joint.name, 0.0)
+            damping = joint.damping + actuators.damping.get(joint.name, 0.0)
+            if (armature, damping) != (joint.armature, joint.damping):
+                notes.add(f"joint {joint.name!r} has armature or damping of its actuators besides its own")
+            if rules.armature_needs_actuator and joint.name not in actuators.driven:
+                armature = 0.0
+            joints.append(replace(joint, armature=armature, damping=damping))
+        found.append(replace(body, joints=tuple(joints)))
+    return tuple(found)
+
+
+def _with_springs(
+    read: tuple[RigidBody, ...], bodies: Bodies, root: Element, rules: MjcfRules
+) -> tuple[RigidBody, ...]:
+    """The bodies with the springs that ``springdamper`` gives them."""
+    if not bodies.springs or rules.springs_not_held:
+        return read
+    tendon = next((t for section in root.all("tendon") for t in section.children if "armature" in t.attributes), None)
+    if tendon is not None:
+        raise tendon.wrong("armature: joints with springdamper would feel it, and it is not modelled")
+    return with_spring_dampers(read, bodies.springs)
+
+
+def _write_joints(read: Sequence[RigidBody], bodies: Bodies, actuators: Actuators) -> None:
+    """Write into the elements what a joint has from elsewhere: from its actuators, and from ``springdamper``."""
+    for joint in (joint for body in read for joint in body.joints):
+        element = bodies.elements.get(joint.name)
+        if element is None or element.tag == "freejoint":
+            continue
+        if joint.name in bodies.springs:
+            element.attributes["springdamper"] = "0 0"
+            element.attributes["stiffness"] = repr(joint.stiffness)
+        if actuators.armature.get(joint.name):
+            element.attributes["armature"] = repr(joint.armature)
+        if actuators.damping.get(joint.name) or joint.name in bodies.springs:
+            element.attributes["damping"] = repr(joint.damping)
+
+
+def _clean_contacts(kept: Element, bodies: set[str]) -> None:
+    """Leave out what says of bodies and geoms that are not there under that name that they (do not) touch."""
+    geoms: set[str] = set()
+    pending = list(kept.all("worldbody"))
+    while pending:
+        element = pending.pop()
+        geoms.update(child.get("name") for child in element.all("geom"))
+        pending.extend(element.all("body", "frame"))
+    for section in kept.all("contact"):
+        section.children = [
+            child
+            for child in section.children
+            if (child.tag == "exclude" and {child.get("body1"), child.get("body2")} <= bodies)
+            or (child.tag == "pair" and {child.get("geom1"), child.get("geom2")} <= geoms - {""})
+        ]

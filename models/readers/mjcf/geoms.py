@@ -6,82 +6,121 @@ import math
 
 import numpy as np
 
-from ...spatial import Inertial, Pose, from_z_axis
-from ..attributes import Array, not_negative, numbers
+from ...spatial import Inertial, to_quaternion
+from ..attributes import Array, not_negative, number, numbers, word, yes
+from ..placement import Placement, to_z_axis
 from ..xml_file import Element
+from .assets import Assets
+from .frames import placement_of
+from .options import Compiler
+from .shapes import SIZES, shell, solid
 
 DENSITY = 1000.0  # kg/m³, MJCF's default
-SOLID = {"sphere": 1, "capsule": 2, "cylinder": 2, "ellipsoid": 3, "box": 3}  # and how many sizes each has
 SMALLEST, LARGEST = 1e-30, 1e9  # m; beyond, volumes are nothing or infinite
-MASSLESS = ("plane", "hfield")
+LEAST_MASS = 1e-14  # kg; lighter geoms MuJoCo leaves out
+KINDS = ("plane", "hfield", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh", "sdf")
+FROM_FILES = ("mesh", "sdf", "hfield")
 ALONG = ("capsule", "cylinder", "ellipsoid", "box")  # may be given by fromto
 
 
-def geom_inertial(element: Element, frame: Pose) -> Inertial | None:
-    """The inertial of a geom in its body's frame; None where it has no mass.
+def weighs(element: Element) -> bool:
+    """Whether a geom, its defaults applied, has mass."""
+    if element.get("type", "sphere") == "plane":
+        return False
+    if "mass" in element.attributes:
+        return not_negative(element, "mass") > 0
+    return not_negative(element, "density", DENSITY) > 0
 
-    ``element`` has its defaults already; ``frame`` is its pose in the body. Raises :class:`InvalidInput` for a shape
-    that is defined in another file (a mesh).
+
+def geom_inertial(element: Element, compiler: Compiler, assets: Assets) -> Inertial | None:
+    """The inertial of a geom in the frame that it stands in; None where it has no mass.
+
+    ``element`` has its defaults already. Raises :class:`InvalidInput` where its shape is not known.
     """
-    kind = element.get("type", "sphere")
-    if kind in MASSLESS:
+    kind = word(element, "type", KINDS, "sphere")
+    rules = compiler.rules
+    if rules.geoms_without_contact_weigh_nothing and not collides(element):
         return None
-    given = "mass" in element.attributes
-    if (given and not_negative(element, "mass") == 0) or (not given and not_negative(element, "density", DENSITY) == 0):
+    if rules.mesh_weighs_one_kilogram and kind in ("mesh", "plane", "hfield"):
+        return Inertial(1.0, np.zeros(3), np.eye(3)).transformed(placement_of(element, compiler).pose)
+    if not weighs(element):
         return None
-    if kind not in SOLID:
-        raise element.wrong(
-            f"the link's mass comes from a geom of type {kind!r:.40}, whose shape furiko does not load; give the body "
-            "an <inertial>, or the geom mass='0'"
-        )
-    if element.get("shellinertia") == "true":
-        raise element.wrong("shellinertia: not supported; give the body an <inertial>")
-    size, pose = _size_and_pose(element, kind, frame)
-    if not SMALLEST < float(size[: SOLID[kind]].min()) <= float(size.max()) < LARGEST:
+    unit, placement = _unit(element, kind, compiler, assets)
+    mass = not_negative(element, "mass") if "mass" in element.attributes else _density(element) * unit.mass
+    if mass <= LEAST_MASS:
+        return None
+    share = mass / unit.mass
+    return Inertial(mass, unit.centre, unit.tensor * share).transformed(placement.pose)
+
+
+def collides(element: Element) -> bool:
+    """Whether a geom, its defaults applied, may touch another by its own ``contype`` and ``conaffinity``."""
+    return number(element, "contype", 1.0) != 0 or number(element, "conaffinity", 1.0) != 0
+
+
+def _density(element: Element) -> float:
+    return not_negative(element, "density", DENSITY)
+
+
+def _unit(element: Element, kind: str, compiler: Compiler, assets: Assets) -> tuple[Inertial, Placement]:
+    """The inertial with density one in the geom's own frame, and where that is."""
+    hollow = yes(element, "shellinertia", False)
+    if kind == "sdf":
+        raise element.wrong("the link's mass comes from a signed distance field; give the body an <inertial>")
+    if kind == "mesh":
+        if hollow:
+            raise element.wrong("shellinertia: not for a mesh; its <mesh> says inertia='shell'")
+        return assets.unit_mesh(element), placement_of(element, compiler)
+    size, placement = _size_and_placement(element, kind, compiler, assets)
+    if not SMALLEST < float(size.min()) <= float(size.max()) < LARGEST:
         raise element.wrong(f"size: from {SMALLEST:g} to {LARGEST:g} m are taken")
-    volume, unit = _solid(kind, size)
-    mass = not_negative(element, "mass") if given else not_negative(element, "density", DENSITY) * volume
-    return Inertial(mass, np.zeros(3), np.diag(mass * unit)).transformed(pose)
+    if hollow and kind == "ellipsoid":
+        raise element.wrong(
+            "shellinertia: engines only approximate the surface of an ellipsoid; give the body an <inertial>"
+        )
+    amount, moments = (shell if hollow else solid)("box" if kind == "hfield" else kind, size)
+    return Inertial(amount, np.zeros(3), np.diag(amount * moments)), placement
 
 
-def _size_and_pose(element: Element, kind: str, frame: Pose) -> tuple[Array, Pose]:
-    count = SOLID[kind]
+def _size_and_placement(element: Element, kind: str, compiler: Compiler, assets: Assets) -> tuple[Array, Placement]:
+    if kind == "hfield":
+        return assets.field_box(element), placement_of(element, compiler)
+    if element.get("mesh"):
+        return _fitted(element, kind, compiler, assets)
+    count = SIZES[kind]
     sizes = numbers(element, "size", (1, 3))
     if "fromto" not in element.attributes or kind not in ALONG:
         if len(sizes) < count or (sizes[:count] <= 0).any():
             raise element.wrong(f"size={element.get('size')!r}: {count} positive number{'s' * (count > 1)} needed")
-        return sizes, frame
+        return sizes[:count], placement_of(element, compiler)
     ends = numbers(element, "fromto", 6)
     span = ends[3:] - ends[:3]
     length = math.hypot(*span)
     if length < 1e-12 or not len(sizes) or sizes[0] <= 0:
         raise element.wrong("fromto: two different points and a positive size needed")
-    # MuJoCo turns the geom's z axis to point from the second end to the first.
-    pose = Pose(from_z_axis(-span), (ends[:3] + ends[3:]) / 2)
+    placement = Placement((ends[:3] + ends[3:]) / 2, to_z_axis(span))
     half = length / 2
     full = np.array([sizes[0], half]) if count == 2 else np.array([sizes[0], sizes[0], half])
-    return full, pose
+    return full, placement
 
 
-def _solid(kind: str, size: Array) -> tuple[float, Array]:
-    """Volume [m³], and principal moments of inertia (3,) of a unit of mass [m²]."""
-    if kind == "sphere":
-        r = size[0]
-        return 4 / 3 * math.pi * r**3, np.full(3, 2 / 5 * r * r)
-    if kind == "box":
-        x, y, z = size[:3] ** 2
-        return 8 * float(np.prod(size[:3])), np.array([y + z, x + z, x + y]) / 3
-    if kind == "ellipsoid":
-        x, y, z = size[:3] ** 2
-        return 4 / 3 * math.pi * float(np.prod(size[:3])), np.array([y + z, x + z, x + y]) / 5
-    r, half = size[0], size[1]
-    height = 2 * half
-    if kind == "cylinder":
-        across = (3 * r * r + height * height) / 12
-        return math.pi * r * r * height, np.array([across, across, r * r / 2])
-    # A capsule: a cylinder and the two halves of a sphere, whose centres of mass are 3r/8 beyond its ends.
-    body, ball = math.pi * r * r * height, 4 / 3 * math.pi * r**3
-    volume = body + ball
-    across = body * (3 * r * r + height * height) / 12 + ball * (2 / 5 * r * r + half * half + 3 / 4 * r * half)
-    along = body * r * r / 2 + ball * 2 / 5 * r * r
-    return volume, np.array([across, across, along]) / volume
+def _fitted(element: Element, kind: str, compiler: Compiler, assets: Assets) -> tuple[Array, Placement]:
+    """The primitive that stands for a mesh: sized by the box of the mesh's inertia, shortest axis first."""
+    if compiler.fit_box:
+        raise element.wrong("fitaabb: a geom fitted to the box around a mesh is not weighed; give it a size instead")
+    mesh = assets.unit_mesh(element)
+    moments, turn = np.linalg.eigh(mesh.tensor)
+    moments, turn = moments[::-1], turn[:, ::-1]
+    if np.linalg.det(turn) < 0:
+        turn[:, 0] *= -1
+    box = np.sqrt(1.5 * np.maximum(moments.sum() - 2 * moments, 0.0) / mesh.mass)
+    x, y, z = box
+    across = (x + y) / 2
+    size = {
+        "sphere": [(x + y + z) / 3],
+        "capsule": [across, max(0.0, z - across / 2)],
+        "cylinder": [across, z],
+    }.get(kind, [x, y, z])
+    principal = Placement(mesh.centre, to_quaternion(turn))
+    scale = not_negative(element, "fitscale", 1.0)
+    return scale * np.array(size), placement_of(element, compiler) @ principal

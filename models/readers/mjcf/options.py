@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..attributes import Array, not_negative, number, numbers, word, yes
+from ..rules import MjcfRules
 from ..xml_file import Element
 
 
@@ -19,9 +20,11 @@ class Compiler:
     ``degrees``: angles are in degrees; ``sequence``: the axes of ``euler``; ``autolimits``: a range alone makes a
     joint limited; ``from_geoms``: ``inertiafromgeom``; ``groups``: first and last group of geoms that have mass;
     ``least_mass`` [kg], ``least_inertia`` [kg m²]: lower bounds; ``balance``: ``balanceinertia``; ``total_mass`` [kg]:
-    the mass of all bodies together, if positive.
+    the mass of all bodies together, if positive; ``mesh_folder``, ``strip_path``: where meshes are; ``align_free``:
+    ``alignfree``; ``fit_box``: ``fitaabb``. ``rules``: mistakes that are made on purpose.
     """
 
+    rules: MjcfRules = field(default_factory=MjcfRules)
     degrees: bool = True
     sequence: str = "xyz"
     autolimits: bool = True
@@ -31,6 +34,10 @@ class Compiler:
     least_inertia: float = 0.0
     balance: bool = False
     total_mass: float = -1.0
+    mesh_folder: str = ""
+    strip_path: bool = False
+    align_free: bool = False
+    fit_box: bool = False
 
     def angle(self, value: float) -> float:
         """An angle of the document in radians."""
@@ -52,20 +59,39 @@ class Compiler:
         self.least_inertia = not_negative(element, "boundinertia", self.least_inertia)
         self.balance = yes(element, "balanceinertia", self.balance)
         self.total_mass = number(element, "settotalmass", self.total_mass)
+        self.mesh_folder = element.get("meshdir", element.get("assetdir", self.mesh_folder))
+        self.strip_path = yes(element, "strippath", self.strip_path)
+        self.align_free = yes(element, "alignfree", self.align_free)
+        self.fit_box = yes(element, "fitaabb", self.fit_box)
         for name in ("meshdir", "texturedir", "assetdir", "strippath"):
             element.attributes.pop(name, None)  # nothing is loaded from there
         element.children.clear()
+        self._make_mistakes()
+
+    def _make_mistakes(self) -> None:
+        rules = self.rules
+        if rules.upper_euler_as_lower:
+            self.sequence = self.sequence.lower()
+        if rules.inertia_group_ignored:
+            self.groups = (-(2**31), 2**31)
+        if rules.balance_inertia_ignored:
+            self.balance = False
+        if rules.total_mass_ignored:
+            self.total_mass = -1.0
+        if rules.bound_ignored:
+            self.least_mass = self.least_inertia = 0.0
 
 
 @dataclass
 class Options:
-    """``<option>``: ``gravity`` (3,) [m/s²] in the world, also where a flag disables it; ``timestep`` [s]; and the
-    features that ``<flag>`` disables."""
+    """``<option>``: ``gravity`` (3,) [m/s²] in the world, also where a flag disables it; ``timestep`` [s]; the features
+    that ``<flag>`` disables; ``fluid``: whether there is one."""
 
     gravity: Array = field(default_factory=lambda: np.array([0.0, 0.0, -9.81]))
     timestep: float = 0.002
     integrator: str = "Euler"
     disabled: set[str] = field(default_factory=set)
+    fluid: bool = False
 
     def enabled(self, value: float, *flags: str) -> float:
         """``value``, or zero where one of these flags is disabled."""
@@ -77,18 +103,25 @@ class Options:
         return np.zeros(3) if "gravity" in self.disabled else self.gravity
 
 
-def read_options(elements: Iterable[Element]) -> Options:
-    """All ``<option>`` of a document; later ones win. Raises :class:`InvalidInput` where there is a fluid."""
+def read_options(elements: Iterable[Element], rules: MjcfRules) -> Options:
+    """All ``<option>`` of a document; later ones win. The fluid is taken out. Raises :class:`InvalidInput`."""
     options = Options()
+    density = viscosity = 0.0
     for element in elements:
         options.gravity = numbers(element, "gravity", 3, tuple(options.gravity))
         options.timestep = number(element, "timestep", options.timestep)
         options.integrator = element.get("integrator", options.integrator)
-        for name in ("density", "viscosity"):
-            if not_negative(element, name) > 0:
-                raise element.wrong(f"{name}={element.get(name)!r}: forces of a fluid are not modelled; set it to 0")
+        density = not_negative(element, "density", density)
+        viscosity = not_negative(element, "viscosity", viscosity)
+        for name in ("density", "viscosity", "wind"):
+            element.attributes.pop(name, None)
         for flag in element.all("flag"):
             word(flag, "gravity", ("enable", "disable"), "enable")
             options.disabled |= {name for name, value in flag.attributes.items() if value == "disable"}
             options.disabled -= {name for name, value in flag.attributes.items() if value == "enable"}
+    options.fluid = density > 0 or viscosity > 0
+    if rules.gravity_not_read:
+        options.gravity = np.array([0.0, 0.0, -9.81])
+    if rules.gravity_not_read or rules.gravity_flag_ignored:
+        options.disabled.discard("gravity")
     return options

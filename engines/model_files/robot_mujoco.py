@@ -1,0 +1,217 @@
+"""MuJoCo's own reading of a user's MJCF or URDF, any open mechanism, and its dynamics without what is not compared.
+
+What is switched off after the file is compiled, so that ``mj_forward`` leaves in ``qacc_smooth`` gravity, inertia,
+springs, dampers and the applied torque alone:
+
+* contacts, limits, dry friction and equality constraints (mimic joints of a URDF too): ``mjDSBL_CONSTRAINT``;
+* actuators: ``mjDSBL_ACTUATION``, and their armature and damping set to 0, which the flag leaves;
+* tendons: stiffness, damping and armature set to 0;
+* fluid: density and viscosity 0; gravity compensation: ``body_gravcomp`` 0;
+* what the enable flags turn on (sleeping bodies, inverse dynamics of discrete time …), and integrators that change the
+  accelerations: Euler instead, which touches them in ``mj_step`` only.
+
+The file's own flags for gravity, springs and dampers stay. Flexible bodies are refused. None of MuJoCo's
+own plugins exerts passive forces.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...models.spatial import Inertial, from_quaternion
+from ...models.spatial_mechanism import Joint, RigidBody, SpatialMechanism
+from ..mujoco import quiet_data
+from ..protocol import Array
+from ..quiet import silenced
+from .robot_coordinates import Block, EngineState, RobotCoordinates
+from .robot_joints import HeldJoint, match, named_alike, unique
+from .robot_meshes import find_in, own_packages
+
+# MuJoCo's bindings have no type stubs that fit: Any, here and nowhere else.
+mujoco: Any = import_module("mujoco")
+
+KINDS = {
+    int(mujoco.mjtJoint.mjJNT_FREE): "free",
+    int(mujoco.mjtJoint.mjJNT_BALL): "ball",
+    int(mujoco.mjtJoint.mjJNT_SLIDE): "slide",
+    int(mujoco.mjtJoint.mjJNT_HINGE): "hinge",
+}
+# Arrays of the compiled model that act in forward dynamics beside joints, bodies and gravity.
+SET_TO_ZERO = (
+    "actuator_armature",
+    "actuator_damping",
+    "actuator_dampingpoly",
+    "tendon_stiffness",
+    "tendon_stiffnesspoly",
+    "tendon_damping",
+    "tendon_dampingpoly",
+    "tendon_armature",
+    "body_gravcomp",
+)
+
+
+class MujocoRobot:
+    """The file in MuJoCo."""
+
+    def __init__(self, path: Path, language: str, folders: Sequence[Path] = ()) -> None:
+        # Otherwise MuJoCo writes a file MUJOCO_LOG.TXT into the current folder where a model is nearly singular.
+        mujoco.set_mju_user_warning(lambda message: None)
+        with silenced():
+            self._model = mujoco.MjModel.from_xml_path(str(path), elsewhere(path, folders))
+        if self._model.nflex:
+            raise ValueError("the file has flexible bodies, whose forces MuJoCo cannot leave out")
+        _switch_off(self._model)
+
+    def compiled(self, like: SpatialMechanism | None = None) -> SpatialMechanism:
+        model = self._model
+        names = iter(self.joints())
+        bodies: list[RigidBody] = []
+        for b in range(1, model.nbody):
+            first = int(model.body_jntadr[b])
+            joints = tuple(self._joint(j, next(names)) for j in range(first, first + int(model.body_jntnum[b])))
+            bodies.append(
+                RigidBody(
+                    name=model.body(b).name,
+                    parent=int(model.body_parentid[b]) - 1,
+                    position=model.body_pos[b].copy(),
+                    quaternion=model.body_quat[b].copy(),
+                    joints=joints,
+                    inertial=_inertial(model, b),
+                )
+            )
+        if like is not None:
+            bodies = named_alike(bodies, self._held(), like)
+        off = model.opt.disableflags & int(mujoco.mjtDisableBit.mjDSBL_GRAVITY)
+        return SpatialMechanism(tuple(bodies), np.zeros(3) if off else model.opt.gravity.copy())
+
+    def _joint(self, j: int, name: str) -> Joint:
+        model, kind = self._model, KINDS[int(self._model.jnt_type[j])]
+        dof, position = int(model.jnt_dofadr[j]), int(model.jnt_qposadr[j])
+        single = kind in {"hinge", "slide"}
+        off, bits = model.opt.disableflags, mujoco.mjtDisableBit
+        low, high = (float(end) for end in model.jnt_range[j])
+        return Joint(
+            name=name,
+            kind=kind,
+            axis=model.jnt_axis[j].copy(),
+            anchor=model.jnt_pos[j].copy() if kind != "free" else np.zeros(3),
+            ref=float(model.qpos0[position]) if single else 0.0,
+            armature=float(model.dof_armature[dof]),
+            damping=0.0 if off & int(bits.mjDSBL_DAMPER) else float(model.dof_damping[dof]),
+            friction=float(model.dof_frictionloss[dof]),
+            stiffness=0.0 if off & int(bits.mjDSBL_SPRING) else float(model.jnt_stiffness[j]),
+            springref=float(model.qpos_spring[position]) if single else 0.0,
+            limits=(low, high) if model.jnt_limited[j] else None,
+        )
+
+    def joints(self) -> tuple[str, ...]:
+        names = (self._model.joint(j).name for j in range(self._model.njnt))
+        return tuple(unique(name or f"unnamed joint {j + 1}" for j, name in enumerate(names)))
+
+    def _held(self) -> list[HeldJoint]:
+        model, shown = self._model, self.joints()
+        return [
+            HeldJoint(
+                name=model.joint(j).name,
+                kind=KINDS[int(model.jnt_type[j])],
+                body=model.body(int(model.jnt_bodyid[j])).name,
+                shown=shown[j],
+            )
+            for j in range(model.njnt)
+        ]
+
+    def bind(self, mechanism: SpatialMechanism) -> BoundMujoco:
+        model = self._model
+        blocks = [
+            Block((i,), "same", int(model.jnt_qposadr[j]), int(model.jnt_dofadr[j]))
+            for i, j in enumerate(match(mechanism, self._held(), "MuJoCo"))
+        ]
+        return BoundMujoco(model, RobotCoordinates(mechanism, blocks, int(model.nq)))
+
+
+class BoundMujoco:
+    """MuJoCo's model, asked in a mechanism's coordinates."""
+
+    def __init__(self, model: Any, coordinates: RobotCoordinates) -> None:
+        self._model, self._coordinates = model, coordinates
+        self._data = quiet_data(model)
+
+    def mass_matrix(self, q: Array) -> Array:
+        found = np.empty((len(q), self._model.nv, self._model.nv))
+        matrix = np.empty(found.shape[1:])
+        for row, state in enumerate(self._states(q, np.zeros((len(q), self._model.nv)))):
+            mujoco.mj_fwdPosition(self._model, self._data)
+            mujoco.mj_fullM(self._model, self._data, matrix)
+            found[row] = state.our_matrix(matrix)
+        return found
+
+    def bias(self, q: Array, v: Array) -> Array:
+        return self._velocity_terms(q, v, self._data.qfrc_bias)
+
+    def passive(self, q: Array, v: Array) -> Array:
+        return self._velocity_terms(q, v, self._data.qfrc_passive)
+
+    def _velocity_terms(self, q: Array, v: Array, term: Array) -> Array:
+        found = np.empty_like(v)
+        for row, state in enumerate(self._states(q, v)):
+            mujoco.mj_fwdPosition(self._model, self._data)
+            mujoco.mj_fwdVelocity(self._model, self._data)
+            found[row] = state.ours(term)
+        return found
+
+    def accelerations(self, q: Array, v: Array, torque: Array) -> Array:
+        found = np.empty_like(v)
+        for row, state in enumerate(self._states(q, v)):
+            self._data.qfrc_applied[:] = state.theirs(torque[row])
+            mujoco.mj_forwardSkip(self._model, self._data, int(mujoco.mjtStage.mjSTAGE_NONE), 1)  # without sensors
+            found[row] = state.ours(self._data.qacc_smooth)
+        return found
+
+    def _states(self, q: Array, v: Array) -> Iterator[EngineState]:
+        """Each row's state, written into ``MjData``."""
+        for positions, rates in zip(q, v, strict=True):
+            state = self._coordinates.state(positions, rates)
+            self._data.qpos[:], self._data.qvel[:] = state.positions, state.rates
+            yield state
+
+
+def _switch_off(model: Any) -> None:
+    option, bits = model.opt, mujoco.mjtDisableBit
+    option.disableflags |= int(bits.mjDSBL_CONSTRAINT) | int(bits.mjDSBL_ACTUATION)
+    option.enableflags = 0
+    option.integrator = int(mujoco.mjtIntegrator.mjINT_EULER)
+    option.density = option.viscosity = 0.0
+    for name in SET_TO_ZERO:
+        getattr(model, name)[:] = 0.0
+
+
+def _inertial(model: Any, body: int) -> Inertial:
+    """As MuJoCo uses it: within 1e-6 m or rad of the body's own frame it takes that frame (``body_sameframe``)."""
+    same, kinds = int(model.body_sameframe[body]), mujoco.mjtSameFrame
+    centre = np.zeros(3) if same == int(kinds.mjSAMEFRAME_BODY) else model.body_ipos[body].copy()
+    turned = same in {int(kinds.mjSAMEFRAME_BODY), int(kinds.mjSAMEFRAME_BODYROT)}
+    axes = np.eye(3) if turned else from_quaternion(model.body_iquat[body])
+    return Inertial(float(model.body_mass[body]), centre, axes @ np.diag(model.body_inertia[body]) @ axes.T)
+
+
+def elsewhere(path: Path, folders: Sequence[Path]) -> dict[str, bytes] | None:
+    """The contents of meshes and the like that are not where the file says, but in one of ``folders``; by file name."""
+    folders = [*folders, *own_packages(path)]
+    if not folders:
+        return None
+    spec = mujoco.MjSpec.from_file(str(path))
+    here = path.parent
+    found: dict[str, bytes] = {}
+    for kind, folder in (("meshes", spec.meshdir), ("hfields", spec.meshdir), ("textures", spec.texturedir)):
+        for wanted in (item.file for item in getattr(spec, kind) if item.file):
+            if (here / folder / wanted).is_file():
+                continue
+            there = find_in(folders, wanted)
+            if there is not None:
+                found[there.name] = there.read_bytes()
+    return found or None

@@ -1,0 +1,45 @@
+"""Which files a document may have read: those of its own folder and below, and of folders that the user named."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+from .xml_file import Element
+
+
+class Folders:
+    """The folder of the model at ``path``, against which names are resolved, and ``others``, which may be read too."""
+
+    def __init__(self, path: Path, others: Sequence[Path] = ()) -> None:
+        self.own = path.resolve().parent
+        self._others = [other.resolve() for other in others]
+
+    def find(self, element: Element, name: str, folder: str = "", what: str = "file") -> Path:
+        """The file ``name`` in the model's ``folder``, or of that name in one of the others.
+
+        Raises :class:`InvalidInput`, at ``element``, where it is nowhere, or only where nothing may be read.
+        """
+        shown = f"{what}={name[:80]!r}"
+        try:
+            wanted = (self.own / folder / name).resolve()
+            if _inside(wanted, (self.own, *self._others)) and os.path.isfile(wanted):
+                return wanted
+            for other in self._others:
+                for tail in (name, Path(name).name):
+                    path = (other / tail).resolve()
+                    if _inside(path, (other,)) and os.path.isfile(path):
+                        return path
+        except (OSError, ValueError, RuntimeError) as error:
+            raise element.wrong(f"{shown}: {error}") from None
+        if not _inside(wanted, (self.own, *self._others)):
+            raise element.wrong(
+                f"{shown}: outside the model's own folder, where nothing is read; move it inside, or name its folder "
+                "with --meshes"
+            )
+        raise element.wrong(f"{shown}: cannot be read: there is no such file in the model's folder")
+
+
+def _inside(path: Path, folders: Sequence[Path]) -> bool:
+    return any(path.is_relative_to(folder) for folder in folders)

@@ -1,0 +1,54 @@
+"""Where the meshes that a URDF document names are looked for: never outside the folders that belong to it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from ..xml_file import Element
+
+LEVELS = 3  # a package's own folder is looked for in this many folders above the document's
+
+
+class MeshFolders:
+    """The folder of the document at ``path``, and ``others``, which the user named.
+
+    ``package://NAME/REST`` is REST in the folder NAME: the document's own folder or one of the three above it if it is
+    called so, or NAME in one of ``others``, or one of them if it is called so. Other names are taken from the
+    document's folder, or from one of ``others`` (with their folders, or without).
+    """
+
+    def __init__(self, path: Path, others: Sequence[Path] = ()) -> None:
+        self._own = path.resolve().parent
+        self._others = [other.resolve() for other in others]
+
+    def find(self, element: Element, attribute: str = "filename") -> Path:
+        """The file that ``element`` names. Raises :class:`InvalidInput` where it is not in any of these folders."""
+        name = element.get(attribute)
+        try:
+            for folder, rest in self._places(name):
+                path = (folder / rest).resolve()
+                if path.is_relative_to(folder) and os.path.isfile(path):
+                    return path
+        except (OSError, ValueError, RuntimeError) as error:
+            raise element.wrong(f"{attribute}={name[:80]!r}: {error}") from None
+        raise element.wrong(
+            f"{attribute}={name[:80]!r}: no such mesh in the document's own folder or those that were named for meshes"
+        )
+
+    def _places(self, name: str) -> Iterator[tuple[Path, str]]:
+        if name.startswith("package://"):
+            package, _, rest = name.removeprefix("package://").partition("/")
+            for folder in (self._own, *list(self._own.parents)[:LEVELS], *self._others):
+                if folder.name == package:
+                    yield folder, rest
+            for folder in self._others:
+                if package not in ("", ".", ".."):
+                    yield folder / package, rest
+            return
+        name = name.removeprefix("file://")
+        for folder in (self._own, *self._others):
+            yield folder, name
+        for folder in self._others:
+            yield folder, Path(name).name

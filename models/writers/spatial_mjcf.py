@@ -1,0 +1,116 @@
+"""Writes a spatial mechanism as MJCF in which everything is said, and nothing that engines read differently."""
+
+from __future__ import annotations
+
+from xml.etree import ElementTree
+
+import numpy as np
+
+from ..errors import InvalidInput
+from ..spatial import Inertial, to_quaternion
+from ..spatial_mechanism import WORLD, Joint, RigidBody, SpatialMechanism
+from .explicit import placed_inertials, positive, row, unique_names
+from .mjcf import DEEPEST, LEAST_INERTIA
+
+UNTURNED = np.array([1.0, 0.0, 0.0, 0.0])
+
+
+def spatial_mjcf(mechanism: SpatialMechanism, model: str = "mechanism") -> str:
+    """The mechanism as an MJCF document whose model is called ``model``.
+
+    Radians, no default classes, an explicit inertial for every body that has one, a name for everything, no geoms, so
+    that nothing touches. Bodies without joints and with a pose are put in one without a pose where Pinocchio would drop
+    it; a body with several joints stands in one that has its pose, which Drake would apply at the last joint; a joint
+    with armature has a motor, without which Drake would drop it. Raises :class:`InvalidInput` for inertials on which
+    engines do not agree, and for more than 450 bodies one in the other.
+    """
+    root = ElementTree.Element("mujoco", model=model)
+    compiler = ElementTree.SubElement(root, "compiler", angle="radian", balanceinertia="false", autolimits="false")
+    ElementTree.SubElement(root, "option", gravity=row(mechanism.gravity))
+    inertials = placed_inertials(mechanism)
+    if any(i.mass > 0 and not positive(i) for i in inertials):
+        compiler.set("boundinertia", repr(LEAST_INERTIA))  # MuJoCo refuses a point mass
+    world = ElementTree.SubElement(root, "worldbody")
+    names = unique_names(mechanism.bodies, "world")
+    top = _top(world, mechanism)
+    elements: list[ElementTree.Element] = []
+    depths: list[int] = []
+    for body, name, inertial in zip(mechanism.bodies, names, inertials, strict=True):
+        parent = top if body.parent == WORLD else elements[body.parent]
+        depths.append(1 if body.parent == WORLD else depths[body.parent] + 1 + (len(body.joints) > 1))
+        if depths[-1] > DEEPEST - 2:
+            raise InvalidInput(f"bodies {DEEPEST} deep: MJCF nests them, and its readers take no more")
+        elements.append(_body(parent, body, name, inertial))
+    motors = [joint for body in mechanism.bodies for joint in body.joints if joint.armature and joint.kind in _MOVED]
+    if motors:
+        actuators = ElementTree.SubElement(root, "actuator")
+        for joint in motors:
+            ElementTree.SubElement(actuators, "motor", name=f"{joint.name}_motor", joint=joint.name)
+    ElementTree.indent(root)
+    return ElementTree.tostring(root, encoding="unicode") + "\n"
+
+
+_MOVED = ("hinge", "slide")
+
+
+def _top(world: ElementTree.Element, mechanism: SpatialMechanism) -> ElementTree.Element:
+    """Where the bodies of the world are put: in one body without a pose if Pinocchio would lose some of them, or the
+    pose of the first; a free joint must be on a body of the world itself."""
+    roots = [body for body in mechanism.bodies if body.parent == WORLD]
+    free = any(joint.kind == "free" for body in roots for joint in body.joints)
+    first_is_fixed = bool(roots) and len(roots[0].joints) != 1  # with several joints, what it stands in is
+    posed = first_is_fixed and (roots[0].position.any() or not _unturned(roots[0]))
+    if free or not (len(roots) > 1 or posed):
+        return world
+    return ElementTree.SubElement(world, "body", name="furiko_support")
+
+
+def _unturned(body: RigidBody) -> bool:
+    return not body.quaternion[1:].any() and bool(body.quaternion[0] > 0)
+
+
+def _body(parent: ElementTree.Element, body: RigidBody, name: str, inertial: Inertial) -> ElementTree.Element:
+    pose = {"pos": row(body.position)}
+    if not _unturned(body):
+        pose["quat"] = row(body.quaternion / np.linalg.norm(body.quaternion))
+    if len(body.joints) > 1:
+        parent = ElementTree.SubElement(parent, "body", {"name": f"{name}_frame", **pose})
+        pose = {"pos": "0 0 0"}
+    element = ElementTree.SubElement(parent, "body", {"name": name, **pose})
+    for joint in body.joints:
+        ElementTree.SubElement(element, "joint", _joint(joint))
+    if inertial.mass > 0:
+        tensor = inertial.tensor
+        given = {"pos": row(inertial.centre), "mass": row([inertial.mass])}
+        if np.count_nonzero(tensor - np.diag(np.diag(tensor))) == 0:
+            given["diaginertia"] = row(np.diag(tensor))
+        elif not positive(inertial):  # which MuJoCo takes on principal axes alone
+            moments, axes = np.linalg.eigh(tensor)
+            axes = axes if np.linalg.det(axes) > 0 else -axes
+            given |= {"diaginertia": row(np.maximum(moments, 0.0)), "quat": row(to_quaternion(axes))}
+        else:
+            given["fullinertia"] = row([*np.diag(tensor), tensor[0, 1], tensor[0, 2], tensor[1, 2]])
+        ElementTree.SubElement(element, "inertial", given)
+    return element
+
+
+def _joint(joint: Joint) -> dict[str, str]:
+    said = {"name": joint.name, "type": joint.kind}
+    if joint.kind in _MOVED:
+        said["axis"] = row(joint.axis)
+    if joint.kind != "free":
+        said["pos"] = row(joint.anchor)
+    if joint.kind in _MOVED:
+        said |= {"ref": row([joint.ref]), "springref": row([joint.springref])}
+    for attribute, number in (
+        ("armature", joint.armature),
+        ("damping", joint.damping),
+        ("frictionloss", joint.friction),
+        ("stiffness", joint.stiffness),
+    ):
+        said[attribute] = row([number])
+    if joint.limits is not None and joint.limits[0] < joint.limits[1]:  # MuJoCo refuses a range of nothing
+        said |= {"limited": "true", "range": row(joint.limits)}
+    elif joint.kind != "free":
+        said["limited"] = "false"
+    return said
