@@ -60,6 +60,8 @@ class EngineResult:
             return planar if self.planar is not None and self.planar.status == "differs" else []
         if self.own.status == "differs" and self.own.unexplained and planar:
             return planar
+        if self.own.status == "refused":
+            return [*planar, *self.own.findings]
         return [*self.own.findings, *(found for found in planar if found.cause in BESIDE_READING)]
 
     @property

@@ -14,6 +14,7 @@ from ..robots.fields import field_differences
 from .engine_answers import EngineAnswer
 from .engine_result import EngineResult
 
+REFUSALS = ("inertia-rejected", "file-refused")
 ALIKE = 1e-7  # engines agree with one another within this, relative to each state's largest acceleration
 
 
@@ -24,7 +25,8 @@ def vote(file: ModelFile, results: Sequence[EngineResult]) -> list[Finding]:
         names = ", ".join(voter.name for voter in voters)
         says = f"{names} agree with one another; only furiko's own reading of the file differs"
         return [Finding("theory-is-wrong", file.path, None, None, says), *voters[0].findings]
-    return [finding for result in results for finding in result.findings]
+    found = [finding for result in results for finding in result.findings]
+    return sorted(found, key=lambda finding: finding.cause in REFUSALS)  # after what explains numbers
 
 
 def _hold_the_same(file: ModelFile, voters: Sequence[EngineResult]) -> bool:
