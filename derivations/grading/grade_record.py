@@ -95,7 +95,8 @@ def _english(d: Grade) -> str:
     head = {"correct": "Correct.", "wrong": "Wrong.", "undecided": "Undecided."}[d.verdict]
     if d.assumes and d.verdict == "correct":
         head = f"Right if {'; and if '.join(d.assumes)}."
-    lines = [*_read(d.reading), head]
+    r = d.reading
+    lines = [*_read(r, f"Read: {r.mechanism}; {r.angles}.", "  where ", ", ", " is "), head]
     if d.assumes and d.verdict != "correct":
         lines.append(f"  If {'; and if '.join(d.assumes)}:")
     if d.right_for:
@@ -114,23 +115,14 @@ def _english(d: Grade) -> str:
     return "\n".join([*lines, *(f"  {note}" for note in d.notes)])
 
 
-def _read(r: Reading) -> list[str]:
+def _read(r: Reading, first: str, where: str, between: str, means: str) -> list[str]:
+    """What was read, behind the line ``first``, in the words of one language."""
     if not r.mechanism:
         return []
-    lines = [f"Read: {r.mechanism}; {r.angles}.", *(f"    {line}" for line in r.drawing.splitlines())]
+    lines = [first, *(f"    {line}" for line in r.drawing.splitlines())]
     lines += [f"  {label}:  {text}" for label, text in r.equations]
     if r.symbols:
-        lines.append("  where " + ", ".join(f"{written} is {meant}" for written, meant in r.symbols))
-    return lines
-
-
-def _read_ja(r: Reading) -> list[str]:
-    if not r.mechanism:
-        return []
-    lines = [f"読み取った内容：{r.mechanism_ja}。{r.angles_ja}。", *(f"    {line}" for line in r.drawing.splitlines())]
-    lines += [f"  {label}:  {text}" for label, text in r.equations]
-    if r.symbols:
-        lines.append("  記号：" + "、".join(f"{written} = {meant}" for written, meant in r.symbols))
+        lines.append(where + between.join(f"{written}{means}{meant}" for written, meant in r.symbols))
     return lines
 
 
@@ -138,7 +130,8 @@ def _japanese(d: Grade) -> str:
     head = {"correct": "正しい導出です。", "wrong": "誤りがあります。", "undecided": "判定できません。"}[d.verdict]
     if d.assumes_ja and d.verdict == "correct":
         head = f"次の条件のもとで正しい導出です：{'；'.join(d.assumes_ja)}。"
-    lines = [*_read_ja(d.reading), head]
+    r = d.reading
+    lines = [*_read(r, f"読み取った内容：{r.mechanism_ja}。{r.angles_ja}。", "  記号：", "、", " = "), head]
     if d.assumes_ja and d.verdict != "correct":
         lines.append(f"  次の条件のもとで：{'；'.join(d.assumes_ja)}")
     if d.right_for_ja:

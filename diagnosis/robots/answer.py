@@ -114,7 +114,6 @@ def _compared(reader: RobotReader, engine: RobotEngine, question: Question) -> R
         answer.simulation = simulation_findings(question.path, question.meshes, question.file.spatial)
     if answer.findings:
         answer.status = "differs"
-        answer.says = f"{len(answer.findings)} finding{'s' * (len(answer.findings) != 1)}"
     return answer
 
 
@@ -139,7 +138,9 @@ def _reading(
     if not field_differences(holds, file.spatial, limits=question.limits, ignored=reader.not_held):
         return [], ()
     candidates = candidates_of(reader.name, language)
-    explanation = explain_reading(question.read, language, holds, candidates, reader.not_held)
+    explanation = explain_reading(
+        question.read, language, holds, candidates, ignored=reader.not_held, limits=question.limits
+    )
     places, sentences = places_in(file.spatial), mistakes_in(language)
     named = [
         mistake_finding(reader.name, flag, sentences[flag], changes, places) for flag, changes in explanation.mistakes

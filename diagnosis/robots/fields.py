@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...models.readers.mjcf.inertials import POINT_MASS_BOUND
 from ...models.spatial_mechanism import WORLD, Array, SpatialMechanism
 from .moving_links import MovingLink, SeenJoint, coordinates_of, moving_links
 
@@ -14,7 +15,6 @@ from .moving_links import MovingLink, SeenJoint, coordinates_of, moving_links
 # What is written with ten digits or fewer is far beyond this.
 SAME = 1e-11
 EPSILON = 2.0**-52
-POINT_MASS_BOUND = 1e-14  # kg m²; as :mod:`furiko.models.readers.mjcf.inertials` has it
 NUMBERS = ("armature", "damping", "friction", "stiffness")  # of a joint, zero where it is ideal
 
 

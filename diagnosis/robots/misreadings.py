@@ -54,26 +54,38 @@ class Explanation:
 
 
 def explain_reading(
-    read: Read, language: str, compiled: SpatialMechanism, candidates: Sequence[str], ignored: Sequence[str] = ()
+    read: Read,
+    language: str,
+    compiled: SpatialMechanism,
+    candidates: Sequence[str],
+    *,
+    ignored: Sequence[str] = (),
+    limits: bool = False,
 ) -> Explanation:
     """Why ``compiled``, which an engine holds, is not what the file says.
 
     ``read``: furiko's reader; ``candidates``: flags of ``language``, the likelier ones first; ``ignored``: numbers of
-    joints that the engine is not held to.
+    joints that the engine is not held to; ``limits``: whether ranges of joints count.
     """
-    return _Search(read, language, compiled, tuple(ignored)).explained(candidates)
+
+    def left(reading: SpatialMechanism) -> list[FieldDifference]:
+        return field_differences(compiled, reading, limits=limits, ignored=ignored)
+
+    return _Search(read, language, left).explained(candidates)
 
 
 class _Search:
-    def __init__(self, read: Read, language: str, compiled: SpatialMechanism, ignored: tuple[str, ...]) -> None:
-        self._read, self._language, self._compiled, self._ignored = read, language, compiled, ignored
+    """``left``: what a reading leaves different from what the engine holds."""
+
+    def __init__(self, read: Read, language: str, left: Callable[[SpatialMechanism], list[FieldDifference]]) -> None:
+        self._read, self._language, self._left_by = read, language, left
         self._known: dict[frozenset[str], SpatialMechanism | None] = {}
 
     def explained(self, candidates: Sequence[str]) -> Explanation:
         effective = self._effective(candidates)
         chosen = self._smallest(effective) if self._fits(effective) else self._greedy(effective)
         reading = self._reading(chosen)
-        left = field_differences(self._compiled, reading, ignored=self._ignored) if reading is not None else []
+        left = self._left_by(reading) if reading is not None else []
         named = ((flag, tuple(self._changes(flag, ()) or self._changes(flag, chosen))) for flag in chosen)
         return Explanation(tuple(named), tuple(left))
 
@@ -114,7 +126,7 @@ class _Search:
         reading = self._reading(flags)
         if reading is None:
             return 10**9
-        return len(field_differences(self._compiled, reading, ignored=self._ignored))
+        return len(self._left_by(reading))
 
     def _reading(self, flags: Sequence[str]) -> SpatialMechanism | None:
         key = frozenset(flags)

@@ -6,12 +6,14 @@ The right values are worked out by hand, or are what both engines' own interface
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import pytest
 
 from furiko import diagnose
 from furiko.diagnosis.finding import CAUSES
 from furiko.diagnosis.model_files.fix import write_fixed
+from furiko.diagnosis.robots.misreadings import explain_reading
 from furiko.models import InvalidInput
 from furiko.models.readers.model_file import read_model
 
@@ -181,6 +183,15 @@ def test_limits_count_where_they_are_asked_for(tmp_path):
     a, b = saved(tmp_path, "a.xml", limited), saved(tmp_path, "b.xml", SOUND["free.xml"])
     assert diagnose(a, b).verdict == "agrees"
     assert [f.cause for f in diagnose(a, b, limits=True).findings] == ["joint-limit"]
+
+
+@pytest.mark.parametrize(("limits", "causes"), [(False, []), (True, ["joint-limit"])])
+def test_a_range_that_an_engine_does_not_hold_is_left_where_ranges_count(tmp_path, limits, causes):
+    holds = read_model(saved(tmp_path, "a.xml", SOUND["free.xml"])).spatial
+    hip = replace(holds.bodies[1].joints[0], limits=(-0.5, 0.5))
+    said = replace(holds, bodies=(holds.bodies[0], replace(holds.bodies[1], joints=(hip,))))
+    explanation = explain_reading(lambda rules: said, "mjcf", holds, ("first_root_only",), limits=limits)
+    assert [difference.cause for difference in explanation.left] == causes
 
 
 def test_another_robot_is_compared_number_by_number(tmp_path):
