@@ -61,6 +61,8 @@ def diagnose(
     ``against``.
     """
     file = model if isinstance(model, ModelFile) else read_model(model, meshes=meshes)
+    if not file.spatial.joints:
+        raise InvalidInput(f"{file.path}: no joint: at least one body must be able to move")
     wanted = expected_of(against, meshes)
     file = _with_gravity(file, wanted.planar)
     readers = chosen_readers(engines)

@@ -213,6 +213,18 @@ def test_json_of_a_robot(tmp_path):
     assert document["engines"]["pinocchio-aba"]["measured"][0]["ratio"] <= 1
 
 
+def test_a_file_in_which_nothing_moves_is_refused(tmp_path):
+    text = f'<mujoco><worldbody><body name="a">{INERTIAL}</body></worldbody></mujoco>'
+    with pytest.raises(InvalidInput, match="no joint"):
+        diagnose(saved(tmp_path, "a.xml", text))
+
+
+def test_an_element_of_half_a_million_attributes_is_refused_before_any_engine_reads_it(tmp_path):
+    many = "".join(f"a{i}='' " for i in range(500_000))
+    with pytest.raises(InvalidInput, match="500000 attributes; at most 500"):
+        diagnose(saved(tmp_path, "a.xml", SOUND["free.xml"].replace("<mujoco>", f"<mujoco {many}>")))
+
+
 def test_an_unknown_engine_is_refused(tmp_path):
     with pytest.raises(InvalidInput, match="mujocoo"):
         diagnose(saved(tmp_path, "a.xml", SOUND["free.xml"]), engines=["mujocoo"])
