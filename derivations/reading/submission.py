@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -87,6 +87,17 @@ class Submission:
     def relative(self) -> bool:
         """Whether its angles are measured from the link above."""
         return self.convention.relative
+
+    def renamed(self, places: dict[int, int]) -> Submission:
+        """The same with one symbol in place of another: all lengths, or all masses, are equal."""
+        space, n = self.space, self.space.n
+        rows = tuple((label, space.rename(f, places)) for label, f in self.rows)
+        lagrangian = None if self.lagrangian is None else space.rename(self.lagrangian, places)
+        return replace(
+            self, rows=rows, lagrangian=lagrangian,
+            equal_lengths=self.equal_lengths or 2 * n + 1 in places,
+            equal_masses=self.equal_masses or 3 * n + 1 in places,
+        )  # fmt: skip
 
     @property
     def symbols(self) -> Symbols:
@@ -264,18 +275,18 @@ class Reader:
         self.doubtful += [written[start:end] for start, end in self.slashes.doubtful]
         self.slashes.doubtful.clear()
 
-    def rows(self, table: object) -> tuple[tuple[str, Formula], ...]:
-        """The equations of motion; one in matrices is as many as it has rows."""
+    def rows(self, table: object, name: str = "equations") -> tuple[tuple[str, Formula], ...]:
+        """The equations of motion in the field ``name``; one in matrices is as many as it has rows."""
         n = self.evaluation.space.n
         if isinstance(table, list):
             table = {str(i): line for i, line in enumerate(table, 1)}
         if not isinstance(table, dict) or not table:
-            raise InvalidInput('equations: a table of rows is needed, as in 1 = "m1*l1^2*a1 = -m1*g*l1*sin(t1)"')
+            raise InvalidInput(f'{name}: a table of rows is needed, as in 1 = "m1*l1^2*a1 = -m1*g*l1*sin(t1)"')
         if len(table) > n:
-            raise InvalidInput(f"equations: {len(table)} rows for {n} angles; one row for each angle is needed")
+            raise InvalidInput(f"{name}: {len(table)} rows for {n} angles; one row for each angle is needed")
         rows: list[tuple[str, Formula]] = []
         for label, line in table.items():
-            where = f"equations.{label!s:.40}"
+            where = f"{name}.{label!s:.40}"
             found, text = _located(where, self._row, line)
             self.lines.append((str(label)[:40], text))
             labels = [str(label)[:40]] if len(found) == 1 else [str(len(rows) + k) for k in range(1, len(found) + 1)]
