@@ -9,8 +9,10 @@ from typing import Any
 
 import msgspec
 
+from .derivations.classroom.assess import unread
 from .derivations.classroom.folder import Handed, assess_all, handed_in
 from .derivations.classroom.problem import problem_fields, problem_of, read_problem
+from .models.errors import InvalidInput
 from .models.writers.whole_file import make_folder, write_whole
 from .records.classroom import Assessed, ClassDocument, CommonMistake
 from .records.exit_status import AGREES, DIFFERS, INCOMPLETE
@@ -20,7 +22,7 @@ def assess_class(
     problem: Path, paths: Sequence[Path], *, hints: int | None = None, jobs: int | None = None,
     watch: Callable[[int, int], None] = lambda *_: None,
 ) -> ClassDocument:  # fmt: skip
-    """Assess the submissions in files and folders. Raises InvalidInput where the problem cannot be read, or none is there.
+    """Assess the submissions in files and folders. Raises InvalidInput where there is none, or no problem.
 
     ``hints``: in place of the problem's own; ``watch``: called with how many of how many are done.
     """
@@ -36,6 +38,24 @@ def assess_class(
         title=pinned.title, rule=pinned.points.sentence(), hints=pinned.hints, submissions=assessed,
         mistakes=_mistakes(assessed),
     )  # fmt: skip
+
+
+def assess_one(problem: Path, path: Path, *, hints: int | None = None) -> ClassDocument:
+    """The same for what one student handed in: where it is not one file, that is what its author is told."""
+    fields = problem_fields(problem)
+    read_problem(problem)  # raises where it is none
+    try:
+        found = len(handed_in([path]))
+    except InvalidInput:
+        found = 0
+    if found == 1:
+        return assess_class(problem, [path], hints=hints)
+    pinned = problem_of(fields)
+    why = f"hand in one file that ends in .toml; here {'is none' if not found else f'are {found}'}"
+    alone = msgspec.convert(unread(pinned, path.name, "not read", why).to_dict(), Assessed)
+    return ClassDocument(
+        title=pinned.title, rule=pinned.points.sentence(), hints=pinned.hints, submissions=[alone], mistakes=[]
+    )
 
 
 def _mistakes(assessed: Sequence[Assessed]) -> list[CommonMistake]:

@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal
 
 from ...models.errors import InvalidInput
+from ..algebra.mathml import lines_html
 from ..algebra.notation import pretty, text
 from ..algebra.trig import digits
 from ..grading.differences import authors
@@ -39,6 +40,10 @@ class Assessment:
     grade: Grade | None = None
     why: str = ""
     seconds: float = 0.0
+
+    def _repr_html_(self) -> str:
+        """For a notebook: what its author is told, escaped."""
+        return lines_html(self.feedback)
 
     def to_dict(self) -> dict[str, Any]:
         """For JSON."""

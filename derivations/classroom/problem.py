@@ -57,8 +57,10 @@ class Points:
     def sentence(self) -> str:
         """How points are taken off, in plain words."""
         if self.each_mistake is not None:
-            return (f"A wrong derivation loses {shown_points(self.each_mistake)} for each mistake that is named, "
-                    "however many terms it makes wrong; where none can be named, it loses points by its terms.")  # fmt: skip
+            return (
+                f"A wrong derivation loses {shown_points(self.each_mistake)} for each mistake that is named, however "
+                "many terms it makes wrong; where none can be named, it loses points by its terms."
+            )
         worth = "its points divided by the number of its terms" if self.each_term is None else shown_points(
             self.each_term)  # fmt: skip
         return (f"A row (or the Lagrangian) loses {worth} for each term that is wrong, missing or too many, and never "

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 @click.option("--hints", type=click.IntRange(0, 4), help="With --problem: how much is told, 0 (right or wrong) to 4.")
 @click.option("--out", type=click.Path(path_type=Path), help="With --problem: write pages, CSV, JUnit, JSON here.")
 @click.option("--gradescope", type=click.Path(path_type=Path), help="With --problem: write one file's results.json.")
+@click.option("--autograder", type=click.Path(path_type=Path), help="With --problem: write a zip for Gradescope.")
 @click.option("--jobs", "-j", type=click.IntRange(1, 256), help="With --problem: how many are graded at once.")
 @click.option("--callable", "function", metavar="MODULE:FUNCTION", help="Grade a function that you trust.")
 @click.option("--system", help="The mechanism of a --callable; a FILE is held to it, and nothing is assumed then.")
@@ -33,6 +34,7 @@ def grade(
     out: Path | None,
     gradescope: Path | None,
     jobs: int | None,
+    autograder: Path | None,
     function: str | None,
     system: str | None,
     links: int | None,
@@ -51,6 +53,13 @@ def grade(
     With --problem any number of files, or folders with a file a student, is held to a problem file: points for each
     row, hints up to its level, a table of who made which mistake. No submission can harm another one's grade.
     """
+    if autograder is not None:
+        from ..autograder import write_autograder
+
+        if problem is None or files:
+            raise click.UsageError("--autograder needs --problem, and no files")
+        print_text(f"written: {write_autograder(problem, autograder)}; upload it to Gradescope as the autograder")
+        return 0
     if problem is not None:
         if function or system or links or not files:
             raise click.UsageError("--problem needs a FILE or FOLDER, and neither --callable nor --system nor --links")
@@ -91,13 +100,16 @@ def _grade_class(
     japanese: bool,
     as_json: bool,
 ) -> int:
-    from ..classroom import assess_class, exit_status, write_class
+    from ..classroom import assess_class, assess_one, exit_status, write_class
     from .progress import status_line
 
-    with status_line() as say:
-        found = assess_class(
-            problem, paths, hints=hints, jobs=jobs, watch=lambda done, of: say(f"graded {done} of {of}")
-        )
+    if gradescope is not None and len(paths) == 1:
+        found = assess_one(problem, paths[0], hints=hints)
+    else:
+        with status_line() as say:
+            found = assess_class(
+                problem, paths, hints=hints, jobs=jobs, watch=lambda done, of: say(f"graded {done} of {of}")
+            )
     if gradescope is not None:
         from ..models.writers.whole_file import write_whole
         from ..reports.class_files import to_gradescope
