@@ -12,7 +12,8 @@ import numpy as np
 
 from ..errors import InvalidInput
 from ..spatial import ZERO_INERTIAL, Inertial, Pose, from_quaternion
-from ..spatial_mechanism import RigidBody, SpatialMechanism
+from ..spatial_mechanism import WORLD, RigidBody, SpatialMechanism
+from .mjcf import LEAST_INERTIA
 
 ROUNDED = 1e-9  # relative: principal moments may miss A + B ≥ C by this, as when they were printed with ten digits
 
@@ -27,22 +28,34 @@ def pose_of(body: RigidBody) -> Pose:
     return Pose(from_quaternion(body.quaternion), body.position)
 
 
-def placed_inertials(mechanism: SpatialMechanism) -> list[Inertial]:
-    """The bodies' inertials, where the inertia of a body without mass is its parent's, to which it is fixed.
+def positive(inertial: Inertial) -> bool:
+    """Whether all principal moments are more than nothing, as MuJoCo wants them."""
+    return float(np.linalg.eigvalsh(inertial.tensor)[0]) > LEAST_INERTIA
 
-    MuJoCo drops the inertia of such a body in URDF, and Drake puts a kilogram there. Raises :class:`InvalidInput` for
-    an inertial that no rigid body has: engines do not agree on what to make of it.
+
+def placed_inertials(mechanism: SpatialMechanism) -> list[Inertial]:
+    """The bodies' inertials, so placed that engines take them.
+
+    That of a body without mass, or with a moment of zero, is its parent's where it is fixed to it: MuJoCo drops the
+    former in URDF and refuses the latter, Drake puts a kilogram for the former. What does not move has none if it is
+    such a one, or none that a rigid body has. Raises :class:`InvalidInput` for others that no rigid body has: engines
+    do not agree on what to make of them.
     """
     found = [body.inertial for body in mechanism.bodies]
+    still: list[bool] = []
+    for body in mechanism.bodies:
+        still.append(not body.joints and (body.parent == WORLD or still[body.parent]))
     for index in range(len(found) - 1, -1, -1):
         body, inertial = mechanism.bodies[index], found[index]
-        if inertial.mass == 0 and inertial.tensor.any() and not body.joints and body.parent >= 0:
-            found[body.parent] = found[body.parent] + inertial.transformed(pose_of(body))
+        if _impossible(inertial):
+            if still[index]:
+                found[index] = ZERO_INERTIAL
+        elif not body.joints and (inertial.mass == 0 or not positive(inertial)):
+            if not still[index]:
+                found[body.parent] = found[body.parent] + inertial.transformed(pose_of(body))
             found[index] = ZERO_INERTIAL
     for body, inertial in zip(mechanism.bodies, found, strict=True):
-        moments = np.linalg.eigvalsh(inertial.tensor)
-        slack = ROUNDED * float(np.abs(moments).max())
-        if inertial.mass < 0 or moments[0] < -slack or moments[0] + moments[1] < moments[2] - slack:
+        if _impossible(inertial):
             raise InvalidInput(
                 f"{body.where or body.name}: no rigid body has its mass and inertia; give it others first: engines do "
                 "not agree on what to make of them"
@@ -50,6 +63,12 @@ def placed_inertials(mechanism: SpatialMechanism) -> list[Inertial]:
         if inertial.mass == 0 and inertial.tensor.any():
             raise InvalidInput(f"{body.where or body.name}: an inertia without a mass; give it a mass first")
     return found
+
+
+def _impossible(inertial: Inertial) -> bool:
+    moments = np.linalg.eigvalsh(inertial.tensor)
+    slack = ROUNDED * float(np.abs(moments).max()) + LEAST_INERTIA
+    return bool(inertial.mass < 0 or moments[0] < -slack or moments[0] + moments[1] < moments[2] - slack)
 
 
 def unique_names(bodies: Sequence[RigidBody], taken: str) -> list[str]:

@@ -7,9 +7,9 @@ from xml.etree import ElementTree
 import numpy as np
 
 from ..errors import InvalidInput
-from ..spatial import Inertial
+from ..spatial import Inertial, to_quaternion
 from ..spatial_mechanism import WORLD, Joint, RigidBody, SpatialMechanism
-from .explicit import placed_inertials, row, unique_names
+from .explicit import placed_inertials, positive, row, unique_names
 from .mjcf import DEEPEST, LEAST_INERTIA
 
 UNTURNED = np.array([1.0, 0.0, 0.0, 0.0])
@@ -25,12 +25,10 @@ def spatial_mjcf(mechanism: SpatialMechanism, model: str = "mechanism") -> str:
     engines do not agree, and for more than 450 bodies one in the other.
     """
     root = ElementTree.Element("mujoco", model=model)
-    compiler = ElementTree.SubElement(
-        root, "compiler", angle="radian", inertiafromgeom="false", balanceinertia="false", autolimits="false"
-    )
+    compiler = ElementTree.SubElement(root, "compiler", angle="radian", balanceinertia="false", autolimits="false")
     ElementTree.SubElement(root, "option", gravity=row(mechanism.gravity))
     inertials = placed_inertials(mechanism)
-    if any(i.mass > 0 and not i.tensor.any() for i in inertials):
+    if any(i.mass > 0 and not positive(i) for i in inertials):
         compiler.set("boundinertia", repr(LEAST_INERTIA))  # MuJoCo refuses a point mass
     world = ElementTree.SubElement(root, "worldbody")
     names = unique_names(mechanism.bodies, "world")
@@ -60,7 +58,8 @@ def _top(world: ElementTree.Element, mechanism: SpatialMechanism) -> ElementTree
     pose of the first; a free joint must be on a body of the world itself."""
     roots = [body for body in mechanism.bodies if body.parent == WORLD]
     free = any(joint.kind == "free" for body in roots for joint in body.joints)
-    posed = not roots[0].joints and (roots[0].position.any() or not _unturned(roots[0])) if roots else False
+    first_is_fixed = bool(roots) and len(roots[0].joints) != 1  # with several joints, what it stands in is
+    posed = first_is_fixed and (roots[0].position.any() or not _unturned(roots[0]))
     if free or not (len(roots) > 1 or posed):
         return world
     return ElementTree.SubElement(world, "body", name="furiko_support")
@@ -85,6 +84,10 @@ def _body(parent: ElementTree.Element, body: RigidBody, name: str, inertial: Ine
         given = {"pos": row(inertial.centre), "mass": row([inertial.mass])}
         if np.count_nonzero(tensor - np.diag(np.diag(tensor))) == 0:
             given["diaginertia"] = row(np.diag(tensor))
+        elif not positive(inertial):  # which MuJoCo takes on principal axes alone
+            moments, axes = np.linalg.eigh(tensor)
+            axes = axes if np.linalg.det(axes) > 0 else -axes
+            given |= {"diaginertia": row(np.maximum(moments, 0.0)), "quat": row(to_quaternion(axes))}
         else:
             given["fullinertia"] = row([*np.diag(tensor), tensor[0, 1], tensor[0, 2], tensor[1, 2]])
         ElementTree.SubElement(element, "inertial", given)
@@ -106,7 +109,7 @@ def _joint(joint: Joint) -> dict[str, str]:
         ("stiffness", joint.stiffness),
     ):
         said[attribute] = row([number])
-    if joint.limits is not None:
+    if joint.limits is not None and joint.limits[0] < joint.limits[1]:  # MuJoCo refuses a range of nothing
         said |= {"limited": "true", "range": row(joint.limits)}
     elif joint.kind != "free":
         said["limited"] = "false"

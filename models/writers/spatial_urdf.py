@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..errors import InvalidInput
 from ..spatial import IDENTITY, Inertial, Pose, from_axis_angle
 from ..spatial_mechanism import WORLD, Joint, RigidBody, SpatialMechanism
-from .explicit import placed_inertials, pose_of, row, unique_names
+from .explicit import placed_inertials, pose_of, positive, row, unique_names
 from .urdf import NO_LIMIT
 
 Array = NDArray[np.float64]
@@ -35,8 +35,8 @@ def spatial_urdf(mechanism: SpatialMechanism, name: str = "mechanism") -> str:
     robot = ElementTree.Element("robot", name=name)
     inertials = placed_inertials(mechanism)
     for body, inertial in zip(mechanism.bodies, inertials, strict=True):
-        if inertial.mass > 0 and not inertial.tensor.any():
-            raise InvalidInput(f"{body.where or body.name}: a point mass: MuJoCo refuses it; give it an inertia first")
+        if inertial.mass > 0 and not positive(inertial):
+            raise InvalidInput(f"{body.where or body.name}: a moment of inertia is 0, which MuJoCo refuses in URDF")
     names = unique_names(mechanism.bodies, "world")
     ElementTree.SubElement(robot, "link", name="world")
     frames: list[Pose] = []  # of each link, in its body's frame
