@@ -96,5 +96,6 @@ ROBOT_READERS: dict[str, RobotReader] = {
     for reader in (
         RobotReader("mujoco", ".robot_mujoco:MujocoRobot", "mujoco", "mujoco"),
         RobotReader("pinocchio", ".robot_pinocchio:PinocchioRobot", "pinocchio", "pin"),
+        RobotReader("drake", ".robot_drake:DrakeRobot", "pydrake", "furiko[drake]"),
     )
 }

@@ -11,13 +11,16 @@ Ways in which an engine has a joint:
 * ``quaternion-last``: a ball's quaternion as x, y, z, w;
 * ``free-in-body``: Pinocchio's free joint: pose in the joint's own placement, quaternion last, the velocity of the
   body's origin in the body's axes before the angular velocity: T turns it by Rᵀ, and Ṫ v is −ω × Rᵀẋ;
-* ``plane-in-body``: Pinocchio's planar joint: x, y, cosine, sine, the velocity in the moved axes.
+* ``plane-in-body``: Pinocchio's planar joint: x, y, cosine, sine, the velocity in the moved axes;
+* ``roll-pitch-yaw``: Drake's ball: three angles, and the angular velocity in the axes that do not move: T is R;
+* ``free-in-world``: Drake's free joint: quaternion, place; first the angular velocity, in world axes: T is R there;
+* ``plane``: Drake's planar joint: x, y, angle, along axes of its own in that plane.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,6 +35,7 @@ class Block:
     """A joint of an engine: which of the mechanism's ``joints`` it is, how it has them, its first columns.
 
     ``joints``: indices, one, or for a planar joint its two slides and its hinge. ``placement``: a free joint's.
+    ``plane`` (2, 2): takes the two slides' coordinates to those along the engine's axes.
     """
 
     joints: tuple[int, ...]
@@ -39,6 +43,7 @@ class Block:
     at_q: int
     at_v: int
     placement: Pose = IDENTITY
+    plane: Array = field(default_factory=lambda: np.eye(2))
 
 
 @dataclass(frozen=True)
@@ -89,7 +94,8 @@ class RobotCoordinates:
             at = block.at_v
             for index in block.joints:
                 placed = self._placed[index]
-                columns[placed.columns_v] = np.arange(at, at + placed.joint.freedoms)
+                theirs = np.arange(at, at + placed.joint.freedoms)
+                columns[placed.columns_v] = np.roll(theirs, 3) if block.way == "free-in-world" else theirs
                 at += placed.joint.freedoms
         self._columns = columns
 
@@ -107,7 +113,8 @@ class RobotCoordinates:
             columns, turn = turned
             rates[columns] = turn @ rates[columns]
             turns.append((columns, turn))
-            drift[columns] = self._drift(block, rates)
+            if block.way in {"free-in-body", "plane-in-body"}:
+                drift[columns] = self._drift(block, rates)
         return EngineState(positions, rates, drift, self._columns, tuple(turns))
 
     def _position(self, block: Block, q: Array, into: Array) -> None:
@@ -123,9 +130,16 @@ class RobotCoordinates:
             turned = block.placement.rotation.T
             into[at : at + 3] = turned @ (own[:3] - block.placement.translation)
             into[at + 3 : at + 7] = _last(_times(_conjugate(block.placement.rotation), own[3:]))
+        elif block.way == "roll-pitch-yaw":
+            into[at : at + 3] = roll_pitch_yaw(from_quaternion(own))
+        elif block.way == "free-in-world":
+            into[at : at + 4], into[at + 4 : at + 7] = own[3:] / np.linalg.norm(own[3:]), own[:3]
         else:
             x, y, angle = (float(q[self._placed[index].at_q]) for index in block.joints)
-            into[at : at + 4] = x, y, np.cos(angle), np.sin(angle)
+            if block.way == "plane":
+                into[at : at + 3] = [*(block.plane @ [x, y]), angle]
+            else:
+                into[at : at + 4] = x, y, np.cos(angle), np.sin(angle)
 
     def _turn(self, block: Block, q: Array) -> tuple[slice, Array] | None:
         if block.way == "free-in-body":
@@ -135,6 +149,11 @@ class RobotCoordinates:
             angle = q[self._placed[block.joints[2]].at_q]
             c, s = np.cos(angle), np.sin(angle)
             return slice(block.at_v, block.at_v + 2), np.array([[c, s], [-s, c]])
+        if block.way in {"roll-pitch-yaw", "free-in-world"}:
+            quaternion = q[self._placed[block.joints[0]].columns_q][-4:]
+            return slice(block.at_v, block.at_v + 3), from_quaternion(quaternion)
+        if block.way == "plane":
+            return slice(block.at_v, block.at_v + 2), block.plane
         return None
 
     @staticmethod
@@ -170,3 +189,17 @@ def _times(a: Array, b: Array) -> Array:
     """The product of two quaternions (w, x, y, z)."""
     w, u = a[0], a[1:]
     return np.concatenate([[w * b[0] - u @ b[1:]], w * b[1:] + b[0] * u + np.cross(u, b[1:])])
+
+
+def roll_pitch_yaw(rotation: Array) -> Array:
+    """The angles (3,) of the rotation about the fixed x, then y, then z, |pitch| ≤ π/2.
+
+    Yaw is computed from what the rotation leaves when roll is undone, so that the three give the rotation back to
+    rounding where pitch is near a right angle and roll is badly determined.
+    """
+    r = rotation
+    roll = np.arctan2(r[2, 1], r[2, 2])
+    s, c = np.sin(roll), np.cos(roll)
+    pitch = np.arctan2(-r[2, 0], s * r[2, 1] + c * r[2, 2])
+    yaw = np.arctan2(s * r[0, 2] - c * r[0, 1], c * r[1, 1] - s * r[1, 2])
+    return np.array([roll, pitch, yaw])

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from ...models.spatial_mechanism import PlacedJoint, RigidBody, SpatialMechanism
 
 UNNAMED_JOINT, UNNAMED_BODY = "furiko_joint_", "furiko_body_"  # how furiko's readers name what has no name
+PLANAR = ("_TX", "_TY", "_RZ")  # what MuJoCo appends for the three joints that it makes of a planar one
 
 
 @dataclass(frozen=True)
@@ -32,6 +33,16 @@ class HeldJoint:
     def unnamed(self) -> bool:
         """Whether the file may leave it unnamed."""
         return self.made or not self.name
+
+
+def joints_of(kinds: Sequence[str], held: HeldJoint) -> tuple[HeldJoint, ...]:
+    """An engine's joint ``held`` as joints of a mechanism: itself, or the three of a planar one."""
+    if len(kinds) == 1:
+        return (replace(held, kind=kinds[0]),)
+    return tuple(
+        replace(held, name=held.name + end, kind=kind, shown=held.shown + end, made=True)
+        for kind, end in zip(kinds, PLANAR, strict=True)
+    )
 
 
 def match(mechanism: SpatialMechanism, held: Sequence[HeldJoint], engine: str) -> tuple[int, ...]:

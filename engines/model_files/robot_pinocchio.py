@@ -24,7 +24,7 @@ from ...models.spatial_mechanism import WORLD, Joint, RigidBody, SpatialMechanis
 from ..protocol import Array
 from ..quiet import silenced
 from .robot_coordinates import Block, EngineState, RobotCoordinates
-from .robot_joints import HeldJoint, match, named_alike, unique
+from .robot_joints import HeldJoint, joints_of, match, named_alike, unique
 
 # Pinocchio is a C++ extension without types: Any, here and nowhere else.
 pinocchio: Any = import_module("pinocchio")
@@ -32,7 +32,6 @@ pinocchio: Any = import_module("pinocchio")
 KINDS = {"FreeFlyer": ("free",), "Spherical": ("ball",), "Planar": ("slide", "slide", "hinge")}
 WAYS = {"FreeFlyer": "free-in-body", "Spherical": "quaternion-last", "Planar": "plane-in-body", "Unbounded": "pair"}
 UNLIMITED = 1e300  # the largest limit that Pinocchio has for no limit is a little more
-PLANAR = ("_TX", "_TY", "_RZ")  # what MuJoCo appends for the three joints that it makes of a planar one
 
 
 @dataclass(frozen=True)
@@ -229,14 +228,8 @@ def _type(joint: Any) -> str:
 def _held(kind: str, name: str, shown: str, body: str) -> tuple[HeldJoint, ...]:
     """What a joint is for a mechanism. Pinocchio makes the names ``bodyJoint_k``, ``body_free``, ``parentBis``."""
     made = re.search(r"Joint_\d+$|_free$", name) is not None
-    single = "slide" if kind == "Prismatic" else "hinge"
-    kinds = KINDS.get(kind, (single,))
-    body = body if not body.endswith("Bis") else ""
-    if len(kinds) == 1:
-        return (HeldJoint(name, kinds[0], body, shown, made),)
-    return tuple(
-        HeldJoint(name + end, one, body, shown + end, made=True) for one, end in zip(kinds, PLANAR, strict=True)
-    )
+    kinds = KINDS.get(kind, ("slide" if kind == "Prismatic" else "hinge",))
+    return joints_of(kinds, HeldJoint(name, kinds[0], "" if body.endswith("Bis") else body, shown, made))
 
 
 def _axis(part: _Part, freedom: int) -> Array:

@@ -75,7 +75,7 @@ LAZY = {
     "reports.write": "the renderings are imported when a report is written",
     "engines.registry": "adapters are found by name",
 }
-ENGINES = {"mujoco", "pinocchio", "exudyn"}
+ENGINES = {"mujoco", "pinocchio", "exudyn", "pydrake"}
 
 
 def place(module):
