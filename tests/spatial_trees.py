@@ -49,13 +49,16 @@ def tree(rng, bodies, free=False):
 
 
 def chain(rng, n, branching=0.0):
-    """n bodies on hinges in any directions; with this probability one hangs on a body before the last."""
+    """n bodies on hinges in any directions; with this probability one hangs on one before the last."""
     found = []
+    way = []  # from the world to the last body
     for i in range(n):
-        back = int(rng.integers(1, 10)) if rng.random() < branching else 1
+        if rng.random() < branching:
+            del way[-int(rng.integers(1, 10)) :]
         hinge = Joint(f"joint {i}", "hinge", axis=rng.normal(size=3))
         pose = rng.normal(size=3) * 0.2, rng.normal(size=4)
-        found.append(RigidBody(f"body {i}", max(-1, i - back), *pose, (hinge,), inertial(rng, 0.5)))
+        found.append(RigidBody(f"body {i}", way[-1] if way else -1, *pose, (hinge,), inertial(rng, 0.5)))
+        way.append(i)
     return SpatialMechanism(tuple(found), np.array([0.0, 0.0, -9.81]))
 
 

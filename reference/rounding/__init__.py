@@ -1,4 +1,4 @@
 """Bounds of an algorithm's rounding errors, derived from its arithmetic.
 
-Imports models, documents and the maximal coordinates; knows no engine.
+Imports models, documents, the maximal coordinates and motion in space; knows no engine.
 """

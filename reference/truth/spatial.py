@@ -28,6 +28,8 @@ from .spatial_solve import solution
 
 Floats = NDArray[np.float64]
 
+BODIES_PER_BIT = 8  # a chain of a thousand hinges needs some 140 bits; more bits cost less than a second attempt
+
 
 @dataclass(frozen=True, eq=False)
 class BallArray:
@@ -61,17 +63,26 @@ class SpatialTruth:
 
     def __init__(self, mechanism: SpatialMechanism, q: Floats, v: Floats, torque: Floats, bits: int) -> None:
         self.mechanism, self.q, self.v, self.torque = mechanism, q, v, torque
-        self._bits = bits
+        self._bits = bits + mechanism.nv // BODIES_PER_BIT
         self._motions: dict[int, Motion] = {}
 
     @cached_property
     def mass_matrix(self) -> BallArray:
         """M, (nv, nv)."""
 
-        def rows(motion: Motion) -> tuple[list[Any], float]:
-            return [entry for row in motion.mass_matrix() for entry in row], 0.0
+        places: list[tuple[int, int]] = []
 
-        return BallArray(self._proved(rows).reshape(2 * (self.mechanism.nv,)))
+        def entries(motion: Motion) -> tuple[list[Any], float]:
+            found = motion.mass_entries()
+            places[:] = found
+            return list(found.values()), 0.0
+
+        proved = self._proved(entries)
+        full = np.full(2 * (self.mechanism.nv,), arb(0), dtype=object)
+        if places:
+            rows, columns = np.array(places).T
+            full[rows, columns] = full[columns, rows] = proved
+        return BallArray(full)
 
     @cached_property
     def velocity(self) -> BallArray:

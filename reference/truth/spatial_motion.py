@@ -151,18 +151,12 @@ class Motion:
         """Every 𝕀 s_j of all that j moves, as a row, (nv, 6)."""
         return _rows([self.composites[b] * s for b, s in zip(self.moves, self.freedoms, strict=True)])
 
-    def mass_matrix(self) -> list[list[Any]]:
-        """M, with the armature on its diagonal."""
-        every = (self.partial * self.momenta.transpose()).tolist()  # right where i moves what j moves
-        n = len(self.freedoms)
-        zero = arb(0)
-        found = [[zero] * n for _ in range(n)]
+    def mass_entries(self) -> dict[tuple[int, int], Any]:
+        """The entries of M on and above its diagonal, with the armature on it, less those that are always zero."""
+        every = self.partial * self.momenta.transpose()  # right where i moves what j moves
         before = self._freedoms_before()
-        for j in range(n):
-            for i in before[j]:
-                found[i][j] = found[j][i] = every[i][j]
-            found[j][j] = every[j][j] + self.armature[j]
-        return found
+        found = {(i, j): every[i, j] for j, those in enumerate(before) for i in those}
+        return found | {(j, j): every[j, j] + armature for j, armature in enumerate(self.armature)}
 
     @cached_property
     def momentum_rates(self) -> list[Any]:

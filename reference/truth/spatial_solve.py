@@ -29,6 +29,7 @@ from flint import arb, arb_mat
 from ...models.spatial_mechanism import WORLD
 from .spatial_motion import Motion, frobenius
 
+ROUNDED_EVERY = 6  # freedoms; the balls of a bound may grow by some 40 bits until they are rounded away
 _UNIT = arb_mat([[int(i == k) for k in range(6)] for i in range(6)])
 
 
@@ -81,8 +82,8 @@ def _step(freedom: Any, inertia: Any, armature: Any) -> tuple[_Step, Any]:
     share = (momentum.transpose() / pivot).mid()
     after = inertia - share.transpose() * share * pivot
     rest = _symmetric(after)
-    parts = (frobenius(after - rest), 2 * frobenius(momentum.transpose() - share * pivot), (exact - pivot).abs_upper())
-    return _Step(freedom, share, pivot, sum(parts[1:], parts[0]).abs_upper()), rest
+    left = frobenius(after - rest) + 2 * frobenius(momentum.transpose() - share * pivot) + (exact - pivot).abs_upper()
+    return _Step(freedom, share, pivot, left.abs_upper()), rest
 
 
 def _substituted(motion: Motion, steps: list[_Step], right: Sequence[Any]) -> list[Any]:
@@ -127,8 +128,10 @@ def _compliance(motion: Motion, steps: list[_Step], left: list[Any]) -> tuple[li
             roots.append(own.sqrt().abs_upper())
             mixed = step.motion * turned.transpose()
             spread = step.motion * step.motion.transpose() * own
-            before = _not_below(before - mixed - mixed.transpose() + spread)
+            before = before - mixed - mixed.transpose() + spread
             j += 1
+            if j % ROUNDED_EVERY == 0:
+                before = _not_below(before)
         share += off * before.trace()
         after.append(before)
     return roots, share

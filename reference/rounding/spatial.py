@@ -1,0 +1,361 @@
+"""What rounding may do to an engine's terms and accelerations of a mechanism in space: bounds for each row.
+
+As in :mod:`.bounds`, an engine that is right computes the exact answer of a slightly wrong problem, and what it is off
+by is compared with the sum of the magnitudes of the row's terms. In space rotating a vector mixes its components, so
+that magnitudes are norms; and what holds a free base at rest adds up to zero, so that they are summed over the bodies
+before anything cancels. With b a body that degree of freedom i moves, c its centre of mass,
+
+    u_ib   the velocity of c for a unit rate: the *length of the way* from the joint to c, or 1 for a translation
+    w_i    1 for a rotation, 0 for a translation
+    F_b = Σ w_j |q̇_j|,  U_b = Σ u_jb |q̇_j|   over all that move b: its angular velocity, its velocity, as added up
+
+the unit of entry ij of the mass matrix is Σ_b m_b u_ib u_jb + |I_b| w_i w_j, over what both move, and that of row i of
+the bias, as derived in :mod:`.bounds`,
+
+    Σ_b  m_b (3 F_b U_b u_ib + w_i U_b²) + w_i |I_b| F_b²  +  m_b |g| u_ib.
+
+Ways are measured along the joints, since differences of places are known to ε of the places. An engine may place bodies
+in the world, and take moments about the centre of mass of all that hangs together, as MuJoCo does: then u_ib is the way
+from the joint to that point and on to c, and every length has an error of ε of the way from the world's origin, which
+multiplies what the length itself multiplies. The three degrees of freedom of a ball, and the two threes of a free
+joint, share one magnitude, the norm: an engine may have them in other axes than MuJoCo's.
+
+Accelerations are judged by the residual that they leave. Its unit is that of the mass matrix times |a|, the bias', the
+forces that are applied; and for engines that factorise M, √M_ii Σ √M_jj |a_j| (Higham, theorem 10.3).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...models.spatial_mechanism import WORLD, Array, SpatialMechanism
+from .. import spatial_kinematics
+from .bounds import EPSILON, ROUNDINGS_PER_LINK
+
+FORCE_ROUNDINGS = 16  # of a spring's: quotient of quaternions, its norm, arc tangent, products
+
+
+@dataclass(frozen=True)
+class Lengths:
+    """Lengths that enter a sum, and what they are off by in units of ε beyond their own rounding; same shapes."""
+
+    own: Array
+    off: Array
+
+    def times(self, other: Lengths) -> Array:
+        """Their products, to the first order in what they are off by."""
+        return self.own * other.own + self.own * other.off + self.off * other.own
+
+
+class Magnitudes:
+    """The units of rounding of one state ``q`` (nq,), for rates ``v`` (nv,), zero if None.
+
+    ``world``: whether the engine places bodies in the world and takes moments about the centre of mass of the whole.
+    The lengths then are those of either way of computing, whichever is larger; otherwise those along the joints.
+    """
+
+    def __init__(self, mechanism: SpatialMechanism, q: Array, v: Array | None = None, *, world: bool = True) -> None:
+        self.mechanism, self.q = mechanism, np.asarray(q, dtype=np.float64)
+        self.v = np.zeros(mechanism.nv) if v is None else np.asarray(v, dtype=np.float64)
+        self.world = world
+        self._mass = np.array([body.inertial.mass for body in mechanism.bodies])
+        self._tensor = np.array([np.linalg.norm(body.inertial.tensor, 2) for body in mechanism.bodies])
+
+    @cached_property
+    def roundings(self) -> float:
+        """How many roundings, in units of ε, the unit of a row allows.
+
+        So many a link as in the plane, a link being a joint or a body on the longest way from the world, two more for
+        taking a tensor to its principal axes and back (MuJoCo's iteration leaves at most 44 of its norm in a hundred
+        thousand random ones, 14 in the median), and one for each body that is added up. A hinge's angle is known to ε
+        of itself, which beyond half a turn is more than that.
+        """
+        depth = [0] * len(self.mechanism.bodies)
+        for index, body in enumerate(self.mechanism.bodies):
+            before = depth[body.parent] if body.parent != WORLD else 0
+            depth[index] = before + max(1, len(body.joints))
+        turned = [
+            abs(self.q[one.at_q]) + abs(one.joint.ref) for one in self.mechanism.joints if one.joint.kind == "hinge"
+        ]
+        turns = max(1.0, max(turned, default=0.0) / np.pi)
+        return (ROUNDINGS_PER_LINK * (2 + max(depth, default=0)) + len(depth)) * turns
+
+    @cached_property
+    def mass_matrix(self) -> Array:
+        """The unit of each entry of M, (nv, nv)."""
+        levers, turns = self._levers, self._turns
+        own, off = levers.own * np.sqrt(self._mass), levers.off * np.sqrt(self._mass)
+        found = own @ own.T + own @ off.T + off @ own.T
+        found += (turns * self._tensor) @ turns.T
+        return np.asarray(found + self._armature)
+
+    @cached_property
+    def _armature(self) -> Array:
+        """The armatures, (nv, nv): in other axes those of a vector are beside the diagonal, too."""
+        found = np.diag(self.mechanism.per_freedom("armature"))
+        for part in self._threes:
+            found[part, part] = found[part.start, part.start]
+        return np.asarray(found)
+
+    @cached_property
+    def bias(self) -> Array:
+        """The unit of each row of the bias, (nv,)."""
+        return np.asarray(self._bias.sum(axis=1))
+
+    @cached_property
+    def _bias(self) -> Array:
+        """The share of each body in each row of the bias, (nv, bodies)."""
+        levers, rates = self._levers, self.once(self.v)
+        spin = rates @ self._turns
+        speed = Lengths(rates @ levers.own, rates @ levers.off)
+        swing = Lengths(3 * spin * speed.own, 3 * spin * speed.off)
+        turning = self._turns * (self._mass * speed.times(speed) + self._tensor * spin**2)
+        return np.asarray(levers.times(swing) * self._mass + turning + self._weights)
+
+    @cached_property
+    def gravity(self) -> Array:
+        """The unit of each row of gravity's share of the bias, (nv,)."""
+        return np.asarray(self._weights.sum(axis=1))
+
+    @cached_property
+    def _weights(self) -> Array:
+        levers = self._levers
+        return np.asarray((levers.own + levers.off) * self._mass * np.linalg.norm(self.mechanism.gravity))
+
+    @cached_property
+    def passive(self) -> Array:
+        """Σ|terms| of the dampers' and springs' forces, (nv,)."""
+        found = self.mechanism.per_freedom("damping") * self.rates(self.v)
+        for one in self.mechanism.joints:
+            here, joint = self.q[one.columns_q], one.joint
+            if joint.kind in ("hinge", "slide"):
+                found[one.at_v] += joint.stiffness * (abs(here[0]) + abs(joint.springref))
+                continue
+            found[one.columns_v][-3:] += joint.stiffness * np.pi
+            if joint.kind == "free":
+                rest = np.linalg.norm(self.mechanism.bodies[one.body].position)
+                found[one.columns_v][:3] += joint.stiffness * (np.linalg.norm(here[:3]) + rest)
+        return found
+
+    def rates(self, values: Array) -> Array:
+        """|values| (nv,), the norm for each of three that are components of a vector."""
+        found = np.abs(np.asarray(values, dtype=np.float64))
+        for part in self._threes:
+            found[part] = np.linalg.norm(found[part])
+        return found
+
+    def once(self, values: Array) -> Array:
+        """The same for sums, in which the norm is to be counted once: as the first of the three."""
+        found = self.rates(values)
+        for part in self._threes:
+            found[part][1:] = 0
+        return found
+
+    @cached_property
+    def _threes(self) -> list[slice]:
+        """The degrees of freedom that are components of a vector."""
+        found: list[slice] = []
+        for one in self.mechanism.joints:
+            if one.joint.freedoms >= 3:
+                found += [slice(at, at + 3) for at in range(one.at_v, one.at_v + one.joint.freedoms, 3)]
+        return found
+
+    def residual(
+        self, accelerations: Array, mass: Array, torque: Array | None = None, *, factorised: bool = True
+    ) -> Array:
+        """The unit of each row of M a + bias − passive − torque, (nv,); ``mass``: M (nv, nv), to a few digits.
+
+        ``factorised``: whether the engine factorises M. One that eliminates a joint at a time inverts its block.
+        """
+        swings, rates = self.once(accelerations), self.once(self.v)
+        for one in self.mechanism.joints:
+            if one.joint.kind == "free":  # what a turning frame adds to an acceleration given in its axes
+                swings[one.at_v] += rates[one.at_v] * rates[one.at_v + 3]
+        levers = self._levers
+        swing = Lengths(swings @ levers.own, swings @ levers.off)
+        shares = levers.times(swing) * self._mass + self._turns * (self._tensor * (swings @ self._turns)) + self._bias
+        rows = shares.sum(axis=1) + self._armature @ swings + self.passive
+        if torque is not None:
+            rows = rows + self.rates(torque)
+        rows = rows + self._inverted(mass, rows, shares)
+        if factorised:
+            squares = np.diag(mass).copy()
+            for part in self._threes:
+                squares[part] = squares[part].sum()  # whichever axes the engine has
+            root = np.sqrt(squares)
+            rows = rows + root * (root @ swings)
+        return np.asarray(rows)
+
+    def _inverted(self, mass: Array, rows: Array, shares: Array) -> Array:
+        """What inverting the block D of a ball's or a free joint's degrees of freedom adds to the units ``rows``.
+
+        D is M's block with all that hangs on the joint eliminated. Scaled to a diagonal of ones, S D S = E, a stable
+        inverse X leaves |E X − 1| ≤ c ε |E⁻¹|, so that of D a = u the row S⁻¹ |E⁻¹| |S u| is lost. What is taken off
+        the inertia that the joint hands on, U X Uᵀ, is at most that inertia, but its terms are up to |E⁻¹| times as
+        large: the ``shares`` of the bodies that hang on the joint, in all rows that move them.
+        """
+        found = np.zeros_like(rows)
+        for one in self.mechanism.joints:
+            if one.joint.freedoms < 3:
+                continue
+            block, own = one.columns_v, slice(0, one.joint.freedoms)
+            below = self._below(one.body)
+            hanging = np.flatnonzero(below[self._first_moved] & (np.arange(len(rows)) >= one.at_v))
+            try:
+                inverse = np.linalg.inv(mass[np.ix_(hanging, hanging)])[own, own]
+                scale = np.sqrt(np.abs(np.diag(np.linalg.inv(inverse))))
+            except np.linalg.LinAlgError:
+                continue  # a singular matrix has no accelerations that could be judged
+            grown = float(np.linalg.norm(scale[:, None] * inverse * scale, 2))
+            found[block] += scale * grown * np.linalg.norm(rows[block] / scale)
+            found += grown * self._moves[:, one.body] * shares[:, below].sum(axis=1)
+        return found
+
+    def _below(self, body: int) -> NDArray[np.bool_]:
+        """Whether each body is this one or hangs on it, (bodies,)."""
+        found = np.zeros(len(self.mechanism.bodies), dtype=np.bool_)
+        for index, other in enumerate(self.mechanism.bodies):
+            found[index] = index == body or (other.parent != WORLD and found[other.parent])
+        return found
+
+    @cached_property
+    def _moved(self) -> spatial_kinematics.Motion:
+        return spatial_kinematics.motion(self.mechanism, self.q[None], self.v[None])
+
+    @cached_property
+    def _turns(self) -> Array:
+        """w_i where degree of freedom i moves body b, (nv, bodies)."""
+        turning = np.ones(self.mechanism.nv, dtype=np.bool_)
+        for one in self.mechanism.joints:
+            if one.joint.kind == "slide":
+                turning[one.at_v] = False
+            if one.joint.kind == "free":
+                turning[one.columns_v][:3] = False
+        return np.asarray(self._moves * turning[:, None])
+
+    @cached_property
+    def _moves(self) -> Array:
+        """1 where a degree of freedom (row) moves a body (column), else 0."""
+        found = np.zeros((self.mechanism.nv, len(self.mechanism.bodies)))
+        for one in self.mechanism.joints:
+            found[one.columns_v, one.body] = 1
+        for index, body in enumerate(self.mechanism.bodies):
+            if body.parent != WORLD:
+                found[:, index] += found[:, body.parent]
+        return found
+
+    @cached_property
+    def _ways(self) -> tuple[Array, Array, Array]:
+        """Length of the way from the world to each joint's pivot (nv,), to each body's frame and on to its centre.
+
+        Along a body's position, then from one joint's anchor to the next one's, and along what has slid.
+        """
+        frames = np.zeros(len(self.mechanism.bodies))
+        pivots = np.zeros(self.mechanism.nv)
+        joints: dict[int, list[int]] = {index: [] for index in range(len(frames))}
+        for number, one in enumerate(self.mechanism.joints):
+            joints[one.body].append(number)
+        for index, body in enumerate(self.mechanism.bodies):
+            way = (frames[body.parent] if body.parent != WORLD else 0.0) + float(np.linalg.norm(body.position))
+            for number in joints[index]:
+                one = self.mechanism.joints[number]
+                if one.joint.kind == "free":
+                    way = float(np.linalg.norm(self.q[one.columns_q][:3]))
+                elif one.joint.kind == "slide":
+                    way += abs(self.q[one.at_q]) + abs(one.joint.ref)
+                else:
+                    way += float(np.linalg.norm(one.joint.anchor))
+                pivots[one.columns_v] = way
+                if one.joint.kind in ("hinge", "ball"):
+                    way += float(np.linalg.norm(one.joint.anchor))
+            frames[index] = way
+        centres = frames + [float(np.linalg.norm(body.inertial.centre)) for body in self.mechanism.bodies]
+        return pivots, frames, centres
+
+    @cached_property
+    def _levers(self) -> Lengths:
+        """u_ib, (nv, bodies)."""
+        pivots, _, centres = self._ways
+        along = np.maximum(centres[None] - pivots[:, None], 0.0) + EPSILON * centres[None]  # known no better
+        off = np.zeros_like(along)
+        if self.world:
+            middle, far, places, at = self._places()
+            about = np.linalg.norm(at - middle[self._first_moved], axis=-1)[:, None]
+            along = np.maximum(along, about + np.linalg.norm(places - middle, axis=-1)[None])
+            off = np.broadcast_to(far[None], along.shape)
+        turning = self._turns > 0
+        return Lengths(np.where(turning, along, self._moves), np.where(turning, off, 0.0))
+
+    @cached_property
+    def _first_moved(self) -> NDArray[np.intp]:
+        """The body of each degree of freedom's joint, (nv,)."""
+        found = np.zeros(self.mechanism.nv, dtype=np.intp)
+        for one in self.mechanism.joints:
+            found[one.columns_v] = one.body
+        return found
+
+    def _places(self) -> tuple[Array, Array, Array, Array]:
+        """For each body the centre of mass of all that hangs together with it and the longest way to any of that.
+
+        And every body's own centre, and each degree of freedom's pivot.
+        """
+        moved = self._moved
+        centres = np.stack([body.inertial.centre for body in self.mechanism.bodies])
+        places = moved.position[0] + np.einsum("bik,bk->bi", moved.rotation[0], centres)
+        root = np.arange(len(places))
+        for index, body in enumerate(self.mechanism.bodies):
+            if body.parent != WORLD:
+                root[index] = root[body.parent]
+        middle, far = np.empty_like(places), np.empty(len(places))
+        for which in np.unique(root):
+            these = root == which
+            weights = self._mass[these] if self._mass[these].sum() > 0 else np.ones(these.sum())
+            middle[these] = np.average(places[these], axis=0, weights=weights)
+            far[these] = self._ways[2][these].max()
+        return middle, far, places, moved.pivot[0]
+
+
+def allowed_mass_matrix(mechanism: SpatialMechanism, q: Array, *, world: bool = True) -> Array:
+    """What each entry of an engine's M may be off by, (nv, nv), in the state ``q`` (nq,)."""
+    units = Magnitudes(mechanism, q, world=world)
+    return units.roundings * EPSILON * units.mass_matrix
+
+
+def allowed_bias(mechanism: SpatialMechanism, q: Array, v: Array, *, world: bool = True) -> Array:
+    """What each row of an engine's bias may be off by, (nv,) [N m or N]."""
+    units = Magnitudes(mechanism, q, v, world=world)
+    return units.roundings * EPSILON * units.bias
+
+
+def allowed_gravity(mechanism: SpatialMechanism, q: Array, *, world: bool = True) -> Array:
+    """What each row of an engine's gravity terms may be off by, (nv,) [N m or N]."""
+    units = Magnitudes(mechanism, q, world=world)
+    return units.roundings * EPSILON * units.gravity
+
+
+def allowed_passive(mechanism: SpatialMechanism, q: Array, v: Array) -> Array:
+    """What each row of an engine's passive forces may be off by, (nv,) [N m or N]."""
+    return FORCE_ROUNDINGS * EPSILON * Magnitudes(mechanism, q, v).passive
+
+
+def allowed_residual(
+    mechanism: SpatialMechanism,
+    q: Array,
+    v: Array,
+    accelerations: Array,
+    mass: Array,
+    torque: Array | None = None,
+    *,
+    factorised: bool = True,
+    world: bool = True,
+) -> Array:
+    """What each row of M a + bias − passive − torque may be, (nv,), for an engine's ``accelerations`` a (nv,).
+
+    ``mass``: M (nv, nv), to a few digits; ``factorised``: whether the engine factorises it.
+    """
+    units = Magnitudes(mechanism, q, v, world=world)
+    return units.roundings * EPSILON * units.residual(accelerations, mass, torque, factorised=factorised)

@@ -1,0 +1,185 @@
+"""Bounds of rounding in space hold for MuJoCo and Pinocchio, which are right, and not for what is a little wrong."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+import spatial_engines
+import spatial_trees
+
+from furiko.models.spatial import Inertial
+from furiko.models.spatial_mechanism import Joint, RigidBody, SpatialMechanism
+from furiko.reference.rounding import spatial as rounding
+from furiko.reference.truth.spatial import spatial_truth
+
+
+def light_and_heavy(rng, body):
+    factor = 10.0 ** rng.uniform(-6, 3)
+    return replace(body, inertial=Inertial(body.inertial.mass * factor, *scaled(body, 1.0, factor)))
+
+
+def short_and_long(rng, body):
+    factor = 10.0 ** rng.uniform(-4, 0)
+    joints = tuple(replace(j, anchor=j.anchor * factor, armature=0.0) for j in body.joints)
+    inertial = Inertial(body.inertial.mass, *scaled(body, factor, factor**2))
+    return replace(body, position=body.position * factor, joints=joints, inertial=inertial)
+
+
+def nearly_points(rng, body):
+    joints = tuple(replace(j, armature=0.0) for j in body.joints)
+    return replace(body, joints=joints, inertial=Inertial(body.inertial.mass, *scaled(body, 1.0, 1e-6)))
+
+
+def as_it_is(rng, body):
+    return body
+
+
+def scaled(body, length, inertia):
+    return body.inertial.centre * length, body.inertial.tensor * inertia
+
+
+KINDS = (as_it_is, light_and_heavy, short_and_long, nearly_points)
+
+
+def drawn(seed, kind=as_it_is):
+    rng = np.random.default_rng(seed)
+    mechanism = spatial_trees.tree(rng, int(rng.integers(2, 15)), free=seed % 2 == 0)
+    bodies = tuple(kind(rng, body) for body in mechanism.bodies)
+    mechanism = spatial_engines.without_free_armature(replace(mechanism, bodies=bodies))
+    q, v, torque = spatial_trees.state(rng, mechanism)
+    return mechanism, spatial_engines.unit_quaternions(mechanism, q), v, torque
+
+
+def shares(truth, found, **options):
+    """What an engine's M, bias, passive forces and accelerations are off by, over what is allowed."""
+    mechanism, q, v = truth.mechanism, truth.q, truth.v
+    mass, bias, passive, accelerations = found
+    allowed = {
+        "M": (truth.mass_matrix.enclosure.error(mass), rounding.allowed_mass_matrix(mechanism, q, **options)),
+        "bias": (truth.bias.enclosure.error(bias), rounding.allowed_bias(mechanism, q, v, **options)),
+    }
+    if passive is not None:
+        allowed["passive"] = (truth.passive.enclosure.error(passive), rounding.allowed_passive(mechanism, q, v))
+    if accelerations is not None:
+        residual = np.abs(truth.residual(accelerations).float)
+        bound = rounding.allowed_residual(
+            mechanism,
+            q,
+            v,
+            accelerations,
+            truth.mass_matrix.float,
+            truth.torque,
+            factorised=passive is not None,
+            **options,
+        )
+        allowed["accelerations"] = (residual, bound)
+    return {name: float(np.max(error / np.maximum(bound, 1e-300))) for name, (error, bound) in allowed.items()}
+
+
+def both(mechanism, q, v, torque):
+    truth = spatial_truth(mechanism, q, v, torque)
+    yield truth, spatial_engines.MuJoCo(mechanism).terms(q, v, torque)
+    yield truth, spatial_engines.Pinocchio(mechanism).terms(q, v, torque, truth.passive.float)
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
+@pytest.mark.parametrize("seed", range(6))
+def test_engines_that_are_right_are_within(kind, seed):
+    for truth, found in both(*drawn(seed, kind)):
+        assert max(shares(truth, found).values()) < 1
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_pinocchio_is_within_the_ways_along_the_joints(seed):
+    _, (truth, found) = both(*drawn(seed))
+    assert max(shares(truth, found, world=False).values()) < 1
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_no_term_is_above_its_unit(seed):
+    """Of whatever is added up the sum is at most the sum of magnitudes."""
+    mechanism, q, v, torque = drawn(seed)
+    truth = spatial_truth(mechanism, q, v, torque)
+    for world in (True, False):
+        units = rounding.Magnitudes(mechanism, q, v, world=world)
+        assert (np.abs(truth.mass_matrix.float) <= units.mass_matrix * (1 + 1e-12)).all()
+        assert (np.abs(truth.bias.float) <= units.bias * (1 + 1e-12)).all()
+        assert (np.abs(truth.gravity.float) <= units.gravity * (1 + 1e-12)).all()
+        assert (np.abs(truth.passive.float) <= units.passive * (1 + 1e-12)).all()
+
+
+def arm(rng, n=7):
+    """A serial arm of the size of real ones, each axis across the one before."""
+    bodies = []
+    for i in range(n):
+        inertial = Inertial(3.0 - 0.3 * i, rng.normal(size=3) * 0.05, np.diag([0.02, 0.015, 0.012]) * 0.7**i)
+        axis = np.eye(3)[i % 2 + 1]
+        bodies.append(
+            RigidBody(
+                f"link {i}",
+                i - 1,
+                np.array([0.02, 0.0, 0.25]),
+                joints=(Joint(f"joint {i}", axis=axis),),
+                inertial=inertial,
+            )
+        )
+    return SpatialMechanism(tuple(bodies), np.array([0.0, 0.0, -9.81]))
+
+
+@cache
+def arm_in_motion():
+    rng = np.random.default_rng(7)
+    mechanism = arm(rng)
+    return spatial_truth(mechanism, *spatial_trees.state(rng, mechanism))
+
+
+def altered(mechanism, index, parameter, relative):
+    body = mechanism.bodies[index]
+    inertial = body.inertial
+    factor = 1 + relative
+    made = {
+        "mass": replace(body, inertial=replace(inertial, mass=inertial.mass * factor)),
+        "centre": replace(body, inertial=replace(inertial, centre=inertial.centre * factor)),
+        "tensor": replace(body, inertial=replace(inertial, tensor=inertial.tensor * factor)),
+        "position": replace(body, position=body.position * factor),
+    }[parameter]
+    bodies = list(mechanism.bodies)
+    bodies[index] = made
+    return replace(mechanism, bodies=tuple(bodies))
+
+
+@pytest.mark.parametrize("parameter", ["mass", "centre", "tensor", "position"])
+@pytest.mark.parametrize("index", range(7))
+def test_a_parameter_of_an_arm_that_is_a_little_off_is_found(parameter, index):
+    """By 1e-9 in M or the bias, by 1e-6 in accelerations: through MuJoCo's own rounding.
+
+    The first link's weight is a thousandth of what its joint moves, so that a row shows 1e-8 of it. Its place matters
+    to nothing, gravity being the same everywhere.
+    """
+    truth = arm_in_motion()
+    mechanism, q, v, torque = truth.mechanism, truth.q, truth.v, truth.torque
+    terms = spatial_engines.MuJoCo(altered(mechanism, index, parameter, 1e-9 if index else 1e-8)).terms(q, v, torque)
+    moved = spatial_engines.MuJoCo(altered(mechanism, index, parameter, 1e-6)).terms(q, v, torque)
+    found, more = shares(truth, terms), shares(truth, moved)
+    matters = (parameter, index) != ("position", 0)
+    assert (max(found["M"], found["bias"]) > 1) == matters
+    assert (more["accelerations"] > 1) == matters
+
+
+def test_a_base_far_away_costs_digits_in_the_world_alone():
+    mechanism, q, v, torque = drawn(4)
+    q[:3] = 1e5, -2e5, 3e4
+    (truth, mujoco), (_, pinocchio) = both(mechanism, q, v, torque)
+    assert max(shares(truth, mujoco).values()) < 1
+    assert shares(truth, mujoco, world=False)["M"] > 1
+    assert max(shares(truth, pinocchio, world=False).values()) < 1
+
+
+def test_a_ball_whose_block_is_inverted_loses_digits(monkeypatch):
+    """Pinocchio inverts a ball's 3 × 3 block; with a slide after it on a light body that has a large condition."""
+    mechanism, q, v, torque = drawn(23, nearly_points)
+    _, (truth, found) = both(mechanism, q, v, torque)
+    assert shares(truth, found)["accelerations"] < 1
+    monkeypatch.setattr(rounding.Magnitudes, "_inverted", lambda *arguments: 0.0)
+    assert shares(truth, found)["accelerations"] > 1
