@@ -83,9 +83,9 @@ def _expected(against: Any) -> tuple[Mechanism | None, str]:
     if isinstance(against, str | Path):
         if str(against).endswith(MODEL_ENDINGS):
             return read_model(against).mechanism, str(against)
-        from ...models import find_scene
+        from ...models import find_document_scene
 
-        scene = find_scene(str(against))
+        scene = find_document_scene(str(against), "--against")
         return mechanism_of(scene.system.tree()), scene.name
     if isinstance(against, ModelFile):
         return against.mechanism, against.path

@@ -93,10 +93,10 @@ def _kept() -> dict[str, dict[str, Any]]:
 
 def main() -> None:
     """Compute the end points of the catalogue's scenes and of the benchmarks anew."""
-    from ...models import find_scenes
+    from ...models import document_scenes
     from ...models.benchmark_scenes import BENCHMARKS
 
-    for scenes, path in ((find_scenes(None), PATH), ([*BENCHMARKS.values()], BENCHMARKS_PATH)):
+    for scenes, path in ((document_scenes(), PATH), ([*BENCHMARKS.values()], BENCHMARKS_PATH)):
         print(f"{write(scenes, path)} end points written to {path}")
 
 
