@@ -10,10 +10,10 @@ check: $(VENV)/.check  ## run the catalogue against every engine; writes furiko-
 	$(BIN)/furiko check
 
 test: $(VENV)/.test  ## run the tests, less the slow ones: some minutes
-	$(BIN)/python -m pytest -n $(JOBS) -m "not slow"
+	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m "not slow"
 
 test-slow: $(VENV)/.test  ## run the slow tests alone
-	$(BIN)/python -m pytest -n $(JOBS) -m slow
+	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m slow
 
 test-all: test test-slow  ## run every test
 

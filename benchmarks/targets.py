@@ -24,7 +24,6 @@ from target import Target
 
 from furiko.engines import AnyShape, cannot, engine_info, engine_version, load_engine
 from furiko.models import NLegPendulum, RodChain, Scene
-from furiko.models.benchmark_scenes import BENCHMARKS
 from furiko.models.states import random_states
 from furiko.models.systems import DocumentSystem
 from furiko.reference.documents.equations_of_motion import energies
@@ -32,6 +31,7 @@ from furiko.reference.integration.taylor import simulate
 from furiko.reference.kernels.forward_dynamics import accelerations, kernel_of
 from furiko.reference.truth.newton_euler import enclosed_accelerations
 from furiko.studies.bench.methods import DOP853, TAYLOR, dop853, end_error, start, taylor
+from furiko.studies.bench.scenes import BENCHMARKS
 from furiko.studies.bench.timing import Subject, Times, interleaved
 from furiko.studies.bench.work_precision import reach
 

@@ -21,6 +21,7 @@ import msgspec
 
 from ..engines import ENGINES
 from ..models import AnyScene, TreeScene
+from ..models.writers.whole_file import replace_file
 from ..records.check import Diagnosis, Result
 from .foundations import own_foundation, package_foundation
 from .plan import Task
@@ -114,14 +115,9 @@ class Cache:
         path = self._path(kind, key)
         if path is None:
             return
-        draft = path.with_name(f"{path.name}.{os.getpid()}")
         with contextlib.suppress(OSError):
             path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
-            try:
-                draft.write_bytes(hashlib.sha256(content).digest() + content)
-                draft.replace(path)
-            finally:
-                draft.unlink(missing_ok=True)
+            replace_file(path, hashlib.sha256(content).digest() + content)
             if random.random() < 1 / 64:  # looking at every entry takes longer than writing one
                 self.trim()
 

@@ -24,9 +24,6 @@ if TYPE_CHECKING:
     from .cell import Cell
     from .trees.cell import TreeCell
 
-# Most jobs need them: a worker imports them while its first job is still being decided on.
-MODULES = ("furiko.checks.facts", "furiko.checks.causes")
-
 
 @dataclass(frozen=True)
 class Facts:

@@ -21,25 +21,26 @@ from numpy.typing import NDArray
 
 from ..engines import EngineInfo, Integrator
 from ..models.states import States
-from ..reference.rounding.maximal_elimination import spread_orders, states_within_a_second
+from ..reference.rounding.maximal_elimination import spread_states
 from .cell import quotient, worst
 
 Array = NDArray[np.float64]
 
 # Spreads beyond which a result is loose, for each quantity.
-ACCELERATIONS = 50.0
+ACCELERATIONS = 25.0  # of a mass matrix that is factorised
+ARTICULATED = 15.0  # of articulated bodies
 TERMS = 15.0
 JOINT_FORCES = 15.0
-ENERGY = 60.0
+ENERGY = 15.0
 STEPS = 10.0  # angles and rates after steps of an explicit scheme
 ITERATED = 30.0  # the same of an implicit one, whose tolerance comes besides
-MAXIMAL = 10.0  # accelerations and joint forces of engines in maximal coordinates
+MAXIMAL = 5.0  # accelerations and joint forces of engines in maximal coordinates
 
 ENTRIES = 1_000  # states times links that are looked at for accelerations
 SYMMETRIES = 64  # the same for symmetries, each of which has an image
 COLUMNS = 200  # for terms, where each state costs n rows of inverse dynamics
 LONGEST = 200  # links of the longest mechanism for which terms, or maximal coordinates, are looked at
-FEW = 5  # states in maximal coordinates, at most
+FEW = 10  # states in maximal coordinates, at most
 
 
 @dataclass(frozen=True)
@@ -107,6 +108,13 @@ def chosen(excess: Array, most: int) -> NDArray[np.intp]:
     return np.union1d(bad, even)
 
 
+def for_accelerations(info: EngineInfo) -> float:
+    """The factor for accelerations of this engine."""
+    if info.coordinates == "maximal":
+        return MAXIMAL
+    return ARTICULATED if info.algorithm == "aba" else ACCELERATIONS
+
+
 def for_steps(integrator: Integrator) -> float:
     """The factor for angles and rates after steps of this integrator."""
     return ITERATED if integrator.tolerance else STEPS
@@ -116,8 +124,7 @@ def states_for_accelerations(info: EngineInfo, n: int) -> int:
     """How many states a cell can afford, about a quarter of a second's work; 0: none."""
     if info.coordinates != "maximal":
         return max(4, ENTRIES // n)
-    affordable = max(1, states_within_a_second(n, spread_orders(n) + 2) // 4)
-    return min(FEW, affordable) if n <= LONGEST else 0
+    return min(FEW, spread_states(n, info.ordering))
 
 
 def steps_together(integrator: Integrator, n: int) -> int:
@@ -128,7 +135,7 @@ def steps_together(integrator: Integrator, n: int) -> int:
 def states_for_symmetries(info: EngineInfo, n: int) -> int:
     """How many states a cell can afford in which each image of the mechanism is looked at; 0: none."""
     if info.coordinates == "maximal":
-        return min(2, states_within_a_second(n, spread_orders(n) + 2) // 16)
+        return min(2, spread_states(n, info.ordering) // 4)
     return min(2, SYMMETRIES // n)
 
 

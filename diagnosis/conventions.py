@@ -47,11 +47,15 @@ class Convention:
         """
         forward = measured.only(measured.forward)
         with np.errstate(all="ignore"):
+            theta = forward.theta @ self.angles.T + self.offset
+            # An angle of many turns has lost digits: its sine and cosine are known to ε times the angle, no better.
+            digits = max(1.0, float(np.max(np.abs(theta), initial=0.0)))
             return replace(
                 forward,
-                theta=forward.theta @ self.angles.T + self.offset,
+                theta=theta,
                 omega=forward.omega @ self.rates.T,
                 alpha=forward.alpha @ self.answers.T,
+                accuracy=measured.accuracy * digits,
             )
 
     def view_of_all(self, measured: Measurement) -> Measurement:
@@ -60,6 +64,7 @@ class Convention:
         with np.errstate(all="ignore"):
             return replace(
                 measured,
+                accuracy=seen.accuracy,
                 theta=np.concatenate([seen.theta, inverse.theta @ self.angles.T + self.offset]),
                 omega=np.concatenate([seen.omega, inverse.omega @ self.rates.T]),
                 alpha=np.concatenate([seen.alpha, inverse.alpha @ self.answers.T]),
@@ -88,9 +93,7 @@ def fitting_conventions(q: Question) -> list[Convention]:
 
 def _fits(convention: Convention, measured: Measurement, p: Parameters) -> bool:
     with np.errstate(all="ignore"):
-        seen = convention.view(measured)
-        # Angles of many turns have lost digits; what that changes is rounding too.
-        return seen.worst(p) <= max(1.0, float(np.abs(seen.theta).max()))
+        return convention.view(measured).worst(p) <= 1
 
 
 def conventions(engine: Any, m: Mechanism) -> Iterator[Convention]:

@@ -146,7 +146,7 @@ def _links(
         scaled_along = (
             other_mass and wanted.inertia and abs(got.inertia / wanted.inertia / ratio - 1) < PATTERN_TOLERANCE
         )
-        if displaced and i not in other_lengths:
+        if displaced and not (i in other_lengths and _moved_along(got, wanted, other_lengths[i])):
             yield _displaced(
                 name,
                 got.com,
@@ -235,6 +235,17 @@ def _lengths(found: Mechanism, expected: Mechanism, who: str, expectation: str) 
                     says = f"{who}: {other} is at the expected distance on {name}, but rotated by {rounded(off)}°"
                 yield i, Finding("length", name, size, right, says)
                 break
+
+
+def _moved_along(got: Link, wanted: Link, length: Finding) -> bool:
+    """Whether the centre of mass is where the link's other length, or its turned end, has taken it."""
+    found, expected = length.measured, length.expected
+    if not isinstance(found, float) or not isinstance(expected, float) or not expected:
+        return True
+    if abs(found / expected - 1) <= PATTERN_TOLERANCE:
+        return True
+    along = tuple(found / expected * x for x in wanted.com)
+    return math.dist(got.com, along) <= PATTERN_TOLERANCE * max(math.hypot(*got.com), math.hypot(*along))
 
 
 def _displaced(

@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from ..models.mechanism import Mechanism
+from ..models.readers.rules import mistakes_in
 
 CAUSES: dict[str, str] = {
     "armature": "a rotor's inertia on the hinge, which resists the relative acceleration",
@@ -39,6 +40,10 @@ CAUSES: dict[str, str] = {
     "angle-convention": "relative angles are used as absolute ones, or angles have another zero or another sign",
     "joint-order": "the joints' coordinates are in another order",
     "joint-dropped-by-parser": "an expected joint is missing",
+    "joint-type": "a joint of another kind",
+    "joint-axis": "another axis of a joint",
+    "joint-placement": "another place of a joint",
+    "file-refused": "the engine refuses the file",
     "joint-added": "there is a joint that is not expected",
     "continuous-joint-not-normalised": "the pair (cos, sin) of a joint is not of length one",
     "colliding-geoms": "geoms are in contact and push each other",
@@ -63,6 +68,9 @@ CAUSES: dict[str, str] = {
     "square-missing": "a rate stands where its square is expected",
     "wrong-rate": "another link's rate is squared",
     "wrong-acceleration": "another link's acceleration is multiplied",
+    "free-armature-in-body-axes": "the armature of a free joint acts along the body's axes, not the world's",
+    "servo": "an actuator pulls although its control is zero",
+    "coarse-time-step": "the file's time step is too long for its integrator",
     "float32": "single precision",
     "implicit-damping": "the time step treats damping implicitly",
     "first-order-integrator": "the integration scheme is of first order",
@@ -72,6 +80,13 @@ CAUSES: dict[str, str] = {
     "theory-is-wrong": "all engines agree with one another and differ from furiko's reading",
     "chaos-only": "the same equations of motion; small errors grow",
     "unexplained": "no known cause fits",
+}
+
+
+# A mistake in reading a file, by the flag of furiko's own reader that makes it.
+CAUSES |= {
+    flag.replace("_", "-"): f"an engine that {says}"
+    for flag, says in [*mistakes_in("mjcf").items(), *mistakes_in("urdf").items()]
 }
 
 

@@ -35,7 +35,6 @@ class Question:
     compiled: Mechanism | None
     who: str
     view: View = as_measured
-    scale_before: float = 0.0
 
     @cached_property
     def p(self) -> Parameters:
@@ -49,13 +48,13 @@ class Question:
 
     @cached_property
     def scale(self) -> float:
-        """The median of what rounding explains [N m] with the numbers expected, as it was measured."""
+        """The median of what rounding explains [N m] with the numbers expected."""
         with np.errstate(all="ignore"):
-            return self.scale_before or float(np.median(self.measured.tolerances(self.p)))
+            return float(np.median(self.measured.tolerances(self.p)))
 
     def seen_as(self, view: View) -> Question:
         """The same question with another view of what was measured."""
-        return replace(self, measured=view(self.measured), view=view, scale_before=self.scale)
+        return replace(self, measured=view(self.measured), view=view)
 
     def against(self, other: Mechanism) -> Question:
         """The same question with another mechanism expected."""

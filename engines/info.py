@@ -79,6 +79,7 @@ class EngineInfo:
     * ``placed``: whether its model has a link's place in the frame of the ``parent``, as it is given, or as the
       difference of two places in the ``world``.
     * ``interchanges``: whether its linear solver interchanges rows (partial pivoting, without scaling them).
+    * ``ordering``: in maximal coordinates, the order in which unknowns are eliminated: by ``colamd``, or ``unknown``.
     * ``accuracy``: relative accuracy of one operation, with ``accuracy_reason`` where it is not the unit roundoff.
     * ``algorithm``: how accelerations are solved for: articulated bodies (``aba``), or a mass matrix that is formed and
       factorised (``crba``); ``inverse``: how inverse dynamics and joint forces are computed: link by link
@@ -106,6 +107,7 @@ class EngineInfo:
     moments: Literal["hinge", "tree"] = "hinge"
     placed: Literal["parent", "world"] = "parent"
     interchanges: bool = False
+    ordering: Literal["unknown", "colamd"] = "unknown"
     algorithm: Literal["aba", "crba"] = "crba"
     inverse: Literal["rnea", "crba", "matrix"] = "matrix"
     tree: TreeInfo | None = None

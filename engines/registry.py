@@ -132,6 +132,7 @@ ENGINES: dict[str, EngineInfo] = {
             },
             largest_n=1000,
             largest_n_reason="three coordinates and two constraints a link",
+            ordering="colamd",  # Eigen's SparseLU, whose columns COLAMD orders unless it is told otherwise
             accuracy=6 * 2.0**-52,
             accuracy_reason="three solutions combined with weights whose magnitudes sum to 5.7",
             **_EXUDYN,

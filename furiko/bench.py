@@ -19,9 +19,9 @@ from .models import (
     find_document_scene,
     find_scene,
 )
-from .models.benchmark_scenes import BENCHMARKS
 from .records import provenance
 from .records.bench import Bench, Motion, Sharpness, Skip, Speed
+from .studies.bench.scenes import BENCHMARKS
 
 SKIP_SCENES = ("double-pendulum", "rods-5")
 THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 from . import __version__
 from .checks.cache import Cache, user_cache
-from .checks.jobs import MODULES
+from .checks.imported_ahead import MODULES
 from .checks.ledger import Ledger
 from .checks.plan import Plan, make_plan, random_states
 from .checks.runner import TIMEOUT, run

@@ -4,9 +4,9 @@ Everything that moves in furiko is one of these: a robot read from a file, a car
 
 **Coordinates** are MuJoCo's, joint after joint in the bodies' order. A hinge has one angle [rad], a slide one length
 [m]; a ball a quaternion (w, x, y, z), and as rates the angular velocity in the moved body's axes [rad/s]; a free joint
-its body's place (3) [m] and quaternion (4) in the world, and as rates the place's velocity in world axes [m/s], then the
-angular velocity in the body's axes [rad/s]. Quaternions of any length but zero stand for the rotation of their
-direction.
+its body's place (3) [m] and quaternion (4) in the world, and as rates the velocity of that place in world axes [m/s],
+then the angular velocity in the body's axes [rad/s]. Quaternions of any length but zero stand for the rotation of
+their direction.
 
 **Kinematics.** A body's frame is at ``position``, turned by ``quaternion``, in its parent's frame; then its joints move
 it, in their order, each in the frame that the joints before it have moved: a slide by ``(q − ref)·axis``, a hinge by
@@ -43,7 +43,7 @@ class Joint:
 
     ``ref``: the coordinate of a hinge [rad] or slide [m] in the reference configuration. Each degree of freedom has
     ``armature`` [kg m² or kg], which is added to the diagonal of the mass matrix, ``damping`` [N m s or N s/m],
-    ``friction`` (dry) [N m or N]. ``stiffness`` [N m/rad or N/m] pulls towards ``springref``, the spring's coordinate at
+    ``friction`` (dry) [N m or N]. ``stiffness`` [N m/rad or N/m] pulls towards ``springref``, its coordinate at
     rest; a ball's or free joint's spring is at rest in the reference configuration. ``limits``: lowest and highest
     coordinate, for a ball the largest angle as the second, or None. ``where``: its place in the file, for messages.
     """

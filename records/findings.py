@@ -36,6 +36,18 @@ class NamedMistake(msgspec.Struct, frozen=True, kw_only=True):
     also: list[str]  # further mistakes that lead to the same equations
 
 
+class GradeReading(msgspec.Struct, frozen=True, kw_only=True):
+    """What was read of a derivation, so that its author sees whether he was understood."""
+
+    mechanism: str
+    mechanism_ja: str
+    drawing: str  # of characters; empty for many links
+    angles: str
+    angles_ja: str
+    symbols: list[tuple[str, str]]  # what is written, what it is read as
+    equations: list[tuple[str, str]]  # label, and the equation in the author's letters
+
+
 class GradeDocument(msgspec.Struct, frozen=True, kw_only=True):
     """The document of ``furiko grade --json``."""
 
@@ -47,6 +59,11 @@ class GradeDocument(msgspec.Struct, frozen=True, kw_only=True):
     notes_ja: list[str]
     system: str
     links: int
+    assumes: list[str]  # what "correct" rests on and the file does not say; empty: on nothing
+    assumes_ja: list[str]
+    reading: GradeReading
+    right_for: str  # another mechanism that wrong equations are right for; empty: none known
+    right_for_ja: str
 
 
 # --- audit
@@ -133,11 +150,60 @@ class MechanismEntry(msgspec.Struct, frozen=True, kw_only=True):
     links: list[LinkEntry]
 
 
+class SpatialJoint(msgspec.Struct, frozen=True, kw_only=True):
+    """A joint of a body, in the body's own frame; numbers that are zero are left out."""
+
+    name: str
+    kind: str  # hinge, slide, ball or free
+    axis: list[float] | None = None
+    anchor: list[float] | None = None
+    ref: float | None = None  # its coordinate in the reference configuration
+    armature: float | None = None
+    damping: float | None = None
+    friction: float | None = None
+    stiffness: float | None = None
+    springref: float | None = None
+    limits: list[float] | None = None
+
+
+class SpatialBody(msgspec.Struct, frozen=True, kw_only=True):
+    """A body in its parent's frame, in the reference configuration; its inertial in its own frame; SI units."""
+
+    name: str
+    parent: str | None  # None: the world
+    position: list[float]
+    quaternion: list[float]  # w, x, y, z
+    mass: float
+    com: list[float] = msgspec.field(name="centre of mass")
+    inertia: list[float]  # about the centre of mass: xx, yy, zz, xy, xz, yz
+    joints: list[SpatialJoint]  # in the order in which they move it; none: fixed to its parent
+
+
+class SpatialEntry(msgspec.Struct, frozen=True, kw_only=True):
+    """An open mechanism in space."""
+
+    gravity: list[float]
+    bodies: list[SpatialBody]
+
+
+class MeasuredTerm(msgspec.Struct, frozen=True, kw_only=True):
+    """The worst entry of one of an engine's quantities against the truth of what the engine holds."""
+
+    quantity: str
+    ratio: float  # of the difference to what rounding explains
+    where: str
+    found: float
+    expected: float
+    allowed: float
+
+
 class EngineReading(msgspec.Struct, frozen=True, kw_only=True):
     """One engine on a model file. Further fields are settings of the engine, by their own names."""
 
     status: str  # agrees, differs, refused, failed or missing
     says: str
+    holds: SpatialEntry | None = None  # what the engine made of the user's own bytes
+    measured: list[MeasuredTerm] | None = None
     native: bool = msgspec.field(name="reads the file itself")
     compiled: MechanismEntry | None = None  # the mechanism that the engine made of the file
     residual: float | None = None  # what that mechanism does not explain
@@ -147,10 +213,14 @@ class EngineReading(msgspec.Struct, frozen=True, kw_only=True):
 class DiagnoseDocument(msgspec.Struct, frozen=True, kw_only=True):
     """The document of ``furiko diagnose --json``."""
 
-    verdict: str  # agrees, differs or unexplained
+    verdict: Literal["agrees", "differs", "unexplained", "incomplete"]
+    headline: str  # the answer in one sentence
+    without: list[str]  # what acts in the file and is left out of the comparison
     findings: list[Difference]
+    simulation: list[Difference]  # what a simulation of the file adds to its dynamics; changes no verdict
     engines: dict[str, EngineReading]
     model: str
     against: str | None
-    mechanism: MechanismEntry
+    mechanism: MechanismEntry | None  # None: not a planar tree of hinges
+    spatial: SpatialEntry
     notes: list[str]

@@ -18,6 +18,7 @@ with arrays whose last axis counts links, so that it runs in floats and balls, f
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -57,6 +58,12 @@ class Parameters:
     def items(self) -> dict[str, Array]:
         """Every parameter by its name."""
         return {name: getattr(self, name) for name in NAMES}
+
+    @cached_property
+    def ideal(self) -> bool:
+        """Whether no hinge has a torque of its own."""
+        own = (self.armature, self.damping, self.stiffness, self.preload, self.friction)
+        return not any(_anything(values) for values in own)
 
 
 NAMES = tuple(f.name for f in fields(Parameters))
@@ -126,6 +133,8 @@ def inverse_dynamics(parents: tuple[int, ...], p: Parameters, theta: Array, omeg
 
 def hinge_torque(p: Parameters, i: int, parent: int, theta: Array, omega: Array, alpha: Array | None) -> Any | None:
     """(5), the torque [N m] of hinge i, shape (…); None where it is ideal. No armature term without ``alpha``."""
+    if p.ideal:
+        return None
     held = (p.armature[..., i], p.damping[..., i], p.stiffness[..., i], p.preload[..., i], p.friction[..., i])
     a, d, k, preload, friction = held
     if not any(_anything(part) for part in held):

@@ -88,6 +88,8 @@ def singles(sizes: Sequence[int] = SIZES, seed: int = 1) -> Tally:
 
 def _single(answer: Grade, mistake: Mistake, classes: dict[str, tuple[int, ...]], m: Symbols) -> tuple[str, str]:
     where = f"{m.kind} {m.n} {mistake.name}"
+    if answer.assumes and answer.verdict == "correct":
+        return "right on a condition that is said", ""
     if answer.verdict != "wrong":
         return "NOT DETECTED", where
     if not answer.findings:
@@ -128,10 +130,12 @@ def _compatible(one: Mistake, two: Mistake) -> bool:
     return stages.isdisjoint(NEWTON_STAGES) or stages.isdisjoint(LAGRANGE_STAGES)
 
 
-def _pair(
+def _pair(  # noqa: PLR0911 -- one for each outcome
     answer: Grade, planted: tuple[Mistake, Mistake], classes: dict[str, tuple[int, ...]], m: Symbols
 ) -> tuple[str, str]:
     where = f"{m.kind} {m.n} {[p.name for p in planted]} -> {[n.name for n in answer.mistakes]}"
+    if answer.assumes and answer.verdict == "correct":
+        return "right on a condition that is said", ""
     if answer.verdict != "wrong":
         return "NOT DETECTED", where
     wanted = sorted(classes[p.name] for p in planted)
@@ -163,10 +167,14 @@ def rewritings(count: int = 1000, sizes: Sequence[int] = SIZES, seed: int = 3) -
 
 
 def hostile_inputs(count: int = 10_000, seed: int = 4) -> Tally:
-    """Malformed and hostile inputs: each must end in a verdict or in one line that says where."""
+    """Malformed and hostile inputs, none twice: each must end in a verdict or in one line that says where."""
     tally, draw = Tally("hostile inputs"), random.Random(seed)
-    for _ in range(count):
+    tried: set[str] = set()
+    while len(tried) < count:
         text = hostile(draw)
+        if text in tried:  # of large ones there are a few dozen, each of which takes as long as a hundred others
+            continue
+        tried.add(text)
         try:
             answer = tally.timed(grade_text, text)
             tally.add(f"read after all: {answer.verdict}")

@@ -90,8 +90,6 @@ WRONG = [
      {"height-incomplete", "sum-incomplete"}, {"B[1,1]"}),
     ("gravity on mass 1 only", "n-leg", [ROW_1.replace("(m1+m2)*g", "m1*g"), ROW_2.replace(" + m2*g*sin(t2)", "")],
      {"gravity-on-one-mass-only", "potential-energy-missing"}, {"B[1,1]", "B[2,2]"}),
-    ("L = T + U", "n-leg", [ROW_1.replace("+ (m1+m2)*g", "- (m1+m2)*g"), ROW_2.replace("+ m2*g", "- m2*g")],
-     {"sum-for-difference"}, {"B[1,1]", "B[2,2]"}),
     ("cross term of the squared speed forgotten", "n-leg",
      ["(m1+m2)*l1*a1 + (m1+m2)*g*sin(t1) = 0", "m2*l2*a2 + m2*g*sin(t2) = 0"],
      {"cross-term-missing", "binomial-without-middle"}, {"A[1,2]", "A[2,1]", "B[1,2]", "B[2,1]"}),

@@ -17,13 +17,15 @@ FRAGMENTS = [
     "\\\\",
     "\\input{/etc/passwd}", "\u0000", "\u202e", "𝜃", "٣", "＝", "'", '"', "'''", "\n", "\t", "%s", "{{7*7}}", "nan",
     "inf", "^9^9^9", "^(-12)", "^12)^12)^12", "1/0", "/(l1-l1)", "cos(cos(t1))", "cos(w1)", "sin(t1*t2)", "t1",
-    "²²", "''''",
+    "²²", "''''", "\\begin{bmatrix}", "\\end{bmatrix}", "&", "[", "]", ",", ";", "inv(", "[a1; a2]", "{x \\over y}",
+    "Derivative(theta1(t), (t, 2))", "\\frac{d^2\\theta_1}{dt^2}", "Eq(", "θAB", "L1", "l1", "M", "I1", "lc1", "ẍ",
+    "3g/2l",
 ]  # fmt: skip
 
 
 def hostile(draw: random.Random) -> str:
     """One input: mostly malformed; a few are right files that were damaged in a place that does not matter."""
-    return draw.choice((_damaged, _damaged, _damaged, _line, _nested, _large, _file, _noise))(draw)
+    return draw.choice((_damaged, _damaged, _damaged, _line, _nested, _large, _file, _noise, _bodies, _square))(draw)
 
 
 def _valid(draw: random.Random) -> str:
@@ -55,9 +57,44 @@ def _line(draw: random.Random) -> str:
     return _equations("".join(draw.choice(FRAGMENTS) for _ in range(draw.randrange(1, 30))))
 
 
+BODY = ("name", "on", "coordinate", "joint", "along", "about", "mass", "length", "centre", "inertia", "spring", "at")
+
+
+def _bodies(draw: random.Random) -> str:
+    """Declared mechanisms, mostly senseless."""
+    words = ("m", "m1", "theta", "theta1", "x", "slide", "hinge", "link", "body 1", "support", "l/2", "m*l^2/12", "1/0",
+             "(", "g", "pivot", "0", "M+m", "__import__", "(m+l)^12", "cos", "9" * 50)  # fmt: skip
+    lines = ["system = 'mechanism'"]
+    for _ in range(draw.choice((0, 1, 2, 3, 8, 9))):
+        lines.append("[[bodies]]")
+        lines += [f"{field} = '{draw.choice(words)}'" for field in draw.sample(BODY, draw.randrange(len(BODY)))]
+    line = "".join(draw.choice((*FRAGMENTS, "x''", "θ''", "m", "l", "g")) for _ in range(draw.randrange(1, 12)))
+    return "\n".join([*lines, "[equations]", f"1 = '{line}'"])
+
+
+def _square(draw: random.Random) -> str:
+    """Matrices of many sizes, products and inverses of them."""
+    size = draw.choice((1, 2, 3, 4, 5, 40))
+    entry = draw.choice(("m1", "cos(t1-t2)", "(m1+m2*cos(t1))", "a1", "0"))
+    rows = "; ".join(", ".join([entry] * size) for _ in range(draw.choice((size, 1, 2))))
+    factor = draw.choice((f"[{rows}]", f"inv([{rows}])", "*".join([f"[{rows}]"] * 6), f"[{rows}]^-1"))
+    return _equations(f"{factor}*[{'; '.join(['a1'] * size)}] = [{'; '.join(['g'] * size)}]")
+
+
 def _nested(draw: random.Random) -> str:
     depth = draw.choice((10, 60, 61, 500, 5000))
-    opening, closing = draw.choice((("(", ")"), ("{", "}"), ("\\frac{", "}{2}"), ("cos(", ")"), ("-", ""), ("sin", "")))
+    opening, closing = draw.choice(
+        (
+            ("(", ")"),
+            ("{", "}"),
+            ("[", ",g]"),
+            ("\\begin{matrix}", "\\end{matrix}"),
+            ("\\frac{", "}{2}"),
+            ("cos(", ")"),
+            ("-", ""),
+            ("sin", ""),
+        )
+    )
     return _equations(opening * depth + "t1" + closing * depth + draw.choice(("", "=0", "=a1")))
 
 

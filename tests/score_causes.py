@@ -96,12 +96,16 @@ def precision(scores):
     return {cause: right[cause] / first[cause] for cause in first if cause != "nothing"}
 
 
+# What engines really do with sound files: MuJoCo refuses point masses in URDF, Pinocchio reads one root of an MJCF.
+OF_SOUND_FILES = {"inertia-rejected", "first-root-only"}
+
+
 def false_alarms(count, seed=SEED):
     """(how many sound models got a finding, their seeds)."""
     alarmed = []
     for k in range(count):
         text, style, wanted = sound_model(np.random.default_rng(seed + k))
-        if diagnosed(text, style.language, wanted).findings:
+        if {found.cause for found in diagnosed(text, style.language, wanted).findings} - OF_SOUND_FILES:
             alarmed.append(seed + k)
     return alarmed
 

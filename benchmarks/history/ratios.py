@@ -133,8 +133,8 @@ class Motions:
 
     def track_taylor(self, name: str) -> float:
         """One motion at the default tolerance."""
-        from furiko.models.benchmark_scenes import BENCHMARKS
         from furiko.reference.integration.taylor import simulate
+        from furiko.studies.bench.scenes import BENCHMARKS
 
         scene = BENCHMARKS[name]
         times = [0.0, scene.duration]

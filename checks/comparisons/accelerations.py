@@ -81,7 +81,7 @@ def sharp_line(cell: Cell, accelerations: Array, backward: Array) -> sharp.Line 
     at = sharp.chosen(backward.max(axis=-1), most)
     states, alpha = cell.states.at(at), cell.facts.high[at]
     size = spread.accelerations(info, system, cell.amplitude, states.theta, states.omega, alpha)
-    factor = sharp.MAXIMAL if info.coordinates == "maximal" else sharp.ACCELERATIONS
+    factor = sharp.for_accelerations(info)
     return sharp.line(cell.facts.error(accelerations)[at], size, factor, states, len(cell.states))
 
 

@@ -25,17 +25,20 @@ def compare(cell: Cell) -> Iterator[Result]:
     """Both parts, over the sum of the magnitudes of their terms."""
     states, system = cell.states, cell.scene.system
     got = cell.answer("energy", cell.engine.energy(states.theta, states.omega), (len(states), 2))
-    expected = np.stack(energies(system, states.theta, states.omega), axis=-1)
+    # In extended precision, so that only the engine's rounding is seen.
+    wide = (values.astype(np.longdouble) for values in (states.theta, states.omega))
+    expected = np.stack(energies(system, *wide), axis=-1)
+    off = (got - expected).astype(np.float64)
     scale = energy_amplitudes(system.tree(), cell.amplitude, states.omega) * turns(states.theta)[:, None]
-    found = worst(quotient(got - expected, EPSILON * scale))
+    found = worst(quotient(off, EPSILON * scale))
     bound = allowed(system.n)
     state, part = found.index
     agrees = found.value <= bound
     word = ("kinetic", "potential")[part]
-    at = sharp.chosen(quotient(got - expected, scale).max(axis=-1), sharp.states_for_energy(system.n))
+    at = sharp.chosen(quotient(off, scale).max(axis=-1), sharp.states_for_energy(system.n))
     looked_at = states.at(at)
     size = spread.energy(cell.info, system, cell.amplitude, looked_at.theta, looked_at.omega)
-    line = sharp.line((got - expected)[at], size, sharp.ENERGY, looked_at, len(states))
+    line = sharp.line(off[at], size, sharp.ENERGY, looked_at, len(states))
     reason = (
         f"worst in the {word} energy"
         if agrees

@@ -142,7 +142,7 @@ def sharp_lines(
     if not most:
         return {}
     states = cell.states.at(np.arange(len(cell.states))[-len(theta) :][:most])
-    factor = sharp.MAXIMAL if info.coordinates == "maximal" else sharp.ACCELERATIONS
+    factor = sharp.for_accelerations(info)
 
     def size(system: DocumentSystem, angles: Array, rates: Array) -> Array:
         exact = plain_accelerations(system, angles, rates)

@@ -40,7 +40,15 @@ from ...reference.rounding.bounds import EPSILON
 from ...reference.truth.end_points import PARTS, lookup
 from .. import sharp
 from ..cell import Cell, EngineFault
-from ..step_rounding import conversion, disturbed, iterations_error, joints_apart, rounding_error, sharp_steps
+from ..step_rounding import (
+    Disturbed,
+    conversion,
+    disturbed,
+    iterations_error,
+    joints_apart,
+    rounding_error,
+    sharp_steps,
+)
 from ..textbook import Candidate, candidates
 
 Array = NDArray[np.float64]
@@ -58,6 +66,7 @@ MOST_STEPS = 1 << 17  # of the finest run; what has not converged by then does n
 FEW_STEPS, FEW_STEPS_FIRST_ORDER = 1 << 10, 1 << 14  # of ten links; no longer time is looked at for more
 KERNELS = 1e-14  # what furiko's own accelerations are sure to, of the largest
 ALIKE = 1e-6  # of a state: the step of another scheme of the same order is further off, or does not matter
+TINY = 1e-300  # in place of zero, where nothing disturbs an entry that is zero
 LARGEST_MAXIMAL = 20  # links of which maximal coordinates are stepped in extended precision beside an engine
 SHIFT = 2.0**-24  # half of double precision's digits: the difference and its own rounding part evenly
 
@@ -228,10 +237,10 @@ def sharp_line(cell: Cell, integrator: Integrator, ladder: Ladder, passed: Passe
     if cell.info.coordinates == "maximal" and theta.size > LARGEST_MAXIMAL:
         return None
     steps = min(ladder.steps, sharp.steps_together(integrator, cell.scene.system.n))
-    candidate = scheme_of(cell, integrator, theta, omega, ladder.step)
+    by = disturbed(cell, integrator, passed.theta[:2], passed.omega[:2], passed.alpha[:2]).worst()
+    candidate = scheme_of(cell, integrator, theta, omega, ladder.step, by)
     if candidate is None:
         return None
-    by = disturbed(cell, integrator, passed.theta[:2], passed.omega[:2], passed.alpha[:2]).worst()
     try:
         found = sharp_steps(cell, candidate, theta, omega, by, ladder.step, steps)
     except ArithmeticError:
@@ -242,9 +251,17 @@ def sharp_line(cell: Cell, integrator: Integrator, ladder: Ladder, passed: Passe
     return sharp.line(error, found.rounding[0], sharp.for_steps(integrator), state, 1, found.left[0])
 
 
-def scheme_of(cell: Cell, integrator: Integrator, theta: Array, omega: Array, h: float) -> Candidate | None:
-    """The textbook scheme of the integrator's order whose step from a state (1, n) is the nearest to the engine's."""
+def scheme_of(
+    cell: Cell, integrator: Integrator, theta: Array, omega: Array, h: float, by: Disturbed
+) -> Candidate | None:
+    """The textbook scheme of the integrator's order whose step from a state (1, n) is the nearest to the engine's.
+
+    Each entry is held against about what disturbs it in a step: schemes of one order may differ in an angle that is
+    exact to its last digit by less than others' rates are off by.
+    """
     got = run(cell, integrator, h, 1)
+    off_rates = h * (by.accelerations + by.left) + by.speeds + by.rates
+    besides = np.concatenate([h / 2 * off_rates + by.angles, off_rates])
     best: tuple[float, Candidate] | None = None
     for candidate in candidates(cell, omega, literal=False):
         if candidate.scheme.order == integrator.order:
@@ -252,9 +269,11 @@ def scheme_of(cell: Cell, integrator: Integrator, theta: Array, omega: Array, h:
                 end = np.concatenate(candidate.steps(theta, omega, h, 1)).astype(np.float64)
             except ArithmeticError:
                 continue
-            off = float((np.abs(got - end) / (np.abs(end) + h * np.abs(end).max())).max())
-            best = (off, candidate) if best is None or off < best[0] else best
-    return best[1] if best and best[0] < ALIKE else None
+            apart = np.abs(got - end)
+            if (apart < ALIKE * (np.abs(end) + h * np.abs(end).max())).all():
+                off = float((apart / np.maximum(EPSILON * np.abs(end) + besides, TINY)).max())
+                best = (off, candidate) if best is None or off < best[0] else best
+    return best[1] if best else None
 
 
 def measured_error(cell: Cell, theta: Array, omega: Array, alpha: Array) -> float:

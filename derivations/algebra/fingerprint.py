@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterable, Mapping
+from functools import lru_cache
 
 from .trig import COS, Formula, Space, digits
 
@@ -95,6 +96,18 @@ class RandomPoint:
             found = (turn + back) * HALF if phase == COS else (turn - back) * HALF * pow(ROOT, -1, PRIME)
             found = self._waves[h, phase] = found % PRIME
         return found
+
+
+@lru_cache(maxsize=1 << 16)
+def inverse(value: int) -> int:
+    """1 / value: the same few coefficients stand in all derivations of a catalogue."""
+    return pow(value, -1, PRIME)
+
+
+@lru_cache(maxsize=64)
+def point_of(space: Space) -> RandomPoint:
+    """The point of a space at which systems are compared; always the same, so that their values can be kept."""
+    return RandomPoint(space)
 
 
 def combine(parts: Iterable[tuple[int, Vector]]) -> Vector:

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from typing import TypeVar
 
 from .trig import CONSTANT_ONE, COS, NOTHING, Formula, Key, Space
 
+Place = TypeVar("Place", int, tuple[int, ...])
 
-def is_multiple(row: Mapping[int, Formula], base: Mapping[int, Formula]) -> bool:
+
+def is_multiple(row: Mapping[Place, Formula], base: Mapping[Place, Formula]) -> bool:
     """Whether row = factor · base for some factor, proved by multiplying crosswise with one coefficient of each."""
     if not row or row.keys() != base.keys():
         return False

@@ -96,7 +96,10 @@ def _product(space: Space, c: fmpq, powers: tuple[int, ...], inner: str, wave: s
 def _order(space: Space) -> list[int]:
     """Symbols as people write them: ρ, m, l, g, then rates, then accelerations."""
     n = space.n
-    return [4 * n + 1, *range(3 * n, 4 * n), *range(2 * n, 3 * n), 4 * n, *range(n, 2 * n), *range(n)]
+    own = range(4 * n + 2 + n, space.symbol_count)  # the author's own symbols stand before lengths, coordinates after g
+    outside = range(4 * n + 2, min(5 * n + 2, space.symbol_count))
+    numbers = [4 * n + 1, *range(3 * n, 4 * n), *own, *range(2 * n, 3 * n), 4 * n]
+    return [*numbers, *outside, *range(n, 2 * n), *range(n)]
 
 
 def angle_text(halves: tuple[int, ...]) -> str:

@@ -17,6 +17,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
+from struct import unpack
 
 from flint import fmpq
 
@@ -173,8 +174,8 @@ def constant(value: int | fmpq) -> Formula:
 
 def digits(packed: int, count: int) -> tuple[int, ...]:
     """The signed digits of a packed number."""
-    shifted = packed + _bias(count)
-    return tuple(((shifted >> (BITS * i)) & DIGIT) - MIDDLE for i in range(count))
+    shifted = (packed + _bias(count)) & ((1 << (BITS * count)) - 1)
+    return tuple([x - MIDDLE for x in unpack(f"<{count}H", shifted.to_bytes(BITS // 8 * count, "little"))])
 
 
 def digit(packed: int, place: int) -> int:
@@ -194,23 +195,39 @@ def unit(place: int) -> int:
 
 @dataclass(frozen=True)
 class Space:
-    """The symbols of a system of ``n`` angles and the place of each in a packed exponent.
+    """The symbols of a system of ``n`` coordinates and the place of each in a packed exponent.
 
-    Order: α₁…αₙ, ω₁…ωₙ (together the *motion*), l₁…lₙ, m₁…mₙ, g, ρ. Indices count from 0 here.
+    Order: α₁…αₙ, ω₁…ωₙ (together the *motion*), l₁…lₙ, m₁…mₙ, g, ρ; then, in a space made by :meth:`general`, the
+    coordinates themselves where they stand outside cos and sin, q₁…qₙ, and the author's own symbols. So a formula of
+    the plain space is one of the general space, digit for digit. Indices count from 0 here.
     """
 
     n: int
+    extra: tuple[str, ...] = ()
+
+    @staticmethod
+    def general(n: int, own: tuple[str, ...] = ()) -> Space:
+        """A space with coordinates outside cos and sin (of slides and springs), and with the symbols ``own``."""
+        return Space(n, (*(f"q{k}" for k in range(1, n + 1)), *own))
 
     @cached_property
     def names(self) -> tuple[str, ...]:
         """ASCII name of each symbol, in order of place."""
         indexed = [f"{letter}{i}" for letter in "awlm" for i in range(1, self.n + 1)]
-        return (*indexed, "g", "rho")
+        return (*indexed, "g", "rho", *self.extra)
 
     @property
     def symbol_count(self) -> int:
         """How many symbols there are."""
-        return 4 * self.n + 2
+        return 4 * self.n + 2 + len(self.extra)
+
+    def own(self, name: str) -> Formula:
+        """A symbol of ``extra`` by its name."""
+        return self.symbol(4 * self.n + 2 + self.extra.index(name))
+
+    def q(self, k: int) -> Formula:
+        """Coordinate k outside cos and sin; only in a general space."""
+        return self.symbol(4 * self.n + 2 + k)
 
     def symbol(self, place: int) -> Formula:
         """The symbol at a place."""
@@ -270,8 +287,8 @@ class Space:
         return Formula(terms)
 
     def by_angle(self, f: Formula, k: int) -> Formula:
-        """∂f/∂θ_k."""
-        terms: dict[Key, fmpq] = {}
+        """∂f/∂θ_k, of a coordinate outside cos and sin as well."""
+        terms: dict[Key, fmpq] = dict(self.by_symbol(f, 4 * self.n + 2 + k).terms) if self.extra else {}
         for (e, h, s), c in f.terms.items():
             half = digit(h, k)
             if half:
@@ -294,6 +311,16 @@ class Space:
         """The packed exponents of accelerations and rates alone."""
         bias = _bias(2 * self.n)
         return ((e + bias) & self.motion_mask) - bias
+
+    def accelerations(self, e: int) -> int:
+        """The packed exponents of accelerations alone."""
+        bias = _bias(self.n)
+        return ((e + bias) & ((1 << (BITS * self.n)) - 1)) - bias
+
+    def outside(self, e: int) -> int:
+        """The packed exponents of coordinates outside cos and sin alone."""
+        places = range(4 * self.n + 2, 5 * self.n + 2) if self.extra else ()
+        return sum(digit(e, place) << (BITS * place) for place in places)
 
     def split(self, f: Formula) -> dict[int, Formula]:
         """The coefficient of each product of accelerations and rates, keyed by that product's packed exponents."""
@@ -338,6 +365,27 @@ class Space:
         for j, factor in column.items():
             result = result + self.symbol(kind * self.n + j).times(factor)
         return result
+
+    def replace(self, f: Formula, values: Mapping[int, Formula]) -> Formula:
+        """The symbols at these places replaced by formulas; where one stands in a denominator, by a single product."""
+        result: dict[Key, fmpq] = {}
+        for (e, h, s), c in f.terms.items():
+            term = Formula({(e, h, s): c})
+            for place, value in values.items():
+                power = digit(e, place)
+                if power:
+                    left = Formula({(e2 - unit(place) * power, h2, s2): c2 for (e2, h2, s2), c2 in term.terms.items()})
+                    term = left * (value.power(power) if power > 0 else value.inverse_monomial().power(-power))
+            for key, c2 in term.terms.items():
+                _accumulate(result, key, c2)
+        return Formula(result)
+
+    def places(self, f: Formula) -> set[int]:
+        """The places of the symbols that occur in a formula."""
+        found: set[int] = set()
+        for e in {e for e, _, _ in f.terms}:
+            found.update(place for place, power in enumerate(digits(e, self.symbol_count)) if power)
+        return found
 
     def rename(self, f: Formula, places: Mapping[int, int]) -> Formula:
         """Every symbol at a place in ``places`` replaced by the symbol at the place that it is mapped to."""

@@ -16,7 +16,7 @@ from collections import Counter, defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ..algebra.fingerprint import PRIME, Vector, combine, solved
+from ..algebra.fingerprint import PRIME, Vector, combine, inverse, solved
 from ..mistakes.known_mistakes import KnownMistake, KnownMistakes
 from ..steps.derivation import NEWTON_STAGES, Mistake, derive
 
@@ -37,7 +37,7 @@ class Alignment:
 
 def factors(row: Vector, base: Vector) -> list[tuple[int, int]]:
     """Guesses at ``row`` = factor · ``base``: each with the number of terms that bear it out, best first."""
-    votes = Counter(row[q] * pow(base[q], -1, PRIME) % PRIME for q in row.keys() & base.keys())
+    votes = Counter([row[q] * inverse(base[q]) % PRIME for q in row.keys() & base.keys()])
     return votes.most_common(MOST_FACTORS)
 
 
@@ -105,8 +105,8 @@ class Remainder:
                 self.settled.add(i)
                 continue
             self.rows[i] = row
-            self.guesses[i] = [pow(f, -1, PRIME) for f, _ in factors(row, known.right[i])]
-            self.guesses[i] += [pow(f, -1, PRIME) for f in usual_factors(known, i)]
+            self.guesses[i] = [inverse(f) for f, _ in factors(row, known.right[i])]
+            self.guesses[i] += [inverse(f) for f in usual_factors(known, i)]
         self.numbers = {i: known.point.linear(row) for i, row in self.rows.items()}
         self.base = [known.point.linear(row) for row in known.right]
 
@@ -120,7 +120,7 @@ class Remainder:
             base = self.base[i] + changes.get(i, 0)
             guesses = self.guesses[i]
             if entry is not None and i in entry.rows:
-                guesses = guesses + [pow(f, -1, PRIME) for f, _ in factors(row, entry.rows[i])[:3]]
+                guesses = guesses + [inverse(f) for f, _ in factors(row, entry.rows[i])[:3]]
             rest = {(self.numbers[i] * guess - base) % PRIME for guess in guesses}
             if 0 not in rest:
                 left[i] = rest
@@ -259,7 +259,7 @@ def difference(row: Vector, base: Vector) -> Vector:
     best = factors(row, base)
     if not best:
         return combine([(1, row), (-1, base)])
-    return combine([(pow(best[0][0], -1, PRIME), row), (-1, base)])
+    return combine([(inverse(best[0][0]), row), (-1, base)])
 
 
 def term_by_term(known: KnownMistakes, rows: Sequence[Vector], alignment: Alignment) -> list[tuple[Mistake, ...]]:

@@ -3,123 +3,117 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
 
-from ..mistakes.known_mistakes import KnownMistakes
-from ..steps.derivation import NEWTON_STAGES, Mistake
-from .explain import Alignment, align, explanations
-from .grade_record import Grade, NamedMistake, Verdict
-from .prepared import Prepared, prepare
-from .submission import Submission, parse_submission, read_submission
-from .verdict import empty_and_repeated, is_correct_row_by_row, is_correct_together, matching
-from .wrong_terms import WrongTermFinder
-
-AFTER_LAGRANGIAN = ("momentum", "derivative", "equation", "matrix", *NEWTON_STAGES)  # no mistake in a Lagrangian
-
-
-def grade(source: str | os.PathLike[str]) -> Grade:
-    """Grade the derivation in a TOML file. Raises InvalidInput, with the place, where it is not one."""
-    return grade_submission(read_submission(source))
+from ...models.errors import InvalidInput
+from ...models.readers.bounded_file import read_text, shown
+from ..algebra.fingerprint import RandomPoint
+from ..reading.pinned import Pinned
+from ..reading.submission import LARGEST_FILE, Submission, parse_submission
+from ..steps.families import family
+from .differences import row_differences
+from .grade_record import Grade, Verdict
+from .hypotheses import Hypothesis, Said, merged
+from .judge import Judgement, judge
+from .readback import readback
+from .wrong import if_as_declared, wrong
 
 
-def grade_text(toml: str) -> Grade:
-    """Grade the text of such a file."""
-    return grade_submission(parse_submission(toml))
+def grade(source: str | os.PathLike[str], *, pinned: Pinned | None = None) -> Grade:
+    """Grade the derivation in a TOML file. Raises InvalidInput, with the place, where it is not one.
 
-
-def grade_submission(submission: Submission) -> Grade:
-    """Grade what was read."""
-    given = prepare(submission)
-    if is_correct_row_by_row(given):
-        return answer(given.known, "correct")
-    if is_correct_together(given):
-        note = "The rows are combinations of the documents' rows and give the same accelerations."
-        note_ja = "各行は文献の式の一次結合で、同じ加速度を与えます。"
-        return answer(given.known, "correct", notes=(note,), notes_ja=(note_ja,))
-    matches = matching(given)
-    if None not in matches and len(set(matches)) == len(matches):
-        return _incomplete(given, {i for i in matches if i is not None})
-    return _wrong(given)
-
-
-def answer(known: KnownMistakes, verdict: Verdict, **parts: object) -> Grade:
-    """A grade for a mechanism."""
-    return Grade(verdict=verdict, system=known.symbols.kind, links=known.symbols.n, **parts)  # type: ignore[arg-type]
-
-
-def _incomplete(given: Prepared, there: set[int]) -> Grade:
-    """Every row is right, but not all are there."""
-    missing = [f"θ{i + 1}" for i in range(given.known.symbols.n) if i not in there]
-    note = f"The given equations are right; the equation of {' and '.join(missing)} is missing."
-    note_ja = f"書かれている式は正しいですが、足りない式があります：{'、'.join(missing)}"
-    return answer(given.known, "undecided", notes=(note,), notes_ja=(note_ja,))
-
-
-def _wrong(given: Prepared) -> Grade:
-    """Name the mistakes, and list the terms."""
-    known, finder = given.known, WrongTermFinder(given.known)
-    alignment = align(known, given.vectors, [row.label for row in given.rows])
-    found = explanations(known, given.vectors, alignment)
-    if given.lagrangian is not None:
-        found = [ms for ms in found if all(mistake.stage not in AFTER_LAGRANGIAN for mistake in ms)]
-    if not found:
-        return _unexplained(given, finder, alignment)
-    groups = same_equations(known, found)
-    mistakes = groups[0][0]
-    findings = (
-        finder.lagrangian(given.lagrangian, mistakes)
-        if given.lagrangian is not None
-        else finder.explained(mistakes, given.rows)
-    )
-    alternatives = tuple(tuple(mistake.name for mistake in others) for others, _ in groups[1:])
-    return answer(known, "wrong", findings=findings, mistakes=named(*groups[0]), alternatives=alternatives)
-
-
-def _unexplained(given: Prepared, finder: WrongTermFinder, alignment: Alignment) -> Grade:
-    useless = empty_and_repeated(given)
-    if useless and given.lagrangian is None:
-        return answer(given.known, "wrong", findings=useless)
-    if given.lagrangian is not None:
-        note = "No mistake in the catalogue leads to this Lagrangian."
-        note_ja = "このラグランジアンになる誤りは目録にありません。"
-        findings = finder.lagrangian(given.lagrangian, ())
-        return answer(given.known, "wrong", findings=findings, notes=(note,), notes_ja=(note_ja,))
-    findings = finder.unexplained(given, alignment)
-    if given.known.has_catalogue:
-        return answer(given.known, "wrong", findings=findings)
-    note = "With so many links, wrong terms are listed one by one; mistakes in earlier steps are not searched for."
-    note_ja = "リンクが多いので、違う項だけを示します（前の段階の誤りは探しません）。"
-    return answer(given.known, "wrong", findings=findings, notes=(note,), notes_ja=(note_ja,))
-
-
-def named(mistakes: Sequence[Mistake], twins: Sequence[Sequence[Mistake]]) -> tuple[NamedMistake, ...]:
-    """Mistakes as records, each with the names of those that lead to the same equations."""
-    return tuple(
-        NamedMistake(m.code, m.name, m.stage, m.english, m.japanese, tuple(twin.name for twin in others))
-        for m, others in zip(mistakes, twins, strict=True)
-    )
-
-
-def same_equations(
-    known: KnownMistakes, found: Sequence[tuple[Mistake, ...]]
-) -> list[tuple[tuple[Mistake, ...], list[list[Mistake]]]]:
-    """Explanations grouped: those that lead to the same equations under other names are one.
-
-    Each with, for each of its mistakes, the others that lead to the very same equations.
+    ``pinned``: what a teacher fixes; the file is held to it, and then nothing is assumed.
     """
-    numbers = {entry.mistake.name: tuple(sorted(entry.projective.items())) for entry in known.wrong}
-    groups: dict[tuple[str, ...], tuple[tuple[Mistake, ...], list[list[Mistake]]]] = {}
-    for mistakes in found:
-        key = tuple(sorted(repr(numbers[mistake.name]) for mistake in mistakes))
-        if key not in groups:
-            groups[key] = (mistakes, [_twins(known, numbers, mistake) for mistake in mistakes])
-    return list(groups.values())
+    path = Path(source)
+    text = read_text(path, 4 * LARGEST_FILE)
+    try:
+        return grade_text(text, pinned=pinned)
+    except InvalidInput as error:
+        raise InvalidInput(f"{shown(path)}: {error}") from None
 
 
-def _twins(known: KnownMistakes, numbers: dict[str, tuple[tuple[int, int], ...]], mistake: Mistake) -> list[Mistake]:
-    mine = numbers[mistake.name]
+def grade_text(toml: str, *, pinned: Pinned | None = None) -> Grade:
+    """Grade the text of such a file."""
+    first = parse_submission(toml)
+    if pinned is not None:
+        pinned.check(first)
+    readings = [(first, judge(first, pinned=pinned is not None))]
+    if first.doubtful and readings[0][1].hypothesis is None:
+        for mode in (1, 2, 3):
+            s = parse_submission(toml, mode)
+            readings.append((s, judge(s, pinned=pinned is not None)))
+    right = [(s, j) for s, j in readings if j.hypothesis is not None]
+    if right:
+        s, judgement = min(right, key=lambda pair: len(pair[1].assumes))
+        return _right(s, judgement, slashes=s is not first)
+    return wrong(first, pinned=pinned is not None)
+
+
+def _right(s: Submission, judgement: Judgement, *, slashes: bool) -> Grade:
+    """Right, or right as far as it goes."""
+    h, comparison = judgement.hypothesis, judgement.comparison
+    assert h is not None
+    notes: list[Said] = []
+    if comparison.answer == "not proved":
+        notes.append((
+            "Too large to be multiplied out: that the rows are combinations of the right ones was checked at a random "
+            "point of a field of 2⁶¹ numbers.",
+            "大きすぎて展開できないため、2⁶¹ 個の数の体のランダムな点で確かめました。",
+        ))  # fmt: skip
+    if comparison.needs_motion:
+        notes.append((
+            "The rows determine the accelerations only while the system moves: a rate is a factor of them.",
+            "各式に角速度が掛かっているので、加速度が決まるのは動いている間だけです。",
+        ))  # fmt: skip
+    if s.kind == "rod-chain" and h.variant.choices.density and h.variant.assumes:
+        notes += _of_independent_masses(s, h)
+    assumes = list(h.assumes)
+    if slashes:
+        examples = ", ".join(f"{x} as {_with_brackets(x)}" for x in s.doubtful[:3])
+        assumes.append((f"all that stands at once behind a slash is below it: {examples}",
+                        f"斜線の直後に続く文字はすべて分母にある：{examples}"))  # fmt: skip
+    verdict: Verdict = "correct"
+    if comparison.answer == "incomplete":
+        verdict = "undecided"
+        notes.append(_incomplete(s, h))
+    mistakes = if_as_declared(s) if verdict == "correct" and _other_zero(s, h) else ()
+    return Grade(
+        verdict=verdict, system=s.kind, links=s.space.n, reading=readback(s, h), mistakes=mistakes,
+        notes=tuple(en for en, _ in notes), notes_ja=tuple(ja for _, ja in notes),
+        assumes=tuple(en for en, _ in assumes), assumes_ja=tuple(ja for _, ja in assumes),
+    )  # fmt: skip
+
+
+def _of_independent_masses(s: Submission, h: Hypothesis) -> list[Said]:
+    """Which terms are wrong for rods with masses of their own."""
+    if s.lagrangian is not None:
+        return []
+    own = family("rods", s.space, h.convention, replace(h.variant.choices, density=False))
     return [
-        entry.mistake
-        for entry in known.wrong
-        if numbers[entry.mistake.name] == mine and entry.mistake.name != mistake.name
-    ]
+        (f"For rods with masses of their own: in row {f.row}, {f.found} in place of {f.expected}.",
+         f"質量が独立な棒では：第{f.row}行の {f.found} は {f.expected} でなければなりません。")
+        for f in row_differences(s, own.with_values(merged(s, h.variant)))
+    ]  # fmt: skip
+
+
+def _with_brackets(text: str) -> str:
+    top, _, bottom = text.rpartition("/")
+    return f"{top}/({bottom.strip()})"
+
+
+def _other_zero(s: Submission, h: Hypothesis) -> bool:
+    """Whether it is right with angles from elsewhere alone: then gravity may be wrong in place of them."""
+    return h.convention.origin != s.convention.origin and h.convention.relative == s.convention.relative
+
+
+def _incomplete(s: Submission, h: Hypothesis) -> Said:
+    """Every row is right, but not all are there: which are missing, where that can be told."""
+    point = RandomPoint(s.space)
+    right = [point.projective(point.vector(s.space.split(f))) for f in h.mechanism.rows]
+    there = {point.projective(point.vector(s.space.split(f))) for _, f in s.rows}
+    missing = [f"θ{i + 1}" for i, number in enumerate(right) if number not in there]
+    return (
+        f"The given equations are right; the equation of {' and '.join(missing)} is missing.",
+        f"書かれている式は正しいですが、足りない式があります：{'、'.join(missing)}",
+    )

@@ -26,8 +26,8 @@ from ..mistakes.known_mistakes import MOST_LINKS, KnownMistakes, known_mistakes
 from ..steps.derivation import Mistake, Row, correct_derivation, derive
 from ..steps.views import View
 from .explain import ranked
-from .grade import answer, named, same_equations
 from .grade_record import Grade
+from .wrong import answer, named, same_equations
 from .wrong_terms import WrongTermFinder
 
 Array = NDArray[np.float64]

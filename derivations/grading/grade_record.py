@@ -39,10 +39,28 @@ class NamedMistake:
 
 
 @dataclass(frozen=True)
+class Reading:
+    """What was read: the mechanism and its drawing, the convention of the angles, the symbols, and the equations.
+
+    ``symbols``: what is written and what it is read as; ``equations``: label and text, in the author's letters.
+    """
+
+    mechanism: str = ""
+    mechanism_ja: str = ""
+    drawing: str = ""
+    angles: str = ""
+    angles_ja: str = ""
+    symbols: tuple[tuple[str, str], ...] = ()
+    equations: tuple[tuple[str, str], ...] = ()
+
+
+@dataclass(frozen=True)
 class Grade:
     """The grade of one derivation. ``alternatives``: other sets of mistakes that explain the wrong terms as well.
 
-    ``notes``, ``notes_ja``: remarks in English and Japanese; ``system``, ``links``: the mechanism.
+    ``assumes``: what the verdict "correct" rests on and the file does not say: the derivation is right if this holds.
+    ``notes``, ``notes_ja``: remarks in English and Japanese; ``system``, ``links``: the mechanism; ``reading``: how the
+    derivation was understood.
     """
 
     verdict: Verdict
@@ -53,6 +71,11 @@ class Grade:
     notes_ja: tuple[str, ...] = ()
     system: str = ""
     links: int = 0
+    assumes: tuple[str, ...] = ()
+    assumes_ja: tuple[str, ...] = ()
+    reading: Reading = Reading()
+    right_for: str = ""  # another mechanism that these are the right equations of
+    right_for_ja: str = ""
 
     def to_dict(self) -> dict[str, Any]:
         """For JSON."""
@@ -70,28 +93,59 @@ class Grade:
 
 def _english(d: Grade) -> str:
     head = {"correct": "Correct.", "wrong": "Wrong.", "undecided": "Undecided."}[d.verdict]
-    lines = [head]
+    if d.assumes and d.verdict == "correct":
+        head = f"Right if {'; and if '.join(d.assumes)}."
+    r = d.reading
+    lines = [*_read(r, f"Read: {r.mechanism}; {r.angles}.", "  where ", ", ", " is "), head]
+    if d.assumes and d.verdict != "correct":
+        lines.append(f"  If {'; and if '.join(d.assumes)}:")
+    if d.right_for:
+        lines.append(f"  But right for {d.right_for}.")
+    if d.mistakes and d.verdict == "correct":
+        lines.append("  If they are not, and the angles are measured as the documents do:")
     for mistake in d.mistakes:
         also = f" (or, with the same equations: {', '.join(mistake.also)})" if mistake.also else ""
         lines.append(f"  {mistake.says}  [{mistake.cause}, made in the {STAGES_EN[mistake.stage]}]{also}")
     for f in d.findings:
         said = "" if d.mistakes and any(f.says == m.says for m in d.mistakes) else f"  {f.says}"
         row = f" of row {f.row}" if f.row and " in row " not in f.term else ""
-        lines.append(f"  ({f.equation}) {f.term}{row}: found {f.found}, expected {f.expected}.{said}")
+        number = f"({f.equation}) " if f.equation else ""
+        lines.append(f"  {number}{f.term}{row}: found {f.found}, expected {f.expected}.{said}")
     lines += [f"  Or: {' and '.join(names)}" for names in d.alternatives]
     return "\n".join([*lines, *(f"  {note}" for note in d.notes)])
 
 
+def _read(r: Reading, first: str, where: str, between: str, means: str) -> list[str]:
+    """What was read, behind the line ``first``, in the words of one language."""
+    if not r.mechanism:
+        return []
+    lines = [first, *(f"    {line}" for line in r.drawing.splitlines())]
+    lines += [f"  {label}:  {text}" for label, text in r.equations]
+    if r.symbols:
+        lines.append(where + between.join(f"{written}{means}{meant}" for written, meant in r.symbols))
+    return lines
+
+
 def _japanese(d: Grade) -> str:
     head = {"correct": "正しい導出です。", "wrong": "誤りがあります。", "undecided": "判定できません。"}[d.verdict]
-    lines = [head]
+    if d.assumes_ja and d.verdict == "correct":
+        head = f"次の条件のもとで正しい導出です：{'；'.join(d.assumes_ja)}。"
+    r = d.reading
+    lines = [*_read(r, f"読み取った内容：{r.mechanism_ja}。{r.angles_ja}。", "  記号：", "、", " = "), head]
+    if d.assumes_ja and d.verdict != "correct":
+        lines.append(f"  次の条件のもとで：{'；'.join(d.assumes_ja)}")
+    if d.right_for_ja:
+        lines.append(f"  ただし、次の機構の正しい式です：{d.right_for_ja}。")
+    if d.mistakes and d.verdict == "correct":
+        lines.append("  そうでなく、角を文献のとおりに測るなら：")
     for mistake in d.mistakes:
         also = f"（同じ式になる別の誤り：{'、'.join(mistake.also)}）" if mistake.also else ""
         lines.append(f"  {mistake.says_ja}  [{mistake.cause}、{STAGES_JA[mistake.stage]}の段階]{also}")
     for f in d.findings:
         said = "" if any(f.says_ja == m.says_ja for m in d.mistakes) else f"  {f.says_ja}"
         row = f"第{f.row}行 " if f.row else ""
-        lines.append(f"  ({f.equation}) {row}{f.term}：{f.found} → 正しくは {f.expected}{said}")
+        number = f"({f.equation}) " if f.equation else ""
+        lines.append(f"  {number}{row}{f.term}：{f.found} → 正しくは {f.expected}{said}")
     lines += [f"  または：{'、'.join(names)}" for names in d.alternatives]
     return "\n".join([*lines, *(f"  {note}" for note in d.notes_ja)])
 

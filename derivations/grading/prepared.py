@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..algebra.fingerprint import Vector
-from ..algebra.trig import Formula
+from ..algebra.trig import HALF, Formula
 from ..mistakes.known_mistakes import KnownMistakes, known_mistakes
+from ..reading.submission import Submission
 from ..steps.derivation import Row, lagrange_rows
 from ..steps.views import View, columns_to_absolute, merged
-from .submission import Submission
 
 
 @dataclass(frozen=True)
@@ -35,14 +35,27 @@ class Prepared:
         return [row.vector for row in self.rows]
 
 
+def documents_formula(submission: Submission, f: Formula) -> Formula:
+    """A formula in the documents' symbols alone: m = ρ l and I = m l²/12 of rods, l_c = l/2."""
+    m, space, n = submission.symbols, submission.space, submission.space.n
+    if m.kind != "rod-chain":
+        return f
+    values = {3 * n + k: m.mass(k) for k in range(n)}
+    values |= {space.names.index(f"I{k + 1}"): m.inertia(k) for k in range(n)}
+    values |= {space.names.index(f"lc{k + 1}"): space.l(k).times(HALF) for k in range(n)}
+    return space.replace(f, values)
+
+
 def prepare(submission: Submission) -> Prepared:
-    """Prepare a derivation that was read."""
+    """Prepare a derivation that was read, for the catalogue of mistakes of the documents' mechanisms."""
     m = submission.symbols
     is_lagrangian = submission.lagrangian is not None
-    view = View(m, submission.relative and not is_lagrangian, submission.equal_lengths, submission.equal_masses)
+    merge_lengths = submission.equal_lengths or (submission.equal_masses and m.kind == "rod-chain")
+    view = View(m, submission.relative and not is_lagrangian, merge_lengths, submission.equal_masses)
     known = known_mistakes(view)
 
     def absolute(f: Formula) -> Formula:
+        f = documents_formula(submission, f)
         return m.space.substitute_angles(f, columns_to_absolute(m)) if submission.relative else f
 
     lagrangian = merged(view, absolute(submission.lagrangian)) if submission.lagrangian is not None else None

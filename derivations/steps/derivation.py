@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Literal
 
 from flint import fmpq
@@ -49,7 +49,7 @@ class Mistake:
     japanese: str
     apply: Callable[[Derivation], None] = field(compare=False, repr=False)
 
-    @property
+    @cached_property
     def name(self) -> str:
         """The code with its places, counted from 1: unique within a catalogue."""
         return self.code + "".join(f":{p + 1}" for p in self.places)

@@ -38,13 +38,27 @@ class FittedHypothesis:
         return self.residual <= 1
 
     def parts(self) -> list[FittedHypothesis]:
-        """The values of each part of a combined hypothesis, with the residual of the whole."""
+        """The values of each part of a combined hypothesis, with the residual of the whole.
+
+        A fault of one term beside a factor on all terms of its kind is told of the term as that factor leaves it.
+        """
         fits, start = [], 0
         for part in self.hypothesis.parts:
             end = start + part.d
-            fits.append(FittedHypothesis(part, self.values[start:end], self.uncertainty[start:end], self.residual))
+            shared = self._factor_on_all(part)
+            values, spread = self.values[start:end] / shared, self.uncertainty[start:end] / abs(shared)
+            fits.append(FittedHypothesis(part, values, spread, self.residual))
             start = end
         return fits
+
+    def _factor_on_all(self, part: Hypothesis) -> float:
+        """The factor on all terms that this part is one of, as other parts have found it; 1 where there is none."""
+        start, found = 0, 1.0
+        for other in self.hypothesis.parts:
+            if other.place and other.place in part.within:
+                found *= 1 + float(self.values[start])
+            start += other.d
+        return found or 1.0  # of terms that are missing, one cannot have a factor
 
     def worst(self, p: Parameters, measured: Measurement) -> float:
         """The largest residual of another measurement with these values, over its tolerance."""

@@ -37,6 +37,8 @@ class Hypothesis:
     tell: Callable[[float, float, Parameters, str], list[Finding]] | None = None  # from value and uncertainty
     wanted: float | None = None  # the one value that means anything
     known: Callable[[float, Parameters], bool] | None = None  # whether a value has a name
+    place: str = ""  # of a fault of the code: the term or terms, and where the fault shows
+    within: tuple[str, ...] = ()  # the places of all terms of its kind, and of those in its row
 
     @property
     def d(self) -> int:

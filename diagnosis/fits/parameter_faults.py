@@ -76,7 +76,12 @@ def wrong_numbers(q: Question) -> Explanation:
         return found
     fits = _explaining((fit(hypothesis, q.p, q.measured) for hypothesis in groups(q.m, q.p)), q)
     good = _as_good(fits)
-    return _explanation([min(good, key=_changed)], [], q) if good else Explanation()
+    if not good:
+        return Explanation()
+    fewest = min(good, key=_changed)
+    # Two numbers of one kind: there may be two of different kinds that explain it as well.
+    pairs = two_at_once(q) if _changed(fewest) == 2 else Explanation()
+    return pairs if pairs.explained else _explanation([fewest], [], q)
 
 
 def two_at_once(q: Question) -> Explanation:
@@ -108,9 +113,9 @@ def several_at_once(q: Question) -> Explanation:
         best = min(fits, key=lambda f: f.residual)
         explaining = _explaining(fits, q)
         if explaining:
-            changed = [part for part in _as_good(explaining)[0].parts() if _any_clearly_changed(part)]
-            findings = [finding for part in changed for finding in findings_of_fit(part, q.m, q.p, q.who)]
-            return Explanation((tuple(findings),))
+            good = _named_first(_as_good(explaining), q.p)
+            good.sort(key=lambda f: hypotheses.index(f.hypothesis.parts[-1]))
+            return _explanation(good, [], q)
         chosen = list(best.hypothesis.parts)
         at = best.hypothesis.apply(q.p, best.values)
     return Explanation()
@@ -138,10 +143,17 @@ def _explaining(fits: Iterable[FittedHypothesis], q: Question) -> list[FittedHyp
 
 
 def _as_sharp(f: FittedHypothesis, q: Question) -> bool:
-    """Whether rounding explains about as much as before: with numbers large enough it explains any difference."""
+    """Whether rounding explains about as much as before: with numbers large enough it explains any difference.
+
+    Nor may a hinge be left with nothing to move, whose equation any acceleration then solves.
+    """
     with np.errstate(all="ignore"):
-        scale = float(np.median(q.measured.tolerances(f.hypothesis.apply(q.p, f.values))))
-    return scale <= BLUNTER * q.scale
+        tolerances = q.measured.tolerances(f.hypothesis.apply(q.p, f.values))
+        before = q.measured.tolerances(q.p)
+    forward = q.measured.forward
+    least = IMPLAUSIBLE_FACTOR * np.median(before[forward], axis=0)
+    moves = bool((np.median(tolerances[forward], axis=0) >= least).all()) if forward.any() else True
+    return moves and float(np.median(tolerances)) <= BLUNTER * q.scale
 
 
 def _as_good(fits: list[FittedHypothesis]) -> list[FittedHypothesis]:
@@ -179,7 +191,8 @@ def _explanation(fits: Sequence[FittedHypothesis], order: Sequence[Hypothesis], 
     sets: dict[frozenset[tuple[str, str]], tuple[Finding, ...]] = {}
     for found in sorted(fits, key=lambda f: place.get(id(f.hypothesis), 0)):
         parts = found.parts() or [found]
-        findings = tuple(finding for part in parts for finding in findings_of_fit(part, q.m, q.p, q.who))
+        changed = [part for part in parts if _any_clearly_changed(part)] or parts
+        findings = tuple(finding for part in changed for finding in findings_of_fit(part, q.m, q.p, q.who))
         sets.setdefault(frozenset((finding.cause, finding.where) for finding in findings), findings)
     return Explanation(tuple(sets.values()))
 

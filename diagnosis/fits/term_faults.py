@@ -232,7 +232,7 @@ def _hypothesis(fault: TermFault, m: Mechanism) -> Hypothesis:
         return np.asarray(rows[None])
 
     def tell(value: float, spread: float, p: Parameters, who: str) -> list[Finding]:
-        return [_finding(fault, 1 + value, spread, m, p, who)]
+        return _findings(fault, 1 + value, spread, m, p, who)
 
     return Hypothesis(
         cause=fault.cause,
@@ -243,8 +243,31 @@ def _hypothesis(fault: TermFault, m: Mechanism) -> Hypothesis:
         basis=basis,
         tell=tell,
         wanted=1.0 if fault.says else None,
-        known=lambda value, p: _named(fault, 1 + value, 0.0, m, p) is not None,
+        place=f"{fault.where} {fault.scope}",
+        within=tuple(f"{where} {fault.scope}" for where in _within(fault.where)),
+        known=lambda value, p: any(_named(fault, sign * (1 + value), 0.0, m, p) is not None for sign in (1, -1)),
     )
+
+
+def _within(where: str) -> tuple[str, ...]:
+    """The places that this one is a part of."""
+    row = where.partition("[")[2].partition(",")[0]
+    kind = where[:1] if row else "row" if where.startswith("row ") else ""
+    return {
+        "A": ("accelerations",),
+        "B": ("velocity terms", f"row {row}"),
+        "G": ("gravity terms",),
+        "row": ("velocity terms",),
+    }.get(kind, ())
+
+
+def _findings(fault: TermFault, factor: float, spread: float, m: Mechanism, p: Parameters, who: str) -> list[Finding]:
+    """One finding; two where a factor has a name but for its sign: two faults in one term."""
+    if fault.says or fault.cause == "accelerations-scaled" or _named(fault, factor, spread, m, p) is not None:
+        return [_finding(fault, factor, spread, m, p, who)]
+    if _named(fault, -factor, spread, m, p) is None:
+        return [_finding(fault, factor, spread, m, p, who)]
+    return [_finding(fault, each, spread, m, p, who) for each in (-1.0, -factor)]
 
 
 def _finding(fault: TermFault, factor: float, spread: float, m: Mechanism, p: Parameters, who: str) -> Finding:

@@ -8,21 +8,32 @@ wanted?* Compared with a scene, another model or a mechanism; without one, with 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ...engines.model_files.adapter import READERS, Reader
+from ...engines.model_files.robot import ROBOT_READERS
 from ...models import InvalidInput, PlanarTree
+from ...models.errors import nearest
 from ...models.mechanism import Mechanism, mechanism_of
 from ...models.readers.model_file import ModelFile, read_model
+from ...models.spatial_mechanism import SpatialMechanism
 from ..compiled import mechanism_from
+from ..finding import Finding
 from ..reader_faults import degrees_in_file
+from ..robots.answer import Question, places_in
+from ..robots.answer import mechanism_to_json as spatial_to_json
+from ..robots.fields import field_differences
+from ..robots.simulation import servo_findings
+from ..robots.wording import field_findings
 from .comparison import compare_with, compare_with_ideal
-from .engine_answers import ask_engines
+from .engine_result import EngineResult, ask_engines
 from .result import Diagnosis, mechanism_to_json
 from .voting import vote
 
@@ -33,74 +44,142 @@ MODEL_ENDINGS = (".xml", ".urdf", ".mjcf")
 def diagnose(
     model: str | Path | ModelFile,
     against: Any = None,
-    engines: Mapping[str, Reader] = READERS,
+    engines: Mapping[str, Reader] | Sequence[str] | None = None,
     *,
+    meshes: Sequence[Path] = (),
+    limits: bool = False,
     isolated: bool = False,
 ) -> Diagnosis:
-    """Diagnose an MJCF or URDF file.
+    """Diagnose an MJCF or URDF file: any open mechanism, in every engine that reads it.
 
-    ``against``: None for what the file's own links would do on ideal hinges; the name of a scene or the path of its
-    TOML file; the path of another model file; or a system, planar tree or mechanism. ``engines``: the engines to ask,
-    and no others. ``isolated``: ask each engine in a worker process of its own, so that a file that crashes one engine
-    does not affect the others; the readers are then pickled. Raises :class:`InvalidInput` for a file that is no planar
-    tree of hinges, and for bad ``against``.
+    ``against``: None, then a planar tree of hinges is compared with its own links on ideal hinges; the name of a scene
+    or the path of its TOML file; the path of another model file; or a system, planar tree or mechanism. ``engines``:
+    those to ask, and no others; where they are named, one that refuses the file leaves the answer incomplete.
+    ``meshes``: folders besides the file's own in which meshes may lie. ``limits``: whether joints' ranges count.
+    ``isolated``: ask each engine in a worker process of its own, so that a file that crashes one engine does not affect
+    the others; the readers are then pickled. Raises :class:`InvalidInput` for a file that cannot be read, and for bad
+    ``against``.
     """
-    file = model if isinstance(model, ModelFile) else read_model(model)
-    expected, name = _expected(against)
-    file = _with_gravity(file, expected)
-    answers = ask_engines(file, list(engines.values()), isolated=isolated)
-    of_file = list(degrees_in_file(file))
-    of_file += compare_with_ideal(file.mechanism) if expected is None else compare_with(file, expected)
-    findings = [*of_file, *vote(file.path, answers)]
-    engine_notes = (note for answer in answers for note in answer.notes)
+    file = model if isinstance(model, ModelFile) else read_model(model, meshes=meshes)
+    if not file.spatial.joints:
+        raise InvalidInput(f"{file.path}: no joint: at least one body must be able to move")
+    wanted = expected_of(against, meshes)
+    file = _with_gravity(file, wanted.planar)
+    readers = chosen_readers(engines)
+    with own_file(file) as path:
+        question = Question(path, file, tuple(folder.resolve() for folder in meshes), limits)
+        results = ask_engines(question, readers, named=engines is not None, isolated=isolated)
+    of_file = _of_file(file, wanted, limits)
+    findings = [*of_file, *vote(file, results)]
+    notes = [*file.notes, *_tilt_notes(file.planar), *(note for result in results for note in result.notes)]
     return Diagnosis(
         model=file.path,
-        verdict=_verdict([finding.cause for finding in findings]),
+        verdict=verdict(findings, results, named=engines is not None),
         findings=tuple(findings),
-        engines={answer.name: answer.to_json() for answer in answers},
-        notes=tuple(dict.fromkeys([*file.notes, *_tilt_notes(file.mechanism), *engine_notes])),
-        against=name,
-        mechanism=mechanism_to_json(file.mechanism),
+        engines={result.name: result.to_json() for result in results},
+        notes=tuple(dict.fromkeys(notes)),
+        against=wanted.name,
+        mechanism=mechanism_to_json(file.planar) if file.planar is not None else None,
+        spatial=spatial_to_json(file.spatial),
+        simulation=(*servo_findings(file.servos), *(said for result in results for said in result.simulation)),
+        without=tuple(dict.fromkeys([*file.without, *(line for result in results for line in result.without)])),
     )
 
 
-def _verdict(causes: list[str]) -> str:
-    if "unexplained" in causes:
+def verdict(findings: Sequence[Finding], results: Sequence[EngineResult], *, named: bool) -> str:
+    """``agrees`` only where nothing was found and an engine was compared; ``incomplete`` where one that was asked for
+    by name could not be, or none was."""
+    if any(finding.cause == "unexplained" for finding in findings):
         return "unexplained"
-    return "differs" if causes else "agrees"
+    if not any(result.compared for result in results) or (named and any(not result.compared for result in results)):
+        return "incomplete"
+    return "differs" if findings else "agrees"
 
 
-def _tilt_notes(mechanism: Mechanism) -> list[str]:
-    if mechanism.tilt < REPORTED_TILT:
+def _of_file(file: ModelFile, wanted: Expected, limits: bool) -> list[Finding]:
+    """What is in the file and was not expected there."""
+    found = list(degrees_in_file(file)) if file.planar is not None else []
+    if wanted.planar is not None and file.planar is not None:
+        return found + compare_with(file, wanted.planar)
+    if wanted.spatial is not None:
+        differences = field_differences(file.spatial, wanted.spatial, limits=limits)
+        return found + field_findings("the file", differences, places_in(file.spatial))
+    if wanted.name:
+        raise InvalidInput(f"{file.path}: {file.not_planar}; it cannot be compared with {wanted.name}")
+    if file.planar is None:
+        return found
+    ideal = compare_with_ideal(file.planar)
+    return found + [finding for finding in ideal if limits or finding.cause != "joint-limit"]
+
+
+def chosen_readers(engines: Mapping[str, Reader] | Sequence[str] | None) -> dict[str, Reader | None]:
+    """The engines asked for, all where none are named: by name, the reader of planar trees, None where it has none.
+
+    Raises :class:`InvalidInput` for an unknown name.
+    """
+    if isinstance(engines, Mapping):
+        return dict(engines)
+    known = tuple(dict.fromkeys([*READERS, *ROBOT_READERS]))
+    unknown = next((name for name in engines or () if name not in known), None)
+    if unknown is not None:
+        hint = nearest(unknown, known) or f"; known: {', '.join(known)}"
+        raise InvalidInput(f"engine {unknown!r} reads no model files{hint}")
+    return {name: READERS.get(name) for name in engines or known}
+
+
+@contextmanager
+def own_file(file: ModelFile) -> Iterator[Path]:
+    """The path of the user's own file; a text that is in no file is written into a temporary one."""
+    path = Path(file.path)
+    if not file.own_text and path.is_file():
+        yield path.resolve()  # workers run in a folder of their own
+        return
+    with tempfile.TemporaryDirectory(prefix="furiko-") as folder:
+        path = Path(folder, f"model.{'xml' if file.language == 'mjcf' else 'urdf'}")
+        path.write_text(file.own_text, encoding="utf-8")
+        yield path
+
+
+def _tilt_notes(mechanism: Mechanism | None) -> list[str]:
+    if mechanism is None or mechanism.tilt < REPORTED_TILT:
         return []
     return [f"the hinges' axes are not quite parallel: the tolerance is {mechanism.tilt:.1g} of each torque"]
 
 
-def _expected(against: Any) -> tuple[Mechanism | None, str]:
-    """The mechanism to compare with, and its name."""
+@dataclass(frozen=True)
+class Expected:
+    """What a file is compared with: its ``name``, and the planar mechanism or else the one in space."""
+
+    name: str = ""
+    planar: Mechanism | None = None
+    spatial: SpatialMechanism | None = None
+
+
+def expected_of(against: Any, meshes: Sequence[Path] = ()) -> Expected:
+    """``against`` understood. Raises :class:`InvalidInput`."""
     if against is None:
-        return None, ""
+        return Expected()
     if isinstance(against, str | Path):
         if str(against).endswith(MODEL_ENDINGS):
-            return read_model(against).mechanism, str(against)
+            return expected_of(read_model(against, meshes=meshes))
         from ...models import find_document_scene
 
         scene = find_document_scene(str(against), "--against")
-        return mechanism_of(scene.system.tree()), scene.name
+        return Expected(scene.name, mechanism_of(scene.system.tree()))
     if isinstance(against, ModelFile):
-        return against.mechanism, against.path
+        return Expected(against.path, against.planar, against.spatial)
     if isinstance(against, Mechanism | PlanarTree) or hasattr(against, "tree"):
-        return mechanism_from(against), getattr(against, "kind", type(against).__name__)
+        return Expected(getattr(against, "kind", type(against).__name__), mechanism_from(against))
     raise InvalidInput(f"against: a scene, a model file or a mechanism is needed, got {type(against).__name__}")
 
 
 def _with_gravity(file: ModelFile, expected: Mechanism | None) -> ModelFile:
     """A URDF file, which cannot give gravity, with the gravity of the mechanism that it is compared with."""
-    if file.language != "urdf" or expected is None:
+    if file.language != "urdf" or expected is None or file.planar is None:
         return file
     strength = float(np.hypot(*expected.gravity))
-    ratio = strength / float(np.hypot(*file.mechanism.gravity)) if any(file.mechanism.gravity) else 0.0
-    old = file.mechanism
+    ratio = strength / float(np.hypot(*file.planar.gravity)) if any(file.planar.gravity) else 0.0
+    old = file.planar
     vector = tuple(ratio * x if ratio else 0.0 for x in old.gravity_vector)
     along = old.gravity[0] * ratio
     if abs(along - strength) <= 1e-12 * strength:

@@ -1,16 +1,14 @@
-"""Engines asked about a model file, in this process or each in a worker process of its own."""
+"""An engine asked about furiko's text of a planar mechanism, in the planar tree's own coordinates."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
 from ...engines.model_files.adapter import FileEngine, Reader
-from ...engines.quiet import silenced
-from ...engines.workers.isolated import Call, NotReturned, call_isolated
 from ...models import InvalidInput
 from ...models.mechanism import Mechanism
 from ...models.readers.model_file import ModelFile
@@ -23,9 +21,9 @@ from .engine_causes import accuracy_for, engine_causes
 from .engine_view import EngineView, theory_for, view_for_comparison, with_hinges_cleared
 from .result import mechanism_to_json
 
-TIMEOUT = 60.0  # [s] for one engine; ten links take less than one
 MOST_FINDINGS = 40  # shown for one engine
 SOMETIMES = {"contact", "limit", "frictionloss"}  # features that act in some states only
+OF_NO_FILE = "silent-reset"  # what the engine does after steps that are far too long, whatever the file
 LONGEST_MESSAGE = 300  # characters of an engine's own message
 
 
@@ -58,21 +56,6 @@ class EngineAnswer:
             content |= {"compiled": mechanism_to_json(self.compiled), "residual": self.residual, **self.settings}
             content["motion"] = [finding.to_json() for finding in self.motion]
         return content
-
-
-def ask_engines(file: ModelFile, readers: Sequence[Reader], *, isolated: bool) -> list[EngineAnswer]:
-    """The answer of each engine, in the order of ``readers``; ``isolated``: each from a worker process of its own."""
-    if not isolated:
-        with silenced():
-            return [ask(reader, file) for reader in readers]
-    calls = [Call(ask, (reader, file)) for reader in readers]
-    answers = zip(readers, call_isolated(calls, TIMEOUT), strict=True)
-    return [_failed(reader, answer.reason) if isinstance(answer, NotReturned) else answer for reader, answer in answers]
-
-
-def _failed(reader: Reader, reason: str) -> EngineAnswer:
-    findings = [Finding("unexplained", reader.name, None, None, f"{reader.name}: {reason}")]
-    return EngineAnswer(reader.name, "failed", reason, findings=findings, native=reader.native)
 
 
 def ask(reader: Reader, file: ModelFile) -> EngineAnswer:
@@ -126,7 +109,8 @@ def _motion_causes(reader: Reader, view: EngineView, theory: Mechanism) -> list[
     for feature in SOMETIMES & set(reader.features):
         view = view.switched_off(feature)
     try:
-        return explain_motion(view, with_hinges_cleared(theory, ("friction",)), integrator, who=reader.name)
+        found = explain_motion(view, with_hinges_cleared(theory, ("friction",)), integrator, who=reader.name)
+        return [cause for cause in found if cause.cause != OF_NO_FILE]
     except (RuntimeError, ValueError) as error:
         return [
             Finding("unexplained", reader.name, None, None, f"{reader.name}: {integrator.name}: {_one_line(error)}")

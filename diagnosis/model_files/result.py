@@ -14,9 +14,13 @@ HINGE_NUMBERS = ("armature", "damping", "friction", "stiffness", "rest", "limits
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """``verdict``: ``agrees``, ``differs`` or ``unexplained``; ``findings``: the likeliest cause first; ``engines``:
-    for each engine what it compiled, or why it did not; ``notes``: what was assumed; ``against``: the name of what the
-    file was compared with; ``mechanism``: the planar tree that was read, as :func:`mechanism_to_json` gives it."""
+    """``verdict``: ``agrees``, ``differs``, ``unexplained`` or ``incomplete``; ``findings``: the likeliest cause first.
+
+    ``engines``: for each engine what it compiled, or why it did not; ``notes``: what was assumed; ``without``: what
+    acts in the file and is left out of the comparison; ``against``: the name of what the file was compared with;
+    ``mechanism``: the planar tree that was read, as :func:`mechanism_to_json` gives it, None where it is none;
+    ``spatial``: the bodies and joints that were read; ``simulation``: what a simulation of the file would add.
+    """
 
     model: str
     verdict: str
@@ -24,32 +28,67 @@ class Diagnosis:
     engines: Mapping[str, Mapping[str, Any]]
     notes: tuple[str, ...] = ()
     against: str = ""
-    mechanism: Mapping[str, Any] = field(default_factory=dict)
+    mechanism: Mapping[str, Any] | None = None
+    spatial: Mapping[str, Any] = field(default_factory=dict)
+    without: tuple[str, ...] = ()
+    simulation: tuple[Finding, ...] = ()
 
     @property
     def exit_status(self) -> int:
-        """0 agrees, 1 differs, 3 where no engine could be asked."""
-        if self.findings:
-            return 1
-        return 0 if any(e["status"] == "agrees" for e in self.engines.values()) else 3
+        """0 agrees, 1 differs, 3 where an engine that was asked for, or every engine, could not be compared."""
+        return {"agrees": 0, "incomplete": 3}.get(self.verdict, 1)
+
+    @property
+    def headline(self) -> str:
+        """The answer in one sentence."""
+        by_status: dict[str, list[str]] = {}
+        for name, engine in self.engines.items():
+            by_status.setdefault(engine["status"], []).append(name)
+        parts = []
+        if agree := by_status.get("agrees"):
+            parts.append(f"{_listed(agree)} {'does' if len(agree) == 1 else 'do'} what the file says{self._but()}")
+        if differ := by_status.get("differs"):
+            parts.append(f"{_listed(differ)} {'does' if len(differ) == 1 else 'do'} something else than the file says")
+        for status, words in (
+            ("refused", "refuse"),
+            ("failed", "fail with"),
+            ("missing", "cannot be imported to read"),
+        ):
+            if names := by_status.get(status):
+                verb = words if len(names) > 1 or status == "missing" else words.replace("refuse", "refuses")
+                parts.append(f"{_listed(names)} {verb.replace('fail with', 'fails with')} the file")
+        if self._of_file():
+            parts.append(f"the file is not {self.against or 'a mechanism of ideal hinges'}")
+        if not parts:
+            return "no engine was compared"
+        return "; ".join(parts)
+
+    def _but(self) -> str:
+        return f" (without {len(self.without)} thing{'s' * (len(self.without) > 1)}, see below)" if self.without else ""
+
+    def _of_file(self) -> bool:
+        return any(finding.says.startswith("the file") for finding in self.findings)
 
     def to_json(self) -> dict[str, Any]:
         """The document that ``furiko diagnose --json`` prints."""
         return {
             "verdict": self.verdict,
+            "headline": self.headline,
+            "without": list(self.without),
             "findings": [finding.to_json() for finding in self.findings],
+            "simulation": [finding.to_json() for finding in self.simulation],
             "engines": {name: dict(engine) for name, engine in self.engines.items()},
             "model": self.model,
             "against": self.against or None,
-            "mechanism": dict(self.mechanism),
+            "mechanism": dict(self.mechanism) if self.mechanism is not None else None,
+            "spatial": dict(self.spatial),
             "notes": list(self.notes),
         }
 
     def text(self) -> str:
         """The text that ``furiko diagnose`` prints."""
         lines = [f"{self.model}: {self.verdict}" + (f" (against {self.against})" if self.against else "")]
-        links = self.mechanism.get("links", [])
-        lines.append(f"  a planar tree of {len(links)} link{'s' * (len(links) != 1)}")
+        lines += [f"  {self.headline}", f"  {self._described()}"]
         for name, engine in self.engines.items():
             says = engine.get("says", "")
             lines.append(f"  {name:16} {engine['status']}" + (f": {says}" if says else ""))
@@ -61,8 +100,23 @@ class Diagnosis:
             lines.append(f"  in its time steps: {found['cause']} at {found['where']}")
             lines.append(f"      {found['says']}")
             lines.append(f"      {found['cause']}: {CAUSES[found['cause']]}")
+        lines += [f"  in a simulation: {found.says}" for found in self.simulation]
+        lines += [f"  without: {line}" for line in self.without]
         lines += [f"  note: {note}" for note in self.notes]
         return "\n".join(lines)
+
+    def _described(self) -> str:
+        if self.mechanism is not None:
+            links = len(self.mechanism["links"])
+            return f"a planar tree of {links} link{'s' * (links != 1)}"
+        bodies = self.spatial.get("bodies", [])
+        kinds = [joint["kind"] for body in bodies for joint in body["joints"]]
+        joints = ", ".join(f"{kinds.count(kind)} {kind}" for kind in dict.fromkeys(kinds)) or "none"
+        return f"{len(bodies)} bod{'ies' if len(bodies) != 1 else 'y'}; joints: {joints}"
+
+
+def _listed(names: list[str]) -> str:
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 
 
 def mechanism_to_json(mechanism: Mechanism) -> dict[str, Any]:

@@ -75,7 +75,9 @@ class RobotReader:
     """How an engine loads a robot's file, known without importing it.
 
     ``adapter``: its class, ``module:Class``; ``module``, ``package``: to import and to install; ``languages``: those
-    that it reads.
+    that it reads. Of the numbers of joints (``damping``, ``stiffness``, ``friction``) and ``gravity``, ``not_held`` are
+    those that it does not read, and ``leaves_to_caller`` those that its forward dynamics does not apply.
+    ``factorises``: whether its accelerations come from a factorised mass matrix.
     """
 
     name: str
@@ -83,6 +85,9 @@ class RobotReader:
     module: str
     package: str
     languages: tuple[str, ...] = ("mjcf", "urdf")
+    not_held: tuple[str, ...] = ()
+    leaves_to_caller: tuple[str, ...] = ()
+    factorises: bool = False
 
     def load(self, path: Path, language: str, folders: Sequence[Path] = ()) -> RobotEngine:
         """Import the engine and have it read the file. Exceptions of the engine are passed on."""
@@ -94,8 +99,22 @@ class RobotReader:
 ROBOT_READERS: dict[str, RobotReader] = {
     reader.name: reader
     for reader in (
-        RobotReader("mujoco", ".robot_mujoco:MujocoRobot", "mujoco", "mujoco"),
-        RobotReader("pinocchio", ".robot_pinocchio:PinocchioRobot", "pinocchio", "pin"),
-        RobotReader("drake", ".robot_drake:DrakeRobot", "pydrake", "furiko[drake]"),
+        RobotReader("mujoco", ".robot_mujoco:MujocoRobot", "mujoco", "mujoco", factorises=True),
+        RobotReader(
+            "pinocchio-aba",
+            ".robot_pinocchio:PinocchioRobot",
+            "pinocchio",
+            "pin",
+            not_held=("stiffness", "gravity"),
+            leaves_to_caller=("damping", "stiffness"),
+        ),
+        RobotReader(
+            "drake",
+            ".robot_drake:DrakeRobot",
+            "pydrake",
+            "furiko[drake]",
+            not_held=("stiffness", "friction"),
+            leaves_to_caller=("stiffness",),
+        ),
     )
 }

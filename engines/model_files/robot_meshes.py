@@ -1,9 +1,20 @@
-"""Where a mesh lies that is not where a model file says: in folders that the user has named."""
+"""Where a mesh lies that is not where a model file says: in packages around it, and folders that the user names."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from pathlib import Path, PurePosixPath
+
+from ...models.readers.folders import package_folders
+
+PACKAGE = re.compile(rb"package://([\w.+-]+)/")
+
+
+def own_packages(path: Path) -> list[Path]:
+    """The folders above the document at ``path`` that are the packages it names as ``package://NAME/…``."""
+    names = dict.fromkeys(name.decode() for name in PACKAGE.findall(path.read_bytes()))
+    return [folder for name in names for folder in package_folders(path, name)]
 
 
 def find_in(folders: Sequence[Path], wanted: str) -> Path | None:

@@ -30,7 +30,7 @@ from ..protocol import Array
 from ..quiet import silenced
 from .robot_coordinates import Block, EngineState, RobotCoordinates
 from .robot_joints import HeldJoint, match, named_alike, unique
-from .robot_meshes import find_in
+from .robot_meshes import find_in, own_packages
 
 # MuJoCo's bindings have no type stubs that fit: Any, here and nowhere else.
 mujoco: Any = import_module("mujoco")
@@ -62,7 +62,7 @@ class MujocoRobot:
         # Otherwise MuJoCo writes a file MUJOCO_LOG.TXT into the current folder where a model is nearly singular.
         mujoco.set_mju_user_warning(lambda message: None)
         with silenced():
-            self._model = mujoco.MjModel.from_xml_path(str(path), _elsewhere(path, folders))
+            self._model = mujoco.MjModel.from_xml_path(str(path), elsewhere(path, folders))
         if self._model.nflex:
             raise ValueError("the file has flexible bodies, whose forces MuJoCo cannot leave out")
         _switch_off(self._model)
@@ -199,8 +199,9 @@ def _inertial(model: Any, body: int) -> Inertial:
     return Inertial(float(model.body_mass[body]), centre, axes @ np.diag(model.body_inertia[body]) @ axes.T)
 
 
-def _elsewhere(path: Path, folders: Sequence[Path]) -> dict[str, bytes] | None:
+def elsewhere(path: Path, folders: Sequence[Path]) -> dict[str, bytes] | None:
     """The contents of meshes and the like that are not where the file says, but in one of ``folders``; by file name."""
+    folders = [*folders, *own_packages(path)]
     if not folders:
         return None
     spec = mujoco.MjSpec.from_file(str(path))

@@ -108,7 +108,7 @@ class PinocchioCrbaTree(PinocchioAbaTree):
         right = self.passive(q, v) - self.bias(q, v)
         factors = np.linalg.cholesky(self.mass_matrix(q))
         halfway = np.linalg.solve(factors, right[..., None])
-        return np.asarray(np.linalg.solve(factors.swapaxes(1, 2), halfway)[..., 0])
+        return np.asarray(np.linalg.solve(factors.swapaxes(1, 2), halfway)[..., 0], dtype=np.float64)
 
 
 class PinocchioMjcfTree(PinocchioAbaTree):

@@ -48,9 +48,10 @@ def check(
     Runs scenes of the catalogue, or your own TOML files. Writes report.jsonl, report.html, report.md and junit.xml.
     """
     # Workers start before numpy is imported here, so that they import it at the same time.
+    from ..checks.imported_ahead import MODULES
     from ..engines.workers.processes import worker_processes
 
-    with worker_processes(jobs or os.cpu_count() or 1, ("furiko.checks.facts", "furiko.checks.cell")) as source:
+    with worker_processes(jobs or os.cpu_count() or 1, MODULES) as source:
         from ..reports import compare, read_stream
         from ..run import ReportNotWritten
         from ..run import check as run_check

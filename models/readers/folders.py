@@ -8,6 +8,14 @@ from pathlib import Path
 
 from .xml_file import Element
 
+LEVELS = 3  # a package's own folder is looked for in this many folders above the document's
+
+
+def package_folders(path: Path, package: str) -> list[Path]:
+    """Of the folder of the document at ``path`` and the :data:`LEVELS` above it those that are the ``package``."""
+    here = path.resolve().parent
+    return [folder for folder in (here, *list(here.parents)[:LEVELS]) if folder.name == package]
+
 
 class Folders:
     """The folder of the model at ``path``, against which names are resolved, and ``others``, which may be read too."""

@@ -13,7 +13,6 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull, QhullError
 
 from ..errors import InvalidInput
 from ..spatial import Inertial, from_quaternion
@@ -148,6 +147,8 @@ def _moments(corners: Array, weights: Array, centre: Array, divisor: float) -> I
 
 def _hull(name: str, vertices: Array) -> Faces:
     """The triangles of the convex hull, counter-clockwise from outside."""
+    from scipy.spatial import ConvexHull, QhullError  # 0.2 s, and few files need it
+
     try:
         hull = ConvexHull(vertices, qhull_options="Qt")
     except (QhullError, ValueError) as error:

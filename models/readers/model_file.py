@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -39,7 +39,8 @@ class ModelFile:
 
     By the name of a body: ``from_geoms``: bodies whose inertial is that of their geoms; ``geoms``: the inertial that
     its geoms have together; ``tensors``: its inertial before its rotation, and that rotation (3, 3). ``continuous``:
-    URDF joints without limits, which have two coordinates in Pinocchio.
+    URDF joints without limits, which have two coordinates in Pinocchio. ``own_text``: the text itself where it is in no
+    file.
     """
 
     path: str
@@ -58,6 +59,7 @@ class ModelFile:
     geoms: Mapping[str, Inertial] = field(default_factory=dict)
     tensors: Mapping[str, tuple[Inertial, Array]] = field(default_factory=dict)
     continuous: tuple[str, ...] = ()
+    own_text: str = ""
 
     @property
     def mechanism(self) -> Mechanism:
@@ -90,7 +92,8 @@ def read_model(path: str | Path, rules: Rules = AS_DOCUMENTED, meshes: Sequence[
 
 def model_from_text(text: str, name: str = "model", rules: Rules = AS_DOCUMENTED) -> ModelFile:
     """Read an MJCF or URDF text, called ``name`` in messages; includes are looked for in the current folder."""
-    return _understand(parse_xml(text.encode(), name), Path(name), rules, ())
+    file = _understand(parse_xml(text.encode(), name), Path(name), rules, ())
+    return replace(file, own_text=text)
 
 
 def _understand(root: Element, path: Path, rules: Rules, meshes: Sequence[Path]) -> ModelFile:

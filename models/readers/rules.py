@@ -6,6 +6,7 @@ mistake is named. Without flags the reader does as the formats' documentation sa
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
@@ -102,3 +103,13 @@ def with_mjcf(*flags: str) -> Rules:
 def with_urdf(*flags: str) -> Rules:
     """URDF read with these mistakes. Raises TypeError for a name that is no flag."""
     return replace(AS_DOCUMENTED, urdf=UrdfRules(**dict.fromkeys(flags, True)))
+
+
+def mistakes_in(language: str) -> dict[str, str]:
+    """The flags of ``mjcf`` or ``urdf``, by name, with their sentences."""
+    return flags_of(MjcfRules if language == "mjcf" else UrdfRules)
+
+
+def with_mistakes(language: str, flags: Iterable[str]) -> Rules:
+    """``mjcf`` or ``urdf`` read with these mistakes."""
+    return with_mjcf(*flags) if language == "mjcf" else with_urdf(*flags)

@@ -18,6 +18,7 @@ from .bounded_file import read_bytes, shown
 LARGEST_FILE = 8_000_000  # bytes
 MOST_ELEMENTS = 50_000
 DEEPEST = 2_000
+MOST_ATTRIBUTES = 500  # of one element; MJCF's longest list of them has some fifty
 LONGEST_ATTRIBUTE = 10_000  # characters; a list of a few hundred numbers
 # Lists as long as their file: shapes, positions of whole models, and what users add. None is read number by number
 # unless a reader asks for it.
@@ -122,6 +123,8 @@ class _Builder:
             raise element.wrong(f"more than {MOST_ELEMENTS} elements, the most that are read")
         if len(self._open) >= DEEPEST:
             raise element.wrong(f"nested more than {DEEPEST} levels deep")
+        if len(attributes) > MOST_ATTRIBUTES:
+            raise element.wrong(f"{len(attributes)} attributes; at most {MOST_ATTRIBUTES} are read")
         for name, value in attributes.items():
             if len(value) > LONGEST_ATTRIBUTE and name not in LONG_LISTS:
                 raise element.wrong(f"{name[:60]}: {len(value)} characters; at most {LONGEST_ATTRIBUTE} are read")

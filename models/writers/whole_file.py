@@ -1,4 +1,4 @@
-"""Writes a text file completely or not at all."""
+"""Writes a file completely or not at all."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def write_whole(path: Path, text: str) -> Path:
         if path.exists() and not path.is_file():
             path.write_text(text, encoding="utf-8", newline="\n")
         else:
-            _replace(path.resolve(), text)
+            replace_file(path.resolve(), text.encode())
     except OSError as error:
         raise _unwritable(path, error) from None
     return path
@@ -60,10 +60,11 @@ def _draft(path: Path) -> Path:
     return path.with_name(f".{path.name}.{os.getpid()}")
 
 
-def _replace(path: Path, text: str) -> None:
+def replace_file(path: Path, content: bytes) -> None:
+    """Write a draft beside the file, then rename it. Raises OSError where that fails; then nothing has changed."""
     draft = _draft(path)
     try:
-        draft.write_text(text, encoding="utf-8", newline="\n")
+        draft.write_bytes(content)
         draft.replace(path)
     finally:
         draft.unlink(missing_ok=True)

@@ -82,6 +82,21 @@ def from_support(tree: PlanarTree) -> tuple[Array, Array]:
     return to_hinge.sum(axis=0) + held, to_centre.sum(axis=0) + held
 
 
+def differences_lost(tree: PlanarTree) -> list[float]:
+    """What each hinge's place on its parent loses [m] as the difference of two places in the world, in doubles.
+
+    With all angles zero, along the links: places are added up from the support, and a difference is taken of each two.
+    """
+    world: list[float] = []
+    lost: list[float] = []
+    for link in tree.links:
+        along = link.hinge[0]
+        before = 0.0 if link.parent == SUPPORT else world[link.parent]
+        world.append(before + along)
+        lost.append((world[-1] - before) - along)
+    return lost
+
+
 def path_lengths(tree: PlanarTree) -> Array:
     """Lengths [m] of the paths along the links between any two of the n hinges and n centres of mass, (2n, 2n).
 

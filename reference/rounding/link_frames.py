@@ -52,27 +52,32 @@ class Inertia(NamedTuple):
 
 
 class Turn(NamedTuple):
-    """From the parent's frame to the link's: cosine and sine of the joint angle, the joint's place on the parent."""
+    """From the parent's frame to the link's: cosine and sine of the joint angle, the joint's place on the parent.
+
+    ``axis``: the rotation matrix's entry for the joint's own axis, one but for rounding: turned about an axis of any
+    direction it is (1 - cos) + cos, which what is parallel to the axis is multiplied by.
+    """
 
     cos: Any
     sin: Any
     x: Any
     y: Any
+    axis: Any
 
     def motion(self, v: Spatial) -> Spatial:
         """A motion of the parent, seen from the link."""
         x, y = v.x - v.w * self.y, v.y + v.w * self.x
-        return Spatial(v.w, self.cos * x + self.sin * y, self.cos * y - self.sin * x)
+        return Spatial(v.w * self.axis, self.cos * x + self.sin * y, self.cos * y - self.sin * x)
 
     def force(self, f: Spatial) -> Spatial:
         """A force on the link, seen from the parent."""
         x, y = self.cos * f.x - self.sin * f.y, self.sin * f.x + self.cos * f.y
-        return Spatial(f.w + (self.x * y - self.y * x), x, y)
+        return Spatial(f.w * self.axis + (self.x * y - self.y * x), x, y)
 
     def inertia(self, i: Inertia) -> Inertia:
         """An articulated inertia of the link, seen from the parent."""
         c, s = self.cos, self.sin
-        hx, hy = c * i.wx - s * i.wy, s * i.wx + c * i.wy
+        hx, hy = (c * i.wx - s * i.wy) * self.axis, (s * i.wx + c * i.wy) * self.axis
         # R A Rᵀ, one product after the other
         first, second = (c * i.xx - s * i.xy, s * i.xx + c * i.xy), (c * i.xy - s * i.yy, s * i.xy + c * i.yy)
         xx = first[0] * c - second[0] * s
@@ -80,7 +85,7 @@ class Turn(NamedTuple):
         yy = first[1] * s + second[1] * c
         # shifted by the joint's place r: the moment of a force is that about the joint, plus r × force
         gx, gy = hx - self.y * xx + self.x * xy, hy - self.y * xy + self.x * yy
-        ww = i.ww - self.y * hx + self.x * hy - self.y * gx + self.x * gy
+        ww = i.ww * self.axis * self.axis - self.y * hx + self.x * hy - self.y * gx + self.x * gy
         return Inertia(ww, gx, gy, xx, xy, yy)
 
 
@@ -109,7 +114,11 @@ def cross_force(v: Spatial, h: Spatial) -> Spatial:
 
 def joint_turns(q: Sequence[Any], places: Sequence[tuple[Any, Any]]) -> list[Turn]:
     """Each joint's transformation, from relative angles and the joints' places on their parents."""
-    return [Turn(angle.cos(), angle.sin(), *place) for angle, place in zip(q, places, strict=True)]
+    found = []
+    for angle, place in zip(q, places, strict=True):
+        cos = angle.cos()
+        found.append(Turn(cos, angle.sin(), *place, (1.0 - cos) + cos))
+    return found
 
 
 def velocities(tree: PlanarTree, turns: Sequence[Turn], rates: Sequence[Any]) -> list[Spatial]:
@@ -163,6 +172,22 @@ def in_world(tree: PlanarTree, turns: Sequence[Turn], forces: Sequence[Spatial])
     return [(c * f.x - s * f.y, s * f.x + c * f.y) for (c, s), f in zip(total, forces, strict=True)]
 
 
+def depths(tree: PlanarTree, turns: Sequence[Turn]) -> list[Any]:
+    """Of the links' centres of mass below the support [m]: places in the world, joint after joint."""
+    found: list[Any] = []
+    frames: list[tuple[Any, Any, Any]] = []  # of each link: its joint's depth, cosine and sine of its angle
+    for link, turn in zip(tree.links, turns, strict=True):
+        if link.parent == SUPPORT:
+            x, c, s = turn.x, turn.cos, turn.sin
+        else:
+            x, c, s = frames[link.parent]
+            x = x + (c * turn.x - s * turn.y)
+            c, s = c * turn.cos - s * turn.sin, s * turn.cos + c * turn.sin
+        frames.append((x, c, s))
+        found.append(x + (c * link.com[0] - s * link.com[1]))
+    return found
+
+
 def forward_dynamics(
     tree: PlanarTree,
     turns: Sequence[Turn],
@@ -179,10 +204,12 @@ def forward_dynamics(
     for i in range(tree.n - 1, -1, -1):
         if tree.links[i].parent != SUPPORT:
             parent = tree.links[i].parent
-            reduced = _without_joint(inertia[i], _yields_exactly(tree, i))
+            reduced, felt = _without_joint(inertia[i])
             share = -bias[i].w * (1.0 / inertia[i].ww)
             column = Spatial(inertia[i].ww * share, inertia[i].wx * share, inertia[i].wy * share)
-            left = bias[i] + reduced.times(coriolis[i]) + column
+            c = coriolis[i]
+            _, x, y = reduced.times(c)
+            left = bias[i] + Spatial(felt.w * c.w + felt.x * c.x + felt.y * c.y, x, y) + column
             inertia[parent] = inertia[parent] + turns[i].inertia(reduced)
             bias[parent] = bias[parent] + turns[i].force(left)
     a: list[Spatial] = []
@@ -197,27 +224,24 @@ def forward_dynamics(
     return found
 
 
-def _yields_exactly(tree: PlanarTree, i: int) -> bool:
-    """Whether a tip's inertia about its joint leaves nothing once the joint yields: D (1/D) = 1 in double precision."""
-    if i in tree.parents:
-        return False
-    inertia = float(rigid_inertia(tree, i, float).ww)
-    return inertia * (1.0 / inertia) == 1.0
+def _without_joint(i: Inertia) -> tuple[Inertia, Spatial]:
+    """I - (U / D) Uᵀ: what is left of an articulated inertia once its joint yields; and its first row as it stands.
 
-
-def _without_joint(i: Inertia, exactly: bool) -> Inertia:
-    """I - U Uᵀ / D: what is left of an articulated inertia once its joint yields.
-
-    Its first row is zero but for rounding, which stands beside the inertias of what carries the link. These may be far
-    smaller.
+    Its first row and column are zero but for rounding, which stands beside the inertias of what carries the link. These
+    may be far smaller. U / D has been rounded, so that row and column are not the same: what carries the link has the
+    column's, its acceleration meets the row. D (1 / D) may well be one: the last digit of D decides, which depends on
+    how m l² is multiplied out and on how a file's numbers were read.
     """
     inverse = 1.0 / i.ww
     wx, wy = i.wx * inverse, i.wy * inverse
-    return Inertia(
-        0.0 if exactly else i.ww - (i.ww * inverse) * i.ww,
+    one = i.ww * inverse
+    row = Spatial(i.ww - one * i.ww, i.wx - one * i.wx, i.wy - one * i.wy)
+    column = Inertia(
+        row.w,
         i.wx - wx * i.ww,
         i.wy - wy * i.ww,
         i.xx - wx * i.wx,
         i.xy - wx * i.wy,
         i.yy - wy * i.wy,
     )
+    return column, row

@@ -3,8 +3,9 @@
 The KKT system of free bodies and hinges, (M, Gᵀ; G, 0) (q̈, λ) = b, is solved by Gaussian elimination with row
 interchanges. Its backward error is |L||U||x| (Higham, Accuracy and Stability of Numerical Algorithms, theorem 9.3), not
 row by row: a row of a light link may be added to one of a heavy link and share its rounding. The size depends on the
-order in which unknowns are eliminated, which a sparse solver chooses by rules of its own; the worst of several random
-orders is taken.
+order in which unknowns are eliminated, which a sparse solver chooses by rules of its own. For the proven bound the
+worst of several random orders is taken; for the spread, too, unless the solver's rules are known (COLAMD, SuperLU's
+column ordering, which Eigen's ``SparseLU`` follows): then SuperLU itself is asked.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ Array = NDArray[np.float64]
 
 ORDERS = 16  # random ones, for the proven bound
 FEW_ORDERS = 3  # random ones, for the spread of long mechanisms
+LONGEST = 200  # links of a mechanism that a spread is still had for, in one state
 LONG = 12  # links of one, beyond which more orders would take too long
 WORK = 6e8  # multiplications, of which elimination makes about so many in a second
 ASIDE = 3e7  # what else a state costs, in the same unit
@@ -58,7 +60,14 @@ def furthest_off(beyond: NDArray[np.bool_], excess: Array, n: int) -> NDArray[np
     return np.flatnonzero(beyond)[np.argsort(-excess[beyond], kind="stable")][: states_within_a_second(n)]
 
 
-def spread_orders(n: int) -> int:
+def spread_states(n: int, ordering: str) -> int:
+    """In how many states of n links a spread can be had in about a quarter of a second; 0: in none."""
+    if ordering == "colamd":
+        return int(0.25 / (1e-3 + 4e-5 * n**2)) or int(n <= LONGEST)
+    return states_within_a_second(n, _spread_orders(n) + 2) // 4 or int(n <= LONGEST)
+
+
+def _spread_orders(n: int) -> int:
     """How many random orders a spread rests on, besides two: from the tips link by link, and as the unknowns stand."""
     return ORDERS if n <= LONG else FEW_ORDERS
 
@@ -87,17 +96,22 @@ def _one(system: DocumentSystem, theta: Array, omega: Array) -> tuple[Array, Arr
     return by_angle @ size * units.energy, forces * units.force
 
 
-def maximal_spread(system: DocumentSystem, theta: Array, omega: Array) -> tuple[Array, Array]:
+def maximal_spread(
+    system: DocumentSystem, theta: Array, omega: Array, ordering: str = "unknown"
+) -> tuple[Array, Array]:
     """Root mean squares of what rounding does to accelerations, (B, n) [rad/s²], and to joints' forces, (B, n) [N].
 
     Every entry of |L||U| and of the right-hand side moved by one rounding, independently of the others; an angle is
     known to ε, hence a lever's component to ε of the lever. The right-hand side is G q̇, differentiated along the
-    motion: velocities meet there before they cancel.
+    motion: velocities meet there before they cancel. ``ordering`` as in ``engines.EngineInfo``.
     """
     n = system.n
     all_states = [equations(system, t, w) for t, w in zip(theta, omega, strict=True)]
-    orders = np.vstack([_from_the_tips(n), np.arange(5 * n), _random_orders(5 * n, spread_orders(n))])
-    met = _met(np.stack([state.matrix for state in all_states]), orders).max(axis=1)
+    if ordering == "colamd":
+        met = np.stack([_met_by_superlu(state.matrix) for state in all_states])
+    else:
+        orders = np.vstack([_from_the_tips(n), np.arange(5 * n), _random_orders(5 * n, _spread_orders(n))])
+        met = _met(np.stack([state.matrix for state in all_states]), orders).max(axis=1)
     pairs = [_spread(n, state, entries) for state, entries in zip(all_states, met, strict=True)]
     alpha, forces = (np.array(values) for values in zip(*pairs, strict=True))
     return alpha, forces
@@ -158,6 +172,16 @@ def _met(matrices: Array, orders: NDArray[np.intp]) -> Array:
     found = np.empty_like(factors)
     np.put_along_axis(found, orders[None, :, None, :], factors, axis=-1)
     return found
+
+
+def _met_by_superlu(matrix: Array) -> Array:
+    """|L||U| of SuperLU's own factors, rows and columns where they were, (5n, 5n)."""
+    from scipy.sparse import csc_array
+    from scipy.sparse.linalg import splu
+
+    found = splu(csc_array(matrix), permc_spec="COLAMD", diag_pivot_thresh=1.0)
+    product = (abs(found.L) @ abs(found.U)).toarray()
+    return np.asarray(product[np.ix_(found.perm_r, found.perm_c)])
 
 
 def _random_orders(size: int, count: int) -> NDArray[np.intp]:

@@ -15,9 +15,19 @@ from ...models import PlanarTree
 from ...models.tree import SUPPORT
 from . import tree_frame
 from .composite import about_centre_of_mass, in_link_frames
-from .lever_arms import from_support
-from .link_frames import Inertia, Turn, forward_dynamics, in_world, inverse_dynamics, joint_turns, rigid_inertia
-from .monte_carlo import Noise, Noisy, spread
+from .lever_arms import differences_lost
+from .link_frames import (
+    Inertia,
+    Turn,
+    forward_dynamics,
+    in_world,
+    inverse_dynamics,
+    joint_turns,
+    rigid_inertia,
+    velocities,
+)
+from .link_frames import depths as link_depths
+from .monte_carlo import MAGNIFIED, Noise, Noisy, spread
 
 Array = NDArray[np.float64]
 
@@ -72,15 +82,18 @@ class _Run:
         return joint_turns(self.relative(theta), self._places(placed))
 
     def _places(self, placed: str) -> list[tuple[Any, Any]]:
-        """The joints' places on their parents; off by the rounding of the way from the support if had from there."""
+        """The joints' places on their parents, off by what they lose if had as differences of places in the world.
+
+        That is so much and no other, in all links together. Every other sample has the opposite of it, so that their
+        mean is that of places which have lost nothing.
+        """
+        turns = MAGNIFIED * (-1.0) ** np.arange(SAMPLES)[:, None]
         places: list[tuple[Any, Any]] = [link.hinge for link in self.tree.links]
         if placed == "world":
-            way = from_support(self.tree)[0]
-            for i, link in enumerate(self.tree.links):
-                if link.parent != SUPPORT:
-                    error = self.number(way[i]).value - way[i]
-                    x, y = link.hinge
-                    places[i] = (Noisy(x + error, self.noise), y)
+            for i, lost in enumerate(differences_lost(self.tree)):
+                if lost:
+                    x, y = places[i]
+                    places[i] = (Noisy(np.broadcast_to(x + lost * turns, self.shape), self.noise), y)
         return places
 
 
@@ -135,6 +148,48 @@ def rnea(
         torques, forces = [force.w for force in found], in_world(tree, turns, found)
     x, y = (_around_mean(run.values([pair[k] for pair in forces])) for k in range(2))
     return _around_mean(run.values(run.absolute_rows(torques))), np.hypot(x, y)
+
+
+def energies(
+    tree: PlanarTree, theta: Array, omega: Array, *, accuracy: float, placed: str, moments: str, matrix: bool
+) -> Array:
+    """Of kinetic and potential energy [J], (B, 2); the kinetic link by link, or with the mass ``matrix``."""
+    run = _Run(tree, len(theta), accuracy)
+    rates = run.relative(omega)
+    if moments == "tree":
+        at = tree_frame.Placed(tree, [(angle.sin(), angle.cos()) for angle in run.relative(theta / 2)])
+        twice = _twice_kinetic(about_centre_of_mass(tree, at.axes, at.inertias), rates)
+        depths = at.depths
+    else:
+        turns = run.turns(theta, placed)
+        inertias = [rigid_inertia(tree, i, run.number) for i in range(tree.n)]
+        if matrix:
+            own = [Inertia(*map(run.array, inertia)) for inertia in inertias]
+            twice = _twice_kinetic(in_link_frames(tree, turns, own), rates)
+        else:
+            v = velocities(tree, turns, rates)
+            force = [inertia.times(moving) for inertia, moving in zip(inertias, v, strict=True)]
+            twice = _dot([x for moving in v for x in moving], [x for pushed in force for x in pushed])
+        depths = link_depths(tree, turns)
+    weight = _dot([link.mass for link in tree.links], depths)
+    return _around_mean(run.values([run.array(0.5 * twice), run.array(-tree.gravity * weight)]))
+
+
+def _twice_kinetic(parts: dict[int, tuple[list[int], Noisy]], rates: list[Any]) -> Any:
+    """q̇ᵀ M q̇ from one half of M: of each row or column, those beside the diagonal count twice."""
+    products: list[Any] = []
+    for i, (others, entries) in parts.items():
+        columns = [Noisy(entries.value[..., k], entries.noise) for k in range(len(others))]
+        row = _dot([rates[j] if j == i else 2.0 * rates[j] for j in others], columns)
+        products.append(rates[i] * row)
+    return _dot([1.0] * len(products), products)
+
+
+def _dot(one: list[Any], other: list[Any]) -> Any:
+    total: Any = 0.0
+    for a, b in zip(one, other, strict=True):
+        total = total + a * b
+    return total
 
 
 def crba_matrix(tree: PlanarTree, theta: Array, *, accuracy: float, placed: str, moments: str) -> Array:

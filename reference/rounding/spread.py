@@ -35,7 +35,7 @@ from .entries import entries, reach, speeds
 from .lever_arms import from_support
 from .maximal_elimination import maximal_spread
 from .monte_carlo import ONE_ROUNDING
-from .sampled import aba_accelerations, crba_matrix, rnea
+from .sampled import aba_accelerations, crba_matrix, energies, rnea
 
 Array = NDArray[np.float64]
 
@@ -56,6 +56,8 @@ class Formulation(Protocol):
     @property
     def interchanges(self) -> bool: ...
     @property
+    def ordering(self) -> str: ...
+    @property
     def accuracy(self) -> float: ...
 
 
@@ -65,7 +67,7 @@ def accelerations(
     """Spread of θ̈ [rad/s²], (B, n), in states (B, n) whose true accelerations are ``alpha``."""
     mass = mass_matrix(system, theta)
     if how.coordinates == "maximal":
-        found = maximal_spread(system, theta, omega)[0] * _coarser(how)
+        found = maximal_spread(system, theta, omega, how.ordering)[0] * _coarser(how)
     elif how.algorithm == "aba":
         found = aba_accelerations(system.tree(), theta, omega, alpha, accuracy=how.accuracy, placed=how.placed)
     else:
@@ -168,7 +170,7 @@ def joint_forces(
 ) -> Array:
     """Spread of the length of each joint's force, (B, n) [N], in the true motion."""
     if how.coordinates == "maximal":
-        found = maximal_spread(system, theta, omega)[1] * _coarser(how)
+        found = maximal_spread(system, theta, omega, how.ordering)[1] * _coarser(how)
     elif how.inverse != "matrix":
         facts: dict[str, Any] = {"accuracy": how.accuracy, "placed": how.placed, "moments": how.moments}
         found = rnea(system.tree(), theta, omega, alpha, gravity=np.full(len(theta), system.gravity), **facts)[1]
@@ -182,15 +184,17 @@ def joint_forces(
 
 
 def energy(how: Formulation, system: DocumentSystem, amplitude: Amplitudes, theta: Array, omega: Array) -> Array:
-    """Spread of kinetic and potential energy, (B, 2) [J]."""
-    rates = np.abs(amplitude.own(omega))
-    levers = reach(how, system, amplitude, theta)
-    speed = (rates[:, None, :] @ levers)[:, 0]
-    kinetic = (speed**2 @ amplitude.mass + amplitude.path_sums(omega) ** 2 @ amplitude.inertia) / 2
-    height = from_support(system.tree())[1]
-    potential = np.full(len(theta), float(height @ amplitude.mass) * system.gravity)
-    found = np.stack([kinetic, potential], axis=-1) * ONE_ROUNDING * _coarser(how)
-    return np.asarray(found * turns(theta)[:, None] + EPSILON * amplitude.underflow(omega))
+    """Spread of kinetic and potential energy, (B, 2) [J].
+
+    As sampled, and the last digits of the whole weight times its greatest depth: what is zero at the height of the
+    support may be counted from elsewhere.
+    """
+    tree = system.tree()
+    facts: dict[str, Any] = {"accuracy": how.accuracy, "placed": how.placed, "moments": how.moments}
+    found = energies(tree, theta, omega, matrix=how.inverse == "crba", **facts)
+    depth = float(from_support(tree)[1] @ amplitude.mass) * system.gravity
+    last = np.array([0.0, depth]) * ONE_ROUNDING * _coarser(how)
+    return np.asarray(np.hypot(found, last) * turns(theta)[:, None] + EPSILON * amplitude.underflow(omega))
 
 
 def velocity_bias(how: Formulation, system: DocumentSystem, amplitude: Amplitudes, theta: Array, omega: Array) -> Array:

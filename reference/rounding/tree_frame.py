@@ -15,7 +15,7 @@ from .link_frames import STILL, Inertia, Spatial, cross_force
 
 
 class Placed:
-    """Joints' axes and links' inertias about the centre of mass, for relative angles ``q``.
+    """Joints' axes and links' inertias about the centre of mass, for relative angles ``q``; depths below the support.
 
     ``sine_and_cosine`` of half an angle.
     """
@@ -37,6 +37,7 @@ class Placed:
         total = sum(link.mass for link in tree.links)
         moments = [[link.mass * centre[k] for link, centre in zip(tree.links, centres, strict=True)] for k in (0, 1)]
         middle = [sum(parts[1:], parts[0]) / total for parts in moments]
+        self.depths = [centre[0] for centre in centres]  # of the centres of mass, below the support
         self.axes: list[Spatial] = []
         self.inertias: list[Inertia] = []
         for link, hinge, centre in zip(tree.links, hinges, centres, strict=True):

@@ -92,12 +92,10 @@ def _kept() -> dict[str, dict[str, Any]]:
 
 
 def main() -> None:
-    """Compute the end points of the catalogue's scenes and of the benchmarks anew."""
+    """Compute the end points of the catalogue's scenes anew."""
     from ...models import document_scenes
-    from ...models.benchmark_scenes import BENCHMARKS
 
-    for scenes, path in ((document_scenes(), PATH), ([*BENCHMARKS.values()], BENCHMARKS_PATH)):
-        print(f"{write(scenes, path)} end points written to {path}")
+    print(f"{write(document_scenes(), PATH)} end points written to {PATH}")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
 """The benchmark: time against error of engines, their integrators and furiko; what a check skips.
 
-May import: models, records, reference, engines, checks.
+May import: models, records, reference, engines, diagnosis, checks.
 """

@@ -103,7 +103,7 @@ def _accelerations(cell: Cell) -> Measured:
     at = sharp.chosen(np.abs(error).max(axis=-1), max(1, sharp.states_for_accelerations(info, system.n)))
     chosen = cell.states.at(at)
     size = spread.accelerations(info, system, cell.amplitude, chosen.theta, chosen.omega, high[at])
-    factor = sharp.MAXIMAL if info.coordinates == "maximal" else sharp.ACCELERATIONS
+    factor = sharp.for_accelerations(info)
     return Measured(high, error, factor * size, at)
 
 

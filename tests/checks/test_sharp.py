@@ -9,6 +9,7 @@ import pytest
 from furiko.checks import sharp
 from furiko.checks.comparisons import accelerations, energy, joint_forces, terms
 from furiko.checks.registry import CHECKS as REGISTERED
+from furiko.engines import ENGINES as ENGINE_INFO
 from furiko.models import RodChain, Scene
 from furiko.models.states import States
 from furiko.reference.rounding import spread
@@ -74,8 +75,9 @@ def test_engines_that_are_right_are_not_loose(quotients, make_cell, engine):
         assert not result.loose, (scene, result)
 
 
+ARTICULATED = tuple(name for name in ENGINES if ENGINE_INFO[name].algorithm == "aba")
+FACTORIZED = tuple(name for name in ENGINES[:-1] if name not in ARTICULATED)
 FACTORS = {
-    "accelerations": sharp.ACCELERATIONS,
     "terms": sharp.TERMS,
     "joint forces": sharp.JOINT_FORCES,
     "energy": sharp.ENERGY,
@@ -92,6 +94,17 @@ def test_no_factor_is_ten_times_too_wide_or_too_narrow(quotients, make_cell, che
         if result.check.startswith(check) and "sharp line" in result.details
     ]
     assert FACTORS[check] / 10 < max(found) <= FACTORS[check]
+
+
+@pytest.mark.parametrize(("engines", "factor"), [(ARTICULATED, sharp.ARTICULATED), (FACTORIZED, sharp.ACCELERATIONS)])
+def test_nor_are_those_of_accelerations(quotients, make_cell, engines, factor):
+    found = [
+        result.details["sharp line"]["quotient"]
+        for engine in engines
+        for _, result in measured(quotients, make_cell, engine)
+        if result.check == "accelerations"
+    ]
+    assert factor / 10 < max(found) <= factor
 
 
 def test_nor_is_that_of_maximal_coordinates(quotients, make_cell):
@@ -111,7 +124,7 @@ def test_a_small_error_in_any_entry_is_loose(make_cell, engine, scene):
     cell = replace(cell, states=cell.states.only(moving), facts=cell.facts.only(moving))
     facts, system = cell.facts, cell.scene.system
     size = spread.accelerations(cell.info, system, cell.amplitude, cell.states.theta, cell.states.omega, facts.high)
-    factor = sharp.MAXIMAL if cell.info.coordinates == "maximal" else sharp.ACCELERATIONS
+    factor = sharp.for_accelerations(cell.info)
     line = factor * size / np.abs(facts.high)  # relative, of each entry
     for entry in (0, system.n // 2, system.n - 1):
         planted = np.zeros_like(size)

@@ -23,7 +23,8 @@ def grade(folder, text, *options):
 
 def test_a_right_derivation_is_correct(tmp_path):
     done = grade(tmp_path, RIGHT)
-    assert (done.returncode, done.stdout, done.stderr) == (0, "Correct.\n", "")
+    assert (done.returncode, done.stdout.splitlines()[-1], done.stderr) == (0, "Correct.", "")
+    assert done.stdout.startswith("Read: a chain of 2 massless rods with a point mass at the end of each")
 
 
 def test_a_wrong_sign_is_named_at_its_term(tmp_path):
@@ -47,3 +48,13 @@ def test_bad_input_is_one_clear_line(tmp_path, text):
     assert (done.returncode, done.stdout) == (2, "")
     (line,) = done.stderr.splitlines()
     assert "derivation.toml" in line
+
+
+def test_a_pinned_problem_is_not_the_files_to_change(tmp_path):
+    done = grade(tmp_path, RIGHT, "--system", "rod-chain")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "the problem is 'rod-chain'" in done.stderr
+    upwards = RIGHT.replace("-m1*g", "m1*g").replace("- m2*g", "+ m2*g").replace("-m2*g", "m2*g")
+    assert grade(tmp_path, upwards).returncode == 0
+    assert grade(tmp_path, upwards, "--system", "n-leg", "--links", "2").returncode == 1
+    assert grade(tmp_path, RIGHT, "--system", "n-leg", "--links", "2").returncode == 0

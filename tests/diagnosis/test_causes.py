@@ -9,6 +9,7 @@ import pytest
 from faults.code import IN_CODE, TermByTerm
 from faults.engines import NAMES, OF_ENGINES, Unnormalised
 from faults.mechanisms import Shape, free, random_tree, with_link
+from faults.pairs import drawn
 from faults.readers import OF_READERS
 from faults.runs import OF_RUNS
 from score_causes import (
@@ -29,6 +30,7 @@ from furiko.diagnosis.explain_motion import explain_motion
 from furiko.diagnosis.finding import CAUSES
 from furiko.engines import engine_info, load_engine
 from furiko.models import document_scenes
+from furiko.models.readers.rules import mistakes_in
 from furiko.reference import centrifugal_matrix
 
 CAUSES_OF = [(place, cause) for place in ("engine", "reader", "run") for cause in PLACES[place]]
@@ -58,7 +60,17 @@ def test_every_cause_that_can_be_named_is_told_and_planted():
     planted = {cause for causes in PLACES.values() for cause in causes}
     hard_to_plant = {"damping-ignored", "friction-ignored", "stiffness-ignored", "inertia-rejected", "unexplained"}
     of_several_links = {"density", "massless-link", "rods-as-point-masses", "point-masses-as-rods"}
-    assert planted | hard_to_plant | of_several_links | OF_CODE == set(CAUSES)
+    # Planted in robots' files, each against the engine that makes it: tests/models/readers, tests/diagnosis/robots.
+    of_robots = {flag.replace("_", "-") for language in ("mjcf", "urdf") for flag in mistakes_in(language)} | {
+        "file-refused",
+        "joint-type",
+        "joint-axis",
+        "joint-placement",
+        "servo",
+        "coarse-time-step",
+        "free-armature-in-body-axes",
+    }
+    assert planted | hard_to_plant | of_several_links | OF_CODE | of_robots == set(CAUSES)
     assert set(IN_CODE) <= OF_CODE
     assert set(OF_ENGINES) | set(OF_READERS) | set(OF_RUNS) <= set(CAUSES)
 
@@ -215,22 +227,55 @@ def test_a_cause_that_holds_in_some_states_only_is_not_named():
 
 
 def test_both_of_two_faults_are_named():
-    total = score_of_pairs(range(8))
-    assert total.named >= 7, total.missed
+    total = score_of_pairs(range(3))
+    assert total.named == 3, total.missed
     assert total.misleading == []
+
+
+@pytest.mark.parametrize(
+    ("seed", "causes"),
+    [
+        (72, {"degree-vs-radian", "length"}),  # angles of many turns have lost digits
+        (63, {"degree-vs-radian", "velocity-terms-sign"}),  # and not velocity terms times a degree's square
+        (126, {"joint-order", "sin-for-cos"}),
+        (147, {"stale-derived-state", "sin-for-cos"}),
+        (111, {"velocity-terms-sign", "factor-half"}),  # of a term that is in the others' sign, too
+        (5015, {"sign", "factor-half"}),  # of one term
+        (146, {"com-displaced", "length"}),  # of one link, by an engine that says what it compiled
+        (5046, {"velocity-terms-forgotten", "sin-for-cos"}),
+        (7019, {"angle-convention", "velocity-terms-sign"}),
+        (6007, {"degree-vs-radian", "sign"}),  # and not a link without mass, which may have any acceleration
+    ],
+)
+def test_faults_that_hide_each_other_are_both_named(seed, causes):
+    planted = drawn(np.random.default_rng(seed), 2)
+    assert set(planted.causes) == causes
+    found = explanation(planted.engine, planted.wanted)
+    assert {finding.cause for finding in found.findings} == causes, found
+    assert found.alternatives == ()
+
+
+def test_where_two_pairs_explain_the_same_both_are_told():
+    """A pair (cos, sin) of length r at the support's hinge is a gravity of r times its strength."""
+    planted = drawn(np.random.default_rng(142), 2)
+    found = explanation(planted.engine, planted.wanted)
+    assert [finding.cause for finding in found.findings] == ["com-displaced"]
+    assert {finding.cause for finding in found.alternatives} == {"gravity", "continuous-joint-not-normalised"}
 
 
 @pytest.mark.slow
 def test_the_score_of_pairs():
-    """Guards what is reached: of 150 pairs 131 named, 4 with a cause beside that was not planted; of 150 singles all.
+    """Guards what is reached: of 60 pairs that nothing was made for 56 named, none with a cause that was not planted.
 
-    The aim is nine of ten and none: ``python tests/score_causes.py --pairs 600`` tells how far it is.
+    The others have another explanation that is as good, such as a gravity of the other sign and another strength.
+
+    ``python tests/score_causes.py --plants 0 --sound 0 --pairs 600`` measures it.
     """
     one, two = score_of_pairs(range(40), 1), score_of_pairs(range(20), 2)
     assert one.named >= 0.99 * one.drawn, one.missed
     assert one.misleading == []
-    assert two.named >= 0.75 * two.drawn, two.missed
-    assert len(two.misleading) <= 1
+    assert two.named >= 0.9 * two.drawn, two.missed
+    assert two.misleading == []
 
 
 @pytest.mark.parametrize("kind", ["mass", "length", "inertia", "gravity"])

@@ -142,12 +142,14 @@ def drawn(rng, how_many):
     for kind in kinds:
         left = [name for name in KINDS[kind] if name not in names and not {name, *names} >= ALL_VELOCITY_TERMS]
         names.append(str(rng.choice(left)))
-    mechanism, changes = wanted, []
+    mechanism, code = wanted, []
     for kind, name in zip(kinds, names, strict=True):
         if kind == "mechanism":
             mechanism = IN_MECHANISM[name](rng, mechanism)
         elif kind == "code":
-            changes.append(IN_CODE[name](rng, mechanism))
+            code.append((name in ALL_VELOCITY_TERMS, IN_CODE[name](rng, mechanism)))
+    # All terms of a kind last: a sine in place of a cosine is that of the right velocity terms, not of missing ones.
+    changes = [change for _, change in sorted(code, key=lambda found: found[0])]
     engine = _engine(rng, mechanism, changes, ONLY_TERM_BY_TERM & set(names))
     for kind, name in zip(kinds, names, strict=True):
         if kind == "convention":

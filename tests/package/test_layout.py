@@ -55,7 +55,7 @@ ROOMS = {
     ),
     "derivations": (
         {"models", "reference"},
-        [(".",), ("algebra",), ("steps",), ("mistakes",), ("grading",), ("audit", "lesson")],
+        [(".",), ("algebra",), ("steps",), ("reading",), ("mistakes",), ("grading",), ("audit", "lesson")],
     ),
     "reports": ({"models", "records"}, [(".",), ("pages", "terminal")]),
     "furiko": ({"*"}, [(".",), ("cli",)]),

@@ -6,9 +6,8 @@ import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from ..folders import package_folders
 from ..xml_file import Element
-
-LEVELS = 3  # a package's own folder is looked for in this many folders above the document's
 
 
 class MeshFolders:
@@ -20,6 +19,7 @@ class MeshFolders:
     """
 
     def __init__(self, path: Path, others: Sequence[Path] = ()) -> None:
+        self._path = path
         self._own = path.resolve().parent
         self._others = [other.resolve() for other in others]
 
@@ -40,9 +40,9 @@ class MeshFolders:
     def _places(self, name: str) -> Iterator[tuple[Path, str]]:
         if name.startswith("package://"):
             package, _, rest = name.removeprefix("package://").partition("/")
-            for folder in (self._own, *list(self._own.parents)[:LEVELS], *self._others):
-                if folder.name == package:
-                    yield folder, rest
+            named = (folder for folder in self._others if folder.name == package)
+            for folder in (*package_folders(self._path, package), *named):
+                yield folder, rest
             for folder in self._others:
                 if package not in ("", ".", ".."):
                     yield folder / package, rest

@@ -25,7 +25,7 @@ def integrator(cell, name):
         ("double-pendulum", "mujoco", "Euler", 1e-3, 0.194),
         ("double-pendulum", "mujoco", "RK4", 1e-2, 3.830),
         ("double-pendulum", "exudyn-tree", "RK44", 1e-2, 3.830),
-        (FIVE_RODS, "mujoco", "RK4", 1e-2, 1.010),
+        pytest.param(FIVE_RODS, "mujoco", "RK4", 1e-2, 1.010, marks=pytest.mark.slow),
         (FIVE_RODS, "mujoco", "RK4", 5e-3, 1.310),
         pytest.param("double-pendulum", "mujoco", "RK4", 1e-3, 8.837, marks=pytest.mark.slow),
         pytest.param("double-pendulum", "mujoco", "RK4", 5e-3, 5.830, marks=pytest.mark.slow),
@@ -65,6 +65,7 @@ def test_a_run_that_parts_earlier_than_its_steps_explain_differs(make_cell, monk
     assert "had to part at" in astray.reason
 
 
+@pytest.mark.slow
 def test_another_model_is_told_from_a_scheme(make_cell, monkeypatch):
     monkeypatch.setattr(horizon, "STEPS", (5e-3, 2.5e-3))
     monkeypatch.setattr(horizon, "LONGEST", 1.0)

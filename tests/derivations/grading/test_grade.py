@@ -105,6 +105,43 @@ def test_two_mistakes_at_once_are_both_found(one, two):
     assert one[4] | two[4] <= {finding.term for finding in graded.findings}
 
 
+# Two mistakes that meet in a term, so that their changes do not add; worked out by hand.
+MEETING = [
+    (  # L counts m₁ twice; the derivative of θ̇₁² is not doubled
+        [
+            "(2*m1+m2)/2*l1*a1 + m2*l2*a2*cos(t1-t2) + m2*l2*w2^2*sin(t1-t2) + (2*m1+m2)*g*sin(t1) = 0",
+            ROW_2,
+        ],
+        {"mass-counted-twice"},
+        {"square-not-doubled", "factor-half"},
+    ),
+    (  # L counts m₂ twice; the velocity term of row 1 is forgotten
+        ["(m1+2*m2)*l1*a1 + 2*m2*l2*a2*cos(t1-t2) + (m1+2*m2)*g*sin(t1) = 0", ROW_2],
+        {"mass-counted-twice"},
+        {"term-missing", "other-angles-held"},
+    ),
+    (  # the cross term of v₂² is halved in both rows, and one of the four terms that it makes is right all the same
+        [
+            "(m1+m2)*l1*a1 + m2*l2*a2*cos(t1-t2)/2 + m2*l2*w2^2*sin(t1-t2)/2 + (m1+m2)*g*sin(t1) = 0",
+            "m2*l2*a2 + m2*l1*a1*cos(t1-t2) - m2*l1*w1^2*sin(t1-t2)/2 + m2*g*sin(t2) = 0",
+        ],
+        {"cross-term-halved", "cross-terms-halved"},
+        {"factor-two", "cross-term-halved", "cross-terms-halved"},
+    ),
+]
+
+
+@pytest.mark.parametrize(("rows", "one", "two"), MEETING, ids=["halved", "forgotten", "doubled again"])
+def test_two_mistakes_that_meet_in_a_term_are_both_found(rows, one, two):
+    graded = grade_text(toml("n-leg", rows))
+    assert graded.verdict == "wrong"
+    told = {named.cause for named in graded.mistakes}
+    told |= {name.split(":")[0] for named in graded.mistakes for name in named.also}
+    assert told & one, graded.text()
+    assert told & two, graded.text()
+    assert len(graded.mistakes) == 2, graded.text()
+
+
 def test_three_slips_are_all_told():
     rows = [
         SHIKI_2_10[0].replace(r"m_2l_2\ddot{\theta}_2 \cos", r"m_2l_2\ddot{\theta}_2 \sin"),
@@ -139,10 +176,6 @@ def test_a_slip_in_relative_angles_is_told_in_them():
     assert finding.expected == "-2*m2*l1*l2*w1*w2*sin(t2)"
 
 
-def test_relative_angles_that_are_not_declared_are_wrong():
-    assert grade_text(toml("n-leg", RELATIVE)).verdict == "wrong"
-
-
 def test_what_is_missing_is_said_and_not_judged():
     graded = grade_text(toml("n-leg", [ROW_1], links=2))
     assert graded.verdict == "undecided"
@@ -165,7 +198,6 @@ WRONG_LAGRANGIANS = [
     ("l1² forgotten, as (3.4) prints", SHIKI_1_4.replace(r"m_1l_1^2\dot{\theta}_1^2 +", r"m_1\dot{\theta}_1^2 +"),
      "length-missing-in-speed"),
     ("2 of the cross term", SHIKI_1_4.replace("2l_1l_2", "l_1l_2"), "cross-term-halved"),
-    ("T + U", SHIKI_1_4.replace("+ m_1gl_1", "- m_1gl_1").replace("+ m_2g(", "- m_2g("), "sum-for-difference"),
     ("U of mass 2", SHIKI_1_4.replace(r"+ m_2g(l_1 \cos \theta_1 + l_2 \cos \theta_2)", ""),
      "potential-energy-missing"),
 ]  # fmt: skip

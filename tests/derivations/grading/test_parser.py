@@ -5,7 +5,7 @@ import tomllib
 import pytest
 from handwritten import toml
 
-from furiko.derivations.grading.submission import MOST_LINKS, parse_submission
+from furiko.derivations.reading.submission import MOST_LINKS, parse_submission
 from furiko.models.errors import InvalidInput
 
 
@@ -66,9 +66,11 @@ def test_sides_may_be_swapped_and_terms_moved():
     assert row("a1 = -g*sin(t1)") == row("a1 + g*sin(t1) = 0")
 
 
-def test_a_rods_mass_is_its_density_times_its_length():
-    assert row("a1 = m1", "rod-chain") == row("a1 = rho*l1", "rod-chain")
-    assert row("a1 = I2", "rod-chain") == row("a1 = m2*l2^2/12", "rod-chain")
+def test_the_authors_own_symbols_stay_apart():
+    """A rod's mass is not silently its density times its length, nor its moment of inertia m l²/12."""
+    assert row("a1 = m1", "rod-chain") != row("a1 = rho*l1", "rod-chain")
+    assert row("a1 = I2", "rod-chain") != row("a1 = m2*l2^2/12", "rod-chain")
+    assert row("a1 = l_{c1}", "rod-chain") == row("a1 = lc1", "rod-chain") != row("a1 = l1", "rod-chain")
 
 
 def test_definitions_are_put_in():
@@ -137,9 +139,12 @@ def test_refusals_are_one_line_with_the_place(line, where, why):
 FILES = [
     ("", "system"),
     ("system = 'nleg'\nlinks = 2", "did you mean 'n-leg'"),
-    ("system = 'n-leg'\nlinks = 1", "from 2 to"),
-    (f"system = 'n-leg'\nlinks = {MOST_LINKS + 1}", "from 2 to"),
-    ("system = 'n-leg'\nlinks = true", "from 2 to"),
+    ("system = 'n-leg'\nlinks = 0", "from 1 to"),
+    (f"system = 'n-leg'\nlinks = {MOST_LINKS + 1}", "from 1 to"),
+    ("system = 'n-leg'\nlinks = true", "from 1 to"),
+    ("system = 'n-leg'\nlinks = 2\nfrom = 'side'\n[equations]\n1 = 'a1=0'", "from: 'side'"),
+    ("system = 'n-leg'\nlinks = 2\nsense = ['clockwise']\n[equations]\n1 = 'a1=0'", "sense"),
+    ("system = 'n-leg'\nlinks = 2\n[equations]\n1 = 'l*a1 = l1'", "both l and l1"),
     ("system = 'n-leg'\nlinks = 2", "either"),
     ("system = 'n-leg'\nlinks = 2\nlagrangian = 'm1'\n[equations]\n1 = 'a1 = 0'", "either"),
     ("system = 'n-leg'\nlinks = 2\nequation = 'a1 = 0'", "did you mean 'equations'"),

@@ -5,9 +5,9 @@ from handwritten import ROW_1, ROW_2, SHIKI_2_10, TAKENO_18, TAKENO_19, toml
 
 from furiko.derivations.algebra.multiples import is_multiple
 from furiko.derivations.algebra.symbols import KINDS, symbols_of
-from furiko.derivations.grading.submission import parse_submission
 from furiko.derivations.mistakes.catalogue import catalogue
 from furiko.derivations.mistakes.known_mistakes import known_mistakes
+from furiko.derivations.reading.submission import parse_submission
 from furiko.derivations.steps.derivation import correct_derivation, derive
 from furiko.derivations.steps.views import View
 
@@ -91,6 +91,10 @@ BY_HAND = [
     ("n-leg", "gravity-on-one-mass-only:2", [ROW_1.replace("(m1+m2)*g", "m2*g"), ROW_2]),
     ("n-leg", "divided-on-the-right-only:2", [
         ROW_1, ROW_2.replace("m2*l2*a2 + m2*l1*a1*cos(t1-t2)", "m2*l2^2*a2 + m2*l1*l2*a1*cos(t1-t2)")]),
+    ("n-leg", "mass-left-out:1", [ROW_1.replace("(m1+m2)", "m2"), ROW_2]),
+    ("n-leg", "mass-counted-twice:1", [ROW_1.replace("(m1+m2)", "(2*m1+m2)"), ROW_2]),
+    ("n-leg", "mass-counted-twice:2", [
+        ROW_1.replace("(m1+m2)", "(m1+2*m2)").replace(" m2*", " 2*m2*"), ROW_2]),
     ("n-leg", "inertia-counted-twice", [
         ROW_1.replace("(m1+m2)*l1*a1", "(2*m1+m2)*l1*a1"), ROW_2.replace("m2*l2*a2", "2*m2*l2*a2")]),
     ("n-leg", "hung-from-a-leg:3", [

@@ -16,7 +16,7 @@ from handwritten import (
 
 from furiko.derivations.algebra.multiples import is_multiple
 from furiko.derivations.algebra.symbols import KINDS, symbols_of
-from furiko.derivations.grading.submission import parse_submission
+from furiko.derivations.reading.submission import parse_submission
 from furiko.derivations.steps.derivation import _newton_side, _row, correct_derivation, lagrange_rows
 from furiko.derivations.steps.motion import ParameterValues, RowMotion
 from furiko.models import NLegPendulum, RodChain

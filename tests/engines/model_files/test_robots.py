@@ -17,7 +17,7 @@ from furiko.models.spatial_mechanism import Joint, RigidBody, SpatialMechanism
 
 
 def both(read, text):
-    mujoco, pinocchio = read("mujoco", text), read("pinocchio", text)
+    mujoco, pinocchio = read("mujoco", text), read("pinocchio-aba", text)
     mechanism = as_read(mujoco.compiled())
     return mechanism, mujoco.bind(mechanism), pinocchio.bind(mechanism)
 
@@ -36,7 +36,7 @@ def test_mujoco_and_pinocchio_move_a_urdf_alike(read, kind):
 def test_both_hold_the_same_numbers(read, text):
     like = as_read(read("mujoco", text).compiled())
     # Pinocchio 4.1 starts a free body whose MJCF turns it at 2 p − R p where the file says p.
-    assert_same_numbers(like, read("pinocchio", text).compiled(like), free="<freejoint" not in text)
+    assert_same_numbers(like, read("pinocchio-aba", text).compiled(like), free="<freejoint" not in text)
 
 
 def test_what_mujoco_holds_is_what_the_file_says(read):
@@ -64,7 +64,7 @@ def test_what_mujoco_holds_is_what_the_file_says(read):
     np.testing.assert_array_equal(compiled.gravity, [1, 2, 3])
 
 
-@pytest.mark.parametrize("engine", ["mujoco", "pinocchio"])
+@pytest.mark.parametrize("engine", ["mujoco", "pinocchio-aba"])
 def test_a_cart_with_a_pole(read, engine):
     cart, pole, length, inertia, armature = 1.2, 0.15, 0.45, 0.0101, 0.02
     text = mjcf(f"""<body name="cart"><joint name="x" type="slide" axis="1 0 0"/>
@@ -85,7 +85,7 @@ def test_a_cart_with_a_pole(read, engine):
     )
 
 
-@pytest.mark.parametrize("engine", ["mujoco", "pinocchio"])
+@pytest.mark.parametrize("engine", ["mujoco", "pinocchio-aba"])
 def test_a_free_body_falls_and_its_coordinates_are_of_the_world_and_of_the_body(read, engine):
     """A free body's centre of mass falls with g; torque-free its spin obeys Euler's equations in the body's axes."""
     moments = np.array([0.1, 0.2, 0.25])
@@ -115,7 +115,7 @@ def test_a_free_body_falls_and_its_coordinates_are_of_the_world_and_of_the_body(
     np.testing.assert_allclose(pushed, [*at_origin, *moment], rtol=1e-12, atol=1e-13)
 
 
-@pytest.mark.parametrize("engine", ["mujoco", "pinocchio"])
+@pytest.mark.parametrize("engine", ["mujoco", "pinocchio-aba"])
 def test_quaternions_of_any_length_are_their_direction(read, engine):
     robot = read(engine, mjcf(ALIKE["free"] + ""))
     bound = robot.bind(robot.compiled())
@@ -156,7 +156,7 @@ def test_springs_and_dampers(read):
     left = mujoco.mass_matrix(q)[0] @ mujoco.accelerations(q, v, torque)[0] + mujoco.bias(q, v)[0]
     np.testing.assert_allclose(left, torque[0] + expected, rtol=1e-12)
     # Pinocchio holds the damping of hinges and slides, and its articulated-body algorithm applies none.
-    robot = read("pinocchio", text)
+    robot = read("pinocchio-aba", text)
     assert [placed.joint.damping for placed in robot.compiled().joints] == [0.3, 0.7, 0]
     assert not pinocchio.passive(q, v).any()
     left = pinocchio.mass_matrix(q)[0] @ pinocchio.accelerations(q, v, torque)[0] + pinocchio.bias(q, v)[0]
@@ -259,7 +259,7 @@ def test_roll_pitch_and_yaw_give_their_rotation_back(angles):
         np.testing.assert_allclose(roll_pitch_yaw(rotation), angles, rtol=0, atol=1e-15)
 
 
-@pytest.mark.parametrize("engine", ["mujoco", "pinocchio"])
+@pytest.mark.parametrize("engine", ["mujoco", "pinocchio-aba"])
 def test_joints_that_are_not_the_files_are_named(read, engine):
     robot = read(engine, mjcf(ALIKE["branches"]))
     compiled = robot.compiled()
@@ -283,7 +283,7 @@ def test_bodies_that_pinocchio_loses(read):
         <body name="b"><joint name="k"/>{INERTIAL.format(1)}</body>"""
     mechanism = read("mujoco", mjcf(roots)).compiled()
     with pytest.raises(ValueError, match="Pinocchio has no joint 'k'"):
-        read("pinocchio", mjcf(roots)).bind(mechanism)
+        read("pinocchio-aba", mjcf(roots)).bind(mechanism)
 
 
 def test_of_two_unnamed_siblings_pinocchio_has_the_first_twice(read):
@@ -292,14 +292,14 @@ def test_of_two_unnamed_siblings_pinocchio_has_the_first_twice(read):
         <body pos="1 0 0"><joint/>{INERTIAL.format(2)}</body>
         <body pos="0 1 0"><joint/>{INERTIAL.format(4)}</body></body>"""
     mechanism = as_read(read("mujoco", mjcf(siblings)).compiled())
-    robot = read("pinocchio", mjcf(siblings))
+    robot = read("pinocchio-aba", mjcf(siblings))
     compiled = robot.compiled(mechanism)
     assert [body.inertial.mass for body in compiled.bodies] == [1, 4, 0]
     assert compiled.joint_names == mechanism.joint_names
     assert np.linalg.matrix_rank(robot.bind(mechanism).mass_matrix(np.zeros((1, 3)))[0]) == 2
 
 
-@pytest.mark.parametrize("engine", ["mujoco", "pinocchio"])
+@pytest.mark.parametrize("engine", ["mujoco", "pinocchio-aba"])
 def test_engines_say_nothing_and_write_nothing(read, engine, capfd, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     text = urdf([LINK.format("a", 1), urdf_joint("continuous", "j", "world", "a"), "<unknown/>"])

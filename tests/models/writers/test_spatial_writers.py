@@ -127,12 +127,12 @@ def assert_as_proved(tmp_path, text, language, engine, asked):
     np.testing.assert_allclose(
         bound.mass_matrix(q[None])[0], mass_matrix, rtol=0, atol=2e-14 * np.abs(mass_matrix).max() + raised
     )
-    if engine == "pinocchio" and language == "mjcf" and tuple(asked.gravity) != tuple(EARTH):
+    if engine == "pinocchio-aba" and language == "mjcf" and tuple(asked.gravity) != tuple(EARTH):
         return  # it does not read gravity
     np.testing.assert_allclose(bound.bias(q[None], v[None])[0], bias, rtol=0, atol=5e-14 * np.abs(bias).max())
 
 
-@pytest.mark.parametrize("engine", ["mujoco", "pinocchio"])
+@pytest.mark.parametrize("engine", ["mujoco", "pinocchio-aba"])
 @pytest.mark.parametrize("language", ["mjcf", "urdf"])
 @pytest.mark.parametrize("case", BOTH)
 def test_engines_read_the_theory_in_both_formats(tmp_path, case, language, engine):
@@ -141,7 +141,7 @@ def test_engines_read_the_theory_in_both_formats(tmp_path, case, language, engin
     assert_as_proved(tmp_path, text, language, engine, asked)
 
 
-@pytest.mark.parametrize("engine", ["mujoco", "pinocchio"])
+@pytest.mark.parametrize("engine", ["mujoco", "pinocchio-aba"])
 @pytest.mark.parametrize("case", MJCF_ALONE)
 def test_what_urdf_cannot_say_is_refused_there_and_said_in_mjcf(tmp_path, case, engine):
     asked, says = MJCF_ALONE[case]

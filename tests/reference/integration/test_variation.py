@@ -87,6 +87,7 @@ def test_the_flow_keeps_the_volume_of_phase_space(system):
     np.testing.assert_allclose(determinant, expected, rtol=1e-7)
 
 
+@pytest.mark.slow
 def test_the_flow_carries_a_small_difference():
     system = NLegPendulum([1.0, 1.0], [1.0, 1.0])
     theta, omega = path(system, [2.0, 2.5], [0.0, 0.0], 1e-3, 1000)
@@ -122,6 +123,7 @@ def test_growth_of_the_chaotic_double_pendulum():
     assert 8 < found.logarithm[-1] / np.log(10) < 10
 
 
+@pytest.mark.slow
 def test_growth_where_the_first_steps_are_too_long():
     """A heavy bob falls past the upright first rod and spins it, much faster than anything turned at the start.
 

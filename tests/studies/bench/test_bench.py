@@ -19,7 +19,6 @@ from furiko.bench import bench, write
 from furiko.cli.main import run
 from furiko.engines import engine_names, engine_version, load_engine
 from furiko.models import EngineMissing, InvalidInput, RodChain, Scene
-from furiko.models.benchmark_scenes import BENCHMARKS
 from furiko.records.bench import Bench, Point
 from furiko.records.schema import FOLDER
 from furiko.reference.truth import closed_forms as exact
@@ -27,6 +26,7 @@ from furiko.reports.pages.bench_page import to_html
 from furiko.reports.terminal.bench import print_bench
 from furiko.studies.bench.acceleration_speed import speeds
 from furiko.studies.bench.methods import Method, dop853, end_error, methods, taylor
+from furiko.studies.bench.scenes import BENCHMARKS
 from furiko.studies.bench.skips import skips
 from furiko.studies.bench.timing import Subject, Times, interleaved
 from furiko.studies.bench.work_precision import front, reach, reaches, refine
@@ -412,7 +412,7 @@ def test_benchmarks_have_kept_ends():
     kept = json.loads(endpoints.BENCHMARKS_PATH.read_text(encoding="utf-8"))
     for scene in BENCHMARKS.values():
         key = endpoints._key(scene.system, scene.theta, scene.omega, endpoints._times(scene.duration))
-        assert kept[key]["scene"] == scene.name, "the scene has changed: python -m furiko.reference.truth.end_points"
+        assert kept[key]["scene"] == scene.name, "the scene has changed: python -m furiko.studies.bench.scenes"
         # long doubles for a hundred rods: eleven bits more than what is held against them
         assert max(kept[key]["error"]) < (1e-14 if scene.system.n > 50 else 1e-24)
 

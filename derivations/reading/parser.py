@@ -5,16 +5,18 @@ sum       = ["+"|"-"] product { ("+"|"-") product }
 product   = factor { ["*"|"/"] factor }              side by side is a product; / takes one factor, as in Python
 factor    = ("+"|"-") factor | primary [ "^" whole number ]
 primary   = number | symbol | "(" sum ")" | call | "\\frac" group group
+          | "[" rows "]" | "\\begin{bmatrix}" rows "\\end{bmatrix}"
 call      = ("cos"|"sin"|"tan") [ "^" whole number ] ( "(" sum ")" | [number] symbol )
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from flint import fmpq
 
 from .tokens import CLOSING, OPENING, Token, fail, tokenize
+from .vocabulary import Vocabulary
 
 DEEPEST = 60  # brackets within brackets
 LARGEST_POWER = 12
@@ -30,11 +32,12 @@ class Number:
 
 @dataclass(frozen=True)
 class Symbol:
-    """A symbol: its letter and its index, from 1, or 0 where it has none."""
+    """A symbol: its letter and its index, from 1, or 0 where it has none. ``less``: minus that of this index."""
 
     letter: str
     index: int
     at: int
+    less: int = 0
 
 
 @dataclass(frozen=True)
@@ -79,20 +82,51 @@ class Name:
     at: int
 
 
-Node = Number | Symbol | Sum | Product | Power | Call | Name
+@dataclass(frozen=True)
+class Matrix:
+    """A matrix; a list of numbers is a column."""
+
+    rows: tuple[tuple[Node, ...], ...]
+    at: int
 
 
-def parse_expression(line: str, names: frozenset[str] = frozenset()) -> Node:
+@dataclass(frozen=True)
+class Inverse:
+    """The inverse of a matrix, or 1 over a number."""
+
+    base: Node
+    at: int
+
+
+Node = Number | Symbol | Sum | Product | Power | Call | Name | Matrix | Inverse
+
+
+@dataclass
+class Slashes:
+    """How ``3g/2l`` is read: 0 as typed, (3g/2)·l, as in Python; 1: 3g/(2l), where the top is more than a number;
+    2: also 1/2l as 1/(2l); 3: also with a blank, 3g/2 l. ``doubtful``: from where to where these readings differ; in
+    the modes above 0 only what is read otherwise than typed.
+    """
+
+    mode: int = 0
+    doubtful: list[tuple[int, int]] = field(default_factory=list)
+
+
+def parse_expression(
+    line: str, names: frozenset[str] = frozenset(), words: Vocabulary | None = None, slashes: Slashes | None = None
+) -> Node:
     """The tree of an expression without an equals sign. ``names`` are the file's own definitions."""
-    parser = _Parser(line, names)
+    parser = _Parser(line, names, words, slashes)
     node = parser.sum(0)
     parser.expect_end("an equals sign is not expected here" if parser.next.text == "=" else "")
     return node
 
 
-def parse_equation(line: str, names: frozenset[str] = frozenset()) -> tuple[Node, Node]:
+def parse_equation(
+    line: str, names: frozenset[str] = frozenset(), words: Vocabulary | None = None, slashes: Slashes | None = None
+) -> tuple[Node, Node]:
     """The trees of both sides of an equation."""
-    parser = _Parser(line, names)
+    parser = _Parser(line, names, words, slashes)
     left = parser.sum(0)
     if parser.next.text != "=":
         if parser.next.kind == "end":
@@ -105,13 +139,19 @@ def parse_equation(line: str, names: frozenset[str] = frozenset()) -> tuple[Node
 
 
 class _Parser:
-    def __init__(self, line: str, names: frozenset[str]) -> None:
-        self.tokens = tokenize(line, names)
+    def __init__(self, line: str, names: frozenset[str], words: Vocabulary | None, slashes: Slashes | None) -> None:
+        self.tokens = tokenize(line, names, words)
+        self.slashes = slashes or Slashes()
         self.place = 0
+        self.blanks: list[int] = []  # where things stand side by side, with a blank between
 
     @property
     def next(self) -> Token:
         return self.tokens[self.place]
+
+    def sees(self, kind: str) -> bool:
+        """Whether a token of this kind comes next."""
+        return self.next.kind == kind
 
     def advance(self) -> Token:
         token = self.tokens[self.place]
@@ -144,7 +184,11 @@ class _Parser:
             if self.next.kind != "operator" or self.next.text not in ("+", "-"):
                 break
             sign = 1 if self.advance().text == "+" else -1
-        return parts[0][1] if len(parts) == 1 else Sum(tuple(parts), at)
+        node = parts[0][1] if len(parts) == 1 else Sum(tuple(parts), at)
+        if self.next.kind == "operator" and self.next.text == "over":  # TeX's {a \\over b}
+            self.advance()
+            return Product(((True, node), (False, self.sum(depth + 1))), at)
+        return node
 
     def product(self, depth: int) -> Node:
         at = self.next.at
@@ -154,13 +198,31 @@ class _Parser:
             if token.kind == "operator" and token.text in ("*", "/"):
                 self.advance()
                 parts.append((token.text == "*", self.factor(depth)))
-            elif token.kind in ("symbol", "function", "open", "fraction", "number", "name"):
+                if token.text == "/":
+                    self.below(parts, depth)
+            elif token.kind in ("symbol", "function", "open", "fraction", "number", "name", "matrix"):
                 if token.kind == "number" and isinstance(parts[-1][1], Number):
                     fail(token.at, "two numbers side by side; write * between them")
+                if token.at > self.tokens[self.place - 1].end:
+                    self.blanks.append(token.at)
                 parts.append((True, self.factor(depth)))
             else:
                 break
         return parts[0][1] if len(parts) == 1 else Product(tuple(parts), at)
+
+    def below(self, parts: list[tuple[bool, Node]], depth: int) -> None:
+        """Behind ``a/2``: whether a symbol at once behind the number belongs below as well is the author's secret."""
+        number = self.tokens[self.place - 1]
+        while number.kind == "number" and self.next.kind in ("symbol", "name"):
+            blank = self.next.at > self.tokens[self.place - 1].end
+            alone = all(isinstance(part, Number) for above, part in parts if above)
+            needed = 3 if blank else 2 if alone else 1
+            here = (parts[0][1].at, self.next.end)
+            if self.slashes.mode < needed:
+                self.slashes.doubtful += [here] if not self.slashes.mode else []
+                return
+            self.slashes.doubtful.append(here)
+            parts.append((False, self.factor(depth)))
 
     def factor(self, depth: int) -> Node:
         at, sign = self.next.at, 1
@@ -212,8 +274,55 @@ class _Parser:
         if self.next.kind == "close" and self.next.text in CLOSING:
             fail(self.next.at, "nothing between the brackets")
         node = self.sum(depth + 1)
+        if opened.text == "[" and self.next.kind == "separator" and self.next.text in ",;":
+            return self.brackets(opened, depth, node)
         self.close(opened)
         return node
+
+    def brackets(self, opened: Token, depth: int, first: Node) -> Node:
+        """[a, b; c, d] of MATLAB, [[a, b], [c, d]] of Python; one list is a column. ``first``: what stands first."""
+        rows: list[list[Node]] = [[first]]
+        while self.next.kind == "separator" and self.next.text in ",;":
+            if self.advance().text == ";":
+                rows.append([])
+            if self.sees("close"):
+                rows = [row for row in rows if row]
+                break
+            rows[-1].append(self.sum(depth + 1))
+        self.close(opened)
+        blank = next((at for at in self.blanks if at > opened.at), None)
+        if len(rows) > 1 and len(rows[0]) == 1 and blank is not None:
+            fail(blank, "this blank may stand for a product or for the next entry of the matrix; write * or a comma")
+        if len(rows) == 1 and all(isinstance(x, Matrix) for x in rows[0]):  # columns, which are meant as rows
+            inner = [x for x in rows[0] if isinstance(x, Matrix)]
+            return self.checked([[entry for entries in x.rows for entry in entries] for x in inner], opened.at)
+        if len(rows) == 1:
+            rows = [[x] for x in rows[0]]
+        return self.checked(rows, opened.at)
+
+    def matrix(self, depth: int) -> Node:
+        """The rows of a LaTeX matrix."""
+        begun = self.advance()
+        if depth > DEEPEST:
+            fail(begun.at, f"more than {DEEPEST} brackets within one another")
+        rows: list[list[Node]] = [[]]
+        while True:
+            rows[-1].append(self.sum(depth + 1))
+            if self.next.kind != "separator":
+                break
+            if self.advance().text != "&":
+                if self.sees("close"):
+                    break
+                rows.append([])
+        if self.next.kind != "close" or not self.next.text.startswith("\\end"):
+            fail(self.next.at, f"\\end{{{begun.text}}} is missing for the matrix of column {begun.at + 1}")
+        self.advance()
+        return self.checked(rows, begun.at)
+
+    def checked(self, rows: list[list[Node]], at: int) -> Matrix:
+        if len({len(row) for row in rows}) != 1:
+            fail(at, f"the rows of this matrix have {', '.join(str(len(row)) for row in rows[:6])} entries")
+        return Matrix(tuple(tuple(row) for row in rows), at)
 
     def primary(self, depth: int) -> Node:  # noqa: PLR0911 -- one for each kind of token
         token = self.next
@@ -223,12 +332,14 @@ class _Parser:
                 return Number(token.value, token.at)
             case "symbol":
                 self.advance()
-                return Symbol(token.text, token.index, token.at)
+                return Symbol(token.text, token.index, token.at, token.less)
             case "name":
                 self.advance()
                 return Name(token.text, token.at)
             case "open":
                 return self.group(depth)
+            case "matrix":
+                return self.matrix(depth)
             case "function":
                 return self.call(depth)
             case "fraction":
@@ -242,6 +353,10 @@ class _Parser:
 
     def call(self, depth: int) -> Node:
         function = self.advance()
+        if function.text == "inv":
+            if self.next.kind != "open":
+                fail(self.next.at, "inv needs a matrix in brackets, as in inv(M)")
+            return Inverse(self.group(depth), function.at)
         exponent = 1
         if self.next.kind == "operator" and self.next.text.startswith("^"):
             exponent = self.exponent(self.advance())

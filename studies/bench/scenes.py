@@ -1,11 +1,13 @@
-"""The scenes that ``furiko bench`` times by default: rods that start at rest with rising angles."""
+"""The scenes that ``furiko bench`` times by default: rods that start at rest with rising angles.
+
+``python -m furiko.studies.bench.scenes`` computes their end points anew.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 
-from .scene import Scene
-from .systems import RodChain
+from ...models import RodChain, Scene
 
 
 def _rods(name: str, n: int, length: float, first: float, last: float, duration: float) -> Scene:
@@ -22,3 +24,14 @@ BENCHMARKS: dict[str, Scene] = {
         _rods("bench-rods-100", 100, 0.05, 0.3, 1.2, 5.0),
     )
 }
+
+
+def main() -> None:
+    """Compute the end points of these motions anew."""
+    from ...reference.truth.end_points import BENCHMARKS_PATH, write
+
+    print(f"{write([*BENCHMARKS.values()], BENCHMARKS_PATH)} end points written to {BENCHMARKS_PATH}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,4 +1,4 @@
-"""Turns the tree of an expression into an exact formula. Only arithmetic: nothing of the text is ever run."""
+"""Turns the tree of an expression into exact formulas. Only arithmetic: nothing of the text is ever run."""
 
 from __future__ import annotations
 
@@ -7,106 +7,105 @@ from collections.abc import Mapping
 from flint import fmpq
 
 from ..algebra.quotient import Budget, Quotient, number
-from ..algebra.symbols import Symbols
 from ..algebra.trig import COS, SIN, Formula
-from .parser import Call, Name, Node, Number, Power, Product, Sum, Symbol
+from .matrices import Grid, added, inverse, multiplied, scaled
+from .meaning import WORDS, Meaning
+from .parser import Call, Inverse, Matrix, Name, Node, Number, Power, Product, Sum, Symbol
 from .tokens import fail
 
 LARGEST_ANGLE_FACTOR = 16  # cos(16 θ) at most: harmonics stay small, and nobody writes more
 QUARTER = fmpq(1, 2)  # a quarter turn is π/2
-
-WORDS = {"t": "angle", "w": "rate", "a": "acceleration", "l": "length", "m": "mass", "I": "inertia"}
+Value = Quotient | Grid
 
 
 class Evaluation:
-    """Evaluates the lines of one file, for one mechanism, within one budget."""
+    """Evaluates the lines of one file, with one meaning of its symbols, within one budget."""
 
-    def __init__(self, symbols: Symbols) -> None:
-        self.symbols = symbols
-        self.space = symbols.space
+    def __init__(self, meaning: Meaning) -> None:
+        self.meaning = meaning
+        self.space = meaning.space
         self.budget = Budget()
         self.definitions: dict[str, Node] = {}
-        self._values: dict[str, Quotient] = {}
+        self._values: dict[str, Value] = {}
         self._angles: dict[str, _Angle] = {}
-        self.equal_lengths = self.equal_masses = False
 
-    def value(self, node: Node) -> Quotient:  # noqa: PLR0911 -- one for each kind of node
-        """The formula of a tree. Raises InvalidInput, with the column, where it has no meaning."""
+    def scalar(self, node: Node) -> Quotient:
+        """The formula of a tree. Raises InvalidInput, with the column, where it has no meaning or is a matrix."""
+        value = self.value(node)
+        if not isinstance(value, Quotient):
+            fail(
+                node.at, f"a matrix of {value.height} rows and {value.width} columns stands where a number is expected"
+            )
+        return value
+
+    def value(self, node: Node) -> Value:  # noqa: PLR0911 -- one for each kind of node
+        """The formula or the matrix of a tree. Raises InvalidInput, with the column, where it has no meaning."""
         match node:
             case Number(value=value):
                 return number(value)
             case Symbol():
                 return self._symbol(node)
             case Name(text=text):
-                if text not in self._values:
-                    self._values[text] = self.value(self.definitions[text])
-                return self._values[text]
+                return self._name(text, node.at)
             case Sum(parts=parts):
-                total = number(0)
+                total: Value | None = None
                 for sign, part in parts:
                     value = self.value(part)
                     self.budget.at = part.at
-                    total = total.plus(value, sign, self.budget)
-                return total
+                    total = self._signed(value, sign) if total is None else added(total, value, sign, self.budget)
+                return number(0) if total is None else total
             case Product(parts=parts):
-                product = number(1)
+                product: Value | None = None
                 for above, part in parts:
                     factor = self._factor(part, above)
                     self.budget.at = part.at
-                    product = product.times(factor, self.budget)
-                return product
+                    product = factor if product is None else multiplied(product, factor, self.budget)
+                return number(1) if product is None else product
             case Power(base=base, exponent=exponent, at=at):
-                value = self.value(base)
-                if exponent < 0 and not value.numerator:
-                    fail(at, "zero to a negative power")
-                self.budget.at = at
-                return value.power(exponent, self.budget)
+                return self._power(base, exponent, at)
             case Call():
                 return self._call(node)
+            case Matrix(rows=rows):
+                return Grid(tuple(tuple(self.scalar(entry) for entry in row) for row in rows))
+            case Inverse(base=base, at=at):
+                return self._power(base, -1, at)
 
-    def _factor(self, node: Node, above: bool) -> Quotient:
-        value = self.value(node)
+    def _signed(self, value: Value, sign: int) -> Value:
+        return value if sign > 0 else scaled(value, number(-1), self.budget)
+
+    def _name(self, text: str, at: int) -> Value:
+        if text in self.definitions:
+            if text not in self._values:
+                self._values[text] = self.value(self.definitions[text])
+            return self._values[text]
+        return self.meaning.own(text, at)
+
+    def _power(self, base: Node, exponent: int, at: int) -> Value:
+        value = self.value(base)
+        self.budget.at = at
+        if isinstance(value, Grid):
+            if exponent != -1:
+                fail(at, "of a matrix only the inverse, to the power -1, is read")
+            return inverse(value, self.budget)
+        if exponent < 0 and not value.numerator:
+            fail(at, "zero to a negative power")
+        return value.power(exponent, self.budget)
+
+    def _factor(self, node: Node, above: bool) -> Value:
         if above:
-            return value
+            return self.value(node)
+        value = self.scalar(node)
         if not value.numerator:
             fail(node.at, "a division by zero")
         return value.inverse()
 
     def _symbol(self, node: Symbol) -> Quotient:
-        letter, index, space = node.letter, node.index, self.space
-        if letter == "t":
-            fail(node.at, "an angle outside cos and sin; the exact equations have angles only inside")
-        if letter == "p":
-            fail(node.at, "π outside cos and sin; an equation of motion has none")
-        if letter == "g":
-            return Quotient(space.g, {}, 1)
-        if letter == "r":
-            if self.symbols.kind != "rod-chain":
-                fail(node.at, "rho is the line density of a rod chain; an n-leg pendulum has masses m1, m2, …")
-            return Quotient(space.rho, {}, 1)
-        if index > space.n:
-            fail(node.at, f"{WORDS[letter]} number {index}, but links = {space.n}; write * for a product with a number")
-        if index == 0:
-            return self._without_index(node)
-        place = index - 1
-        if letter == "I":
-            if self.symbols.kind != "rod-chain":
-                fail(node.at, "I is the inertia of a rod; the point masses of an n-leg pendulum have none")
-            return Quotient(self.symbols.inertia(place), {}, 4)
-        symbol = {"w": space.w, "a": space.a, "l": space.l, "m": self.symbols.mass}[letter]
-        return Quotient(symbol(place), {}, 2)
-
-    def _without_index(self, node: Symbol) -> Quotient:
-        if node.letter == "l":
-            self.equal_lengths = True
-            return Quotient(self.space.l(0), {}, 1)
-        if node.letter == "m":
-            self.equal_masses = True
-            self.equal_lengths = self.equal_lengths or self.symbols.kind == "rod-chain"
-            return Quotient(self.symbols.mass(0), {}, 2)
-        if self.space.n == 1:
-            return self._symbol(Symbol(node.letter, 1, node.at))
-        return fail(node.at, f"this {WORDS[node.letter]} has no index; which of the {self.space.n} links is it?")
+        found = self.meaning.symbol(node.letter, node.index, node.at)
+        if node.less:
+            if node.letter not in "wa":
+                fail(node.at, f"two indices on one {WORDS.get(node.letter, 'symbol')}")
+            found = found.plus(self.meaning.symbol(node.letter, node.less, node.at), -1, self.budget)
+        return found
 
     def _call(self, node: Call) -> Quotient:
         angle = self.angle(node.argument)
@@ -153,12 +152,11 @@ class Evaluation:
         match node:
             case Symbol(letter="p"):
                 return {PI: fmpq(1)}
-            case Symbol(letter="t", index=index, at=at):
-                if index == 0 and self.space.n > 1:
-                    fail(at, f"this angle has no index; which of the {self.space.n} links is it?")
-                if index > self.space.n:
-                    fail(at, f"angle number {index}, but links = {self.space.n}")
-                return {max(index, 1) - 1: fmpq(1)}
+            case Symbol(letter="t", index=index, at=at, less=less):
+                form = {self.meaning.angle(index, at): fmpq(1)}
+                if less:
+                    form[self.meaning.angle(less, at)] = fmpq(-1)
+                return form
             case Sum(parts=parts):
                 total: dict[int, fmpq] = {}
                 for sign, part in parts:
@@ -168,6 +166,8 @@ class Evaluation:
             case Product(parts=parts):
                 return self._scaled(node, parts)
             case Name(text=text):
+                if text not in self.definitions:
+                    fail(node.at, f"{text} is no angle; inside cos and sin, a sum or difference of angles is expected")
                 if text not in self._angles:
                     self._angles[text] = self.angle(self.definitions[text])
                 named = self._angles[text]

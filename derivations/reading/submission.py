@@ -1,0 +1,292 @@
+"""Reads a derivation: a TOML file with the equations of motion, or the Lagrangian, of a planar mechanism."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TypeVar
+
+from ...models.errors import InvalidInput, nearest
+from ...models.readers.bounded_file import read_text, shown
+from ...models.readers.toml_text import parse_toml
+from ..algebra.quotient import Quotient
+from ..algebra.symbols import KINDS, Symbols, symbols_of
+from ..algebra.trig import Formula, Space
+from ..steps.conventions import Convention
+from ..steps.declared import Declared
+from ..steps.mechanism import Origin
+from .declaration import PRESETS, declared
+from .evaluation import Evaluation
+from .matrices import Grid, added
+from .meaning import Meaning, own_symbols
+from .parser import Slashes, parse_equation, parse_expression
+from .tokens import FULL_WIDTH
+from .typeset import Typesetter
+from .vocabulary import FUNCTIONS, LETTERS, Vocabulary, vocabulary
+
+LARGEST_FILE = 200_000  # characters; a chain of twenty rods, every sum multiplied out, has 150 000
+MOST_LINKS = 20
+MOST_DEFINITIONS = 40
+FIELDS = (
+    "system",
+    "links",
+    "bodies",
+    "angles",
+    "from",
+    "sense",
+    "equations",
+    "lagrangian",
+    "define",
+    "title",
+    "author",
+)
+ANGLES = ("absolute", "relative")
+SYSTEMS = (*KINDS, "rods", "point-masses", "links")
+WORDS: dict[str, tuple[str, int]] = {  # usual names, with how many links they have
+    "simple-pendulum": ("point-masses", 1), "double-pendulum": ("point-masses", 2),
+    "triple-pendulum": ("point-masses", 3), "physical-pendulum": ("links", 1), "acrobot": ("links", 2),
+    "double-rod-pendulum": ("rods", 2),
+}  # fmt: skip
+ORIGINS: dict[str, Origin] = {"down": "down", "up": "up", "horizontal": "right", "right": "right", "left": "left"}
+SENSES = {"counter-clockwise": 1, "clockwise": -1}
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Submission:
+    """A derivation that was read.
+
+    ``rows``: each equation as (its label, left side minus right side, cleared of denominators); ``lagrangian``: in
+    place of them, over its denominator. ``space``: of their symbols, the author's own among them. ``convention``: as
+    declared, or the documents'; ``declared``: which of "angles", "from" and "sense" the file declares.
+    ``used``: the symbols that occur, as (letter, index); ``lines``: as they were written, by label;
+    ``doubtful``: where 3g/2l may mean two things; ``words``: how letters were read.
+    """
+
+    kind: str
+    space: Space
+    rows: tuple[tuple[str, Formula], ...]
+    lagrangian: Formula | None
+    convention: Convention
+    declared: frozenset[str]
+    used: frozenset[tuple[str, int]]
+    equal_lengths: bool
+    equal_masses: bool
+    lines: tuple[tuple[str, str], ...] = ()
+    doubtful: tuple[str, ...] = ()
+    words: Vocabulary = field(default_factory=Vocabulary)
+    defined: tuple[tuple[str, str], ...] = ()  # the file's own names, as they were read
+    source: str = ""  # all lines of mathematics, as they were written
+    mechanism: Declared | None = None  # where the file declares it body by body
+
+    @property
+    def relative(self) -> bool:
+        """Whether its angles are measured from the link above."""
+        return self.convention.relative
+
+    @property
+    def symbols(self) -> Symbols:
+        """The documents' mechanism that is nearest."""
+        return symbols_of(self.kind if self.kind in KINDS else "n-leg" if self.kind == "point-masses" else "rod-chain",
+                          self.space.n)  # fmt: skip
+
+
+def read_submission(source: str | os.PathLike[str]) -> Submission:
+    """Read a file. Raises InvalidInput, with the place, where it is not a derivation."""
+    path = Path(source)
+    text = read_text(path, 4 * LARGEST_FILE)
+    try:
+        return parse_submission(text)
+    except InvalidInput as error:
+        raise InvalidInput(f"{shown(path)}: {error}") from None
+
+
+def parse_submission(text: str, slashes: int = 0) -> Submission:
+    """Read the text of such a file. ``slashes``: how 3g/2l is read, as in :class:`Slashes`."""
+    if len(text) > LARGEST_FILE:
+        raise InvalidInput(f"longer than {LARGEST_FILE} characters; a derivation is not")
+    data = parse_toml(text)
+    for name in data:
+        if name not in FIELDS:
+            raise InvalidInput(f"{name!r:.40}: no such field{nearest(name, FIELDS)}; known are {', '.join(FIELDS)}")
+    own = declared(data)
+    kind, n = _system(data) if own is None else ("mechanism", len(own[0].bodies))
+    convention = _convention(data, n)
+    defined = data.get("define", {})
+    if not isinstance(defined, dict) or len(defined) > MOST_DEFINITIONS:
+        raise InvalidInput(f'define: a table of at most {MOST_DEFINITIONS} names is needed, as in M = "m1 + m2"')
+    if own is None:
+        words = vocabulary(_texts(data), n, frozenset(map(str, defined)))
+        meaning = Meaning(kind, Space.general(n, own_symbols(n)))
+    else:
+        mechanism, symbols, words = own
+        meaning = Meaning(kind, mechanism.space, symbols)
+    reading = _Reading(meaning, words, Slashes(slashes))
+    reading.define(defined)
+    has_equations, has_lagrangian = "equations" in data, "lagrangian" in data
+    if has_equations == has_lagrangian:
+        raise InvalidInput('give either [equations], one row each, or lagrangian = "…"')
+    rows = reading.rows(data["equations"]) if has_equations else ()
+    lagrangian = reading.lagrangian(data["lagrangian"]) if has_lagrangian else None
+    for letter in "lm" if n > 1 else "":
+        indices = {index for used, index in meaning.used if used == letter}
+        if 0 in indices and len(indices) > 1:
+            raise InvalidInput(f"both {letter} and {letter}{max(indices)} are used; say what {letter} is, "
+                               f"or give every {letter} its index")  # fmt: skip
+    return Submission(
+        kind, meaning.space, rows, lagrangian, convention,
+        frozenset(name for name in ("angles", "from", "sense") if name in data), frozenset(meaning.used),
+        meaning.equal_lengths, meaning.equal_masses, tuple(reading.lines),
+        tuple(dict.fromkeys(reading.doubtful)), words,
+        tuple(reading.defined), "\n".join(_texts(data)), None if own is None else own[0],
+    )  # fmt: skip
+
+
+def _system(data: dict[str, Any]) -> tuple[str, int]:
+    kind, links = data.get("system"), data.get("links")
+    if isinstance(kind, str) and kind in WORDS:
+        kind, usual = WORDS[kind]
+        links = usual if links is None else links
+    if kind not in SYSTEMS:
+        hint = (
+            nearest(kind, (*SYSTEMS, *WORDS, *PRESETS, "mechanism"))
+            if isinstance(kind, str) and len(kind) < 100
+            else ""
+        )
+        known = ", ".join(f"'{name}'" for name in (*SYSTEMS, *WORDS, *PRESETS, "mechanism"))
+        raise InvalidInput(f"system: {kind!r:.40} is not known{hint}; give one of {known}")
+    if type(links) is not int or not 1 <= links <= MOST_LINKS:
+        raise InvalidInput(f"links: the number of angles is needed, from 1 to {MOST_LINKS}, got {links!r:.40}")
+    return kind, links
+
+
+def _convention(data: dict[str, Any], n: int) -> Convention:
+    angles, origin, sense = data.get("angles", "absolute"), data.get("from", "down"), data.get("sense", ())
+    if angles not in ANGLES:
+        raise InvalidInput(f"angles: {angles!r:.40} is not known; give 'absolute' (from the vertical) or 'relative'")
+    if not isinstance(origin, str) or origin not in ORIGINS:
+        raise InvalidInput(f"from: {origin!r:.40} is not known; give one of {', '.join(ORIGINS)}")
+    senses = [sense] * n if isinstance(sense, str) else sense
+    if not isinstance(senses, list | tuple) or (senses and len(senses) != n) or any(s not in SENSES for s in senses):
+        raise InvalidInput(f"sense: {sense!r:.60} is not known; give 'counter-clockwise' or 'clockwise', or a list")
+    signs = tuple(SENSES[s] for s in senses)
+    return Convention(angles == "relative", ORIGINS[origin], () if set(signs) <= {1} else signs)
+
+
+def _texts(data: dict[str, Any]) -> Iterable[str]:
+    """All lines of mathematics in a file."""
+    for table in (data.get("define"), data.get("equations")):
+        entries = table.values() if isinstance(table, dict) else table if isinstance(table, list) else ()
+        yield from (entry.translate(FULL_WIDTH) for entry in entries if isinstance(entry, str))
+    if isinstance(data.get("lagrangian"), str):
+        yield LAGRANGIAN.sub("", data["lagrangian"]).translate(FULL_WIDTH)
+
+
+LAGRANGIAN = re.compile(
+    r"^\s*(?:L|\\mathcal\s*\{?\s*L\s*\}?|\\mathscr\s*\{?\s*L\s*\}?|ℒ|𝓛)\s*(?:\([^=()]{0,200}\)\s*)?(?:=\s*T\s*[-−]\s*[UV]\s*)?="
+)
+
+
+class _Reading:
+    """The lines of one file, read one after another."""
+
+    def __init__(self, meaning: Meaning, words: Vocabulary, slashes: Slashes) -> None:
+        self.evaluation = Evaluation(meaning)
+        self.words, self.slashes = words, slashes
+        self.lines: list[tuple[str, str]] = []
+        self.defined: list[tuple[str, str]] = []
+        self.doubtful: list[str] = []
+        self.typesetter = Typesetter(words)
+
+    @property
+    def names(self) -> frozenset[str]:
+        """What is defined so far."""
+        return frozenset(self.evaluation.definitions) | frozenset(self.evaluation.meaning.named)
+
+    def define(self, table: dict[str, Any]) -> None:
+        """Read the file's own names."""
+        for name, line in table.items():
+            if not re.fullmatch(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)?", name) or name in LETTERS or name in FUNCTIONS:
+                raise InvalidInput(
+                    f"define.{name!s:.40}: a name is a letter, then letters and digits, and not one in use"
+                )
+            if re.fullmatch(r"(t|th|w|a|l|m|I|theta|omega|alpha)_?[0-9]+", name):
+                raise InvalidInput(f"define.{name!s:.40}: already has a meaning")
+            node = _located(f"define.{name}", self._expression, line)
+            self.evaluation.definitions[name] = node
+            self.defined.append((name, self.typesetter.equation((node,))))
+
+    def _expression(self, line: object) -> Any:
+        written = _line(line)
+        node = parse_expression(written, self.names, self.words, self.slashes)
+        self._doubts(written)
+        return node
+
+    def _doubts(self, written: str) -> None:
+        self.doubtful += [written[start:end] for start, end in self.slashes.doubtful]
+        self.slashes.doubtful.clear()
+
+    def rows(self, table: object) -> tuple[tuple[str, Formula], ...]:
+        """The equations of motion; one in matrices is as many as it has rows."""
+        n = self.evaluation.space.n
+        if isinstance(table, list):
+            table = {str(i): line for i, line in enumerate(table, 1)}
+        if not isinstance(table, dict) or not table:
+            raise InvalidInput('equations: a table of rows is needed, as in 1 = "m1*l1^2*a1 = -m1*g*l1*sin(t1)"')
+        if len(table) > n:
+            raise InvalidInput(f"equations: {len(table)} rows for {n} angles; one row for each angle is needed")
+        rows: list[tuple[str, Formula]] = []
+        for label, line in table.items():
+            where = f"equations.{label!s:.40}"
+            found, text = _located(where, self._row, line)
+            self.lines.append((str(label)[:40], text))
+            labels = [str(label)[:40]] if len(found) == 1 else [str(len(rows) + k) for k in range(1, len(found) + 1)]
+            rows += zip(labels, found, strict=True)
+            if len(rows) > n:
+                raise InvalidInput(f"{where}: {len(rows)} rows for {n} angles; one row for each angle is needed")
+        return tuple(rows)
+
+    def _row(self, line: object) -> tuple[list[Formula], str]:
+        written = _line(line)
+        left, right = parse_equation(written, self.names, self.words, self.slashes)
+        self._doubts(written)
+        value, other = self.evaluation.value(left), self.evaluation.value(right)
+        self.evaluation.budget.at = right.at
+        difference = added(value, other, -1, self.evaluation.budget)
+        text = self.typesetter.equation((left, right))
+        if isinstance(difference, Grid):
+            return [entry.numerator for row in difference.rows for entry in row], text
+        return [difference.numerator], text
+
+    def lagrangian(self, line: object) -> Formula:
+        """The Lagrangian."""
+
+        def read() -> Quotient:
+            written = LAGRANGIAN.sub(lambda m: " " * len(m[0]), _line(line))
+            node = parse_expression(written, self.names, self.words, self.slashes)
+            self._doubts(written)
+            self.lines.append(("L", self.typesetter.equation((node,))))
+            return self.evaluation.scalar(node)
+
+        value = _located("lagrangian", read)
+        if value.denominator:
+            raise InvalidInput("lagrangian: column 1: a sum in a denominator; a Lagrangian has none")
+        return value.numerator
+
+
+def _line(line: object) -> str:
+    if not isinstance(line, str):
+        raise InvalidInput(f"column 1: a text in quotes is needed, got {line!r:.40}")
+    return re.sub(r"[.,;、。，．]$", "", line.rstrip())
+
+
+def _located(where: str, read: Callable[..., T], *arguments: Any) -> T:
+    """The result of ``read``; where it raises InvalidInput, the field is put before the message."""
+    try:
+        return read(*arguments)
+    except InvalidInput as error:
+        raise InvalidInput(f"{where}: {error}") from None

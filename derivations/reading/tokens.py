@@ -1,0 +1,340 @@
+"""Cuts a line of a derivation into tokens: plain ASCII, Unicode as it is typed, or LaTeX as a paper prints it.
+
+Only the names of a pendulum's symbols, a few functions, numbers, brackets and signs are known; anything else ends in
+an :class:`InvalidInput` with its column.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Literal, NoReturn
+from unicodedata import normalize
+
+from flint import fmpq
+
+from ...models.errors import InvalidInput, nearest
+from .spellings import plain
+from .vocabulary import FUNCTIONS, Vocabulary
+
+LONGEST_LINE = 20_000  # characters; a chain of four rods needs about 1000
+MOST_TOKENS = 12_000
+LONGEST_NUMBER = 40  # digits
+LARGEST_EXPONENT_OF_TEN = 40
+
+Kind = Literal[
+    "number", "symbol", "function", "name", "operator", "open", "close", "fraction", "separator", "matrix", "end"
+]  # fmt: skip
+
+
+ZERO = fmpq(0)
+
+
+@dataclass(frozen=True)
+class Token:
+    """One token; ``at`` is the column it starts in, counted from 0. ``index`` is a symbol's, from 1, or 0 for none.
+
+    ``less``: the index of what is subtracted, of an angle θ_AB = θ_A - θ_B; ``end``: the column behind the token.
+    """
+
+    kind: Kind
+    text: str
+    at: int
+    index: int = 0
+    value: fmpq = ZERO
+    less: int = 0
+    end: int = 0
+
+
+def fail(at: int, message: str) -> NoReturn:
+    """Raise InvalidInput with the column, counted from 1."""
+    raise InvalidInput(f"column {at + 1}: {message}")
+
+
+INDEXED = "twalmIc"
+FASTER = {"t": "w", "w": "a"}  # what a dot makes of a letter
+
+_SPACE = (
+    r"\s|\\[,;:!> ]|\\(?:left|right|[bB]igg?[lrm]?|quad|qquad|displaystyle|mathrm|rm|nonumber|limits)(?![A-Za-z])"
+    r"|\\(?:tag|label)\{[^{}]{0,40}\}|\{\}|[~$]"
+)
+SPACING = re.compile(rf"(?:{_SPACE}|\\(?:begin|end)\{{(?!\w*matrix|array)[A-Za-z]{{1,20}}\*?\}}|\\\\|&)+")
+IN_MATRIX = re.compile(rf"(?:{_SPACE})+")
+MATRIX = re.compile(r"\\(?P<which>begin|end)\{(?P<name>[pbB]?(?:small)?matrix|array)\}(?:\{[clr| ]{0,20}\})?")
+NUMBER = re.compile(r"(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
+ANGLE = (
+    r"(?:\\(?:var)?(?:theta|phi)|\\(?:psi|alpha|beta|gamma|omega)|theta|omega|phi|psi|alpha|beta|gamma"
+    r"|[θϑφϕψαβγω𝜃]|[A-Za-z])"
+)
+INDEX = r"(?:_?[0-9]+|_\s*\{\s*[0-9A-Za-z]+\s*\}|\{\s*[0-9]+\s*\}|_?[₀-₉]+|_[A-Za-z])"
+DOTTED = re.compile(
+    rf"\\(?P<dots>d?dot)\s*(?:\{{\s*(?P<braced>{ANGLE})\s*(?P<inner>{INDEX})?\s*\}}|(?P<bare>{ANGLE}))"
+    rf"\s*(?P<outer>{INDEX})?"
+)
+SYMBOL_INDEX = re.compile(rf"\s*(?P<index>{INDEX})")
+LETTER_INDEX = re.compile(r"(?P<index>[A-Z]{1,2})(?![a-z])")
+CENTRE = re.compile(
+    r"(?:l|ℓ|\\ell)\s*(?:_\s*\{\s*c\s*,?\s*_?\s*(?P<braced>[0-9]{1,2})?\s*\}|_?c(?!os)_?(?P<bare>[0-9]{1,2}|[₀-₉]{1,2})?)"
+)
+COMMAND = re.compile(r"\\[A-Za-z]+")
+WORD = re.compile(r"[A-Za-z]+")
+NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(?:_[A-Za-z0-9]+)?")
+FRACTIONS = {"½": (1, 2), "⅓": (1, 3), "⅔": (2, 3), "¼": (1, 4), "¾": (3, 4), "⅙": (1, 6), "⅚": (5, 6), "⅛": (1, 8)}
+SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+SUPERSCRIPT = re.compile("⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+")
+SUBSCRIPTS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
+OPERATORS = {
+    "+": "+", "-": "-", "−": "-", "–": "-", "*": "*", "×": "*", "·": "*", "⋅": "*", "∙": "*", "/": "/", "÷": "/",
+    "^": "^", "=": "=", "@": "*",
+}  # fmt: skip
+COMMAND_OPERATORS = {"\\cdot": "*", "\\times": "*", "\\div": "/", "\\over": "over"}
+OPENING, CLOSING = {"(": ")", "[": "]", "{": "}"}, ")]}"
+# Full-width characters, as a Japanese keyboard types them, stand for their ASCII twins, one for one.
+FULL_WIDTH = {0xFF01 + i: 0x21 + i for i in range(94)} | {0x3000: 0x20}
+
+
+def tokenize(line: str, names: frozenset[str] = frozenset(), words: Vocabulary | None = None) -> list[Token]:
+    """All tokens of a line, ending in one of kind ``end``. ``names`` are those that the file itself defines."""
+    if len(line) > LONGEST_LINE:
+        fail(LONGEST_LINE, f"the line is longer than {LONGEST_LINE} characters")
+    return _Tokenizer(plain(_decomposed(line.translate(FULL_WIDTH))), names, words or Vocabulary()).all()
+
+
+def _decomposed(line: str) -> str:
+    """ẋ and ẍ, which are one character, as a letter and its dots."""
+    return re.sub("[ẋẍẏÿṙṡż]", lambda found: normalize("NFD", found[0]), line)
+
+
+GREEK = {"tau": "τ", "mu": "μ", "kappa": "κ", "lambda": "λ", "rho": "ρ", "sigma": "σ", "delta": "δ", "eta": "η"}
+
+
+def _spelling(name: str) -> re.Pattern[str]:
+    """How a declared name may be written: lc1, l_c1, l_{c1}, l_{c_1}; tau1, τ₁, \\tau_1."""
+    base = next((word for word in GREEK if name.startswith(word)), name[0])
+    rest = name[len(base) :]
+    first = rf"(?:{base}|{GREEK[base]}|\\{base}(?![A-Za-z]))" if base in GREEK else base
+    if not rest:
+        return re.compile(first)
+    low = rest.translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
+    inner = r"[\s,_]*".join(rest)
+    return re.compile(rf"{first}(?:{rest}|{low}|\s*_\s*(?:\{{\s*{inner}\s*\}}|{rest}))")
+
+
+class _Tokenizer:
+    def __init__(self, line: str, names: frozenset[str], words: Vocabulary) -> None:
+        self.line, self.names, self.words = line, names, words
+        self.matrices: list[str] = []  # the environments that are open
+        declared = sorted(names, key=len, reverse=True) if words.declared else ()
+        self.own = [(name, _spelling(name)) for name in declared]
+
+    def all(self) -> list[Token]:
+        line, tokens, at = self.line, [], 0
+        while at < len(line):
+            space = (IN_MATRIX if self.matrices else SPACING).match(line, at)
+            if space:
+                at = space.end()
+                continue
+            token, end = self.next(at)
+            tokens.append(Token(token.kind, token.text, at, token.index, token.value, token.less, end))
+            at = end
+            if len(tokens) > MOST_TOKENS:
+                fail(token.at, f"more than {MOST_TOKENS} symbols on one line")
+        tokens.append(Token("end", "the end of the line", len(line), end=len(line)))
+        return tokens
+
+    def next(self, at: int) -> tuple[Token, int]:  # noqa: PLR0911 -- one for each kind
+        line, c = self.line, self.line[at]
+        if c in "0123456789" or (c == "." and NUMBER.match(line, at)):
+            return _number(line, at)
+        if c in FRACTIONS:
+            return Token("number", c, at, value=fmpq(*FRACTIONS[c])), at + 1
+        power = SUPERSCRIPT.match(line, at)
+        if power:
+            return Token("operator", "^" + power[0].translate(SUPERSCRIPTS), at), power.end()
+        if line.startswith("**", at):
+            return Token("operator", "^", at), at + 2
+        if c in OPERATORS:
+            return Token("operator", OPERATORS[c], at), at + 1
+        if c in OPENING:
+            return Token("open", c, at), at + 1
+        if c in CLOSING:
+            return Token("close", c, at), at + 1
+        if c in ",;&":
+            return Token("separator", c, at), at + 1
+        if c == "\\":
+            return self.command(at)
+        return self.word(at)
+
+    def command(self, at: int) -> tuple[Token, int]:  # noqa: PLR0911 -- one for each kind
+        line = self.line
+        matrix = MATRIX.match(line, at)
+        if matrix:
+            return self.matrix(at, matrix)
+        if line.startswith("\\\\", at):
+            return Token("separator", "\\\\", at), at + 2
+        dotted = DOTTED.match(line, at)
+        if dotted:
+            return self.dotted(at, dotted)
+        if line[at + 1 : at + 2] in ("{", "}"):
+            bracket = line[at + 1]
+            return Token("open" if bracket == "{" else "close", bracket, at), at + 2
+        match = COMMAND.match(line, at)
+        if match is None:
+            fail(at, "a backslash that starts no LaTeX command")
+        command = match[0]
+        if command in COMMAND_OPERATORS:
+            return Token("operator", COMMAND_OPERATORS[command], at), match.end()
+        if command in FUNCTIONS:
+            return Token("function", FUNCTIONS[command], at), match.end()
+        if command in ("\\frac", "\\tfrac", "\\dfrac"):
+            return Token("fraction", command, at), match.end()
+        if command == "\\ell" and CENTRE.match(line, at):
+            return self.word(at)
+        if self.words.kind(command):
+            return self.symbol(at, match.end(), command)
+        own = self.declared(at)
+        if own:
+            return own
+        known = [*COMMAND_OPERATORS, *FUNCTIONS, "\\frac", "\\dot", "\\ddot", "\\begin{bmatrix}"]
+        known += [k for k in self.words.letters if k[0] == "\\"]
+        return fail(at, f"the LaTeX command {command[:30]} is not known here{nearest(command, known)}")
+
+    def matrix(self, at: int, found: re.Match[str]) -> tuple[Token, int]:
+        name = found["name"]
+        if found["which"] == "begin":
+            self.matrices.append(name)
+            return Token("matrix", name, at), found.end()
+        if not self.matrices or self.matrices.pop() != name:
+            fail(at, f"{found[0][:30]} was never begun")
+        return Token("close", found[0], at), found.end()
+
+    def dotted(self, at: int, match: re.Match[str]) -> tuple[Token, int]:
+        word = match["braced"] or match["bare"]
+        letter = self.words.kind(word)
+        if letter is None:
+            fail(at, f"the dot stands over {word}, which is not known as an angle here")
+        for _ in range(len(match["dots"]) - len("dot") + 1):
+            if letter not in FASTER:
+                fail(at, "a third time derivative; an equation of motion has none")
+            letter = FASTER[letter]
+        written = match["inner"] or match["outer"]
+        if match["inner"] and match["outer"]:
+            fail(at, "two indices on one symbol")
+        end = match.end()
+        index, less = self.index(written, at)
+        if not written and word in self.words.fixed:
+            index = self.words.fixed[word][1]
+        index = self.numbered(word, index, at)
+        return Token("symbol", letter, at, index=index, less=less), end
+
+    def numbered(self, word: str, index: int, at: int) -> int:
+        """The place of the coordinate that a declared word with this index is."""
+        numbers = self.words.numbers.get(word)
+        if numbers is None:
+            return index
+        if index not in numbers:
+            fail(at, f"{word}{index or ''} is no coordinate here")
+        return numbers[index]
+
+    def index(self, text: str | None, at: int) -> tuple[int, int]:
+        """A link's number, and that of the link whose symbol is subtracted (θ_AB), or 0."""
+        if not text:
+            return 0, 0
+        figures = re.sub(r"[_{}\s]", "", text).translate(SUBSCRIPTS)
+        letters = self.words.indices
+        if figures.isalpha() and letters:
+            if len(figures) > 2 or any(c not in letters for c in figures):
+                fail(at, f"the index {figures[:12]} is not a link's; links are counted by {', '.join(letters)} here")
+            return letters[figures[0]], letters[figures[1]] if len(figures) == 2 else 0
+        if not figures.isdigit():
+            fail(at, f"the index {figures[:12]} is not a number; links are counted 1, 2, …, or by one letter each")
+        if len(figures) > 6:
+            fail(at, f"the index {figures[:12]}… is too large")
+        if int(figures) == 0:
+            fail(at, "an index of 0; links are counted from 1")
+        return int(figures), 0
+
+    def symbol(self, at: int, end: int, word: str) -> tuple[Token, int]:
+        """A symbol whose letter ends at ``end``: combining dots, an index, and primes may follow."""
+        line, letter = self.line, self.words.kind(word)
+        assert letter is not None
+        while end < len(line) and line[end] in "\u0307\u0308":
+            for _ in range(1 if line[end] == "\u0307" else 2):
+                letter = _faster(letter, at)
+            end += 1
+        index, less = (self.words.fixed[word][1], 0) if word in self.words.fixed else (0, 0)
+        if letter in INDEXED and not index:
+            match = SYMBOL_INDEX.match(line, end)
+            if match is None and self.words.indices and (word[0] == "\\" or not word.isascii() or len(word) > 1):
+                match = LETTER_INDEX.match(line, end)
+            elif match is None and self.words.indices and letter in "lmI":
+                match = LETTER_INDEX.match(line, end)
+                match = match if match and match["index"] in self.words.indices else None
+            if match:
+                (index, less), end = self.index(match["index"], at), match.end()
+        if letter in FASTER or letter == "a":
+            index = self.numbered(word, index, at)
+        while end < len(line) and line[end] in "'′″":
+            for _ in range(2 if line[end] == "″" else 1):
+                letter = _faster(letter, at)
+            end += 1
+        return Token("symbol", letter, at, index=index, less=less), end
+
+    def declared(self, at: int) -> tuple[Token, int] | None:
+        """A symbol that the mechanism is declared with, also with its index written low."""
+        for name, pattern in self.own:
+            found = pattern.match(self.line, at)
+            if found:
+                return Token("name", name, at), found.end()
+        return None
+
+    def word(self, at: int) -> tuple[Token, int]:
+        line, names = self.line, self.names
+        name = NAME.match(line, at)
+        if name and name[0] in names:
+            return Token("name", name[0], at), name.end()
+        own = self.declared(at)  # names of the mechanism may stand side by side: mgl
+        if own:
+            return own
+        centre = CENTRE.match(line, at)
+        if centre:
+            index, _ = self.index(centre["braced"] or centre["bare"], at)
+            return Token("symbol", "c", at, index=index), centre.end()
+        # letters may stand side by side (m1gl1): the longest known word that the rest starts with is cut off
+        for word in self.words.words:
+            if line.startswith(word, at):
+                if word in self.words.doubtful:
+                    fail(at, self.words.doubtful[word])
+                if word in FUNCTIONS:
+                    return Token("function", FUNCTIONS[word], at), at + len(word)
+                return self.symbol(at, at + len(word), word)
+        shown = WORD.match(line, at)
+        what = shown[0][:30] if shown else line[at]
+        known = [*self.words.words, *names]
+        return fail(
+            at,
+            f"{what!r} is not known here{nearest(what, known) if shown else ''}; "
+            "known are t, w, a (angle, rate, acceleration), l, m, g, rho, cos, sin",
+        )
+
+
+def _number(line: str, at: int) -> tuple[Token, int]:
+    match = NUMBER.match(line, at)
+    assert match is not None
+    text = match[0]
+    mantissa, _, exponent = text.lower().partition("e")
+    if len(mantissa) > LONGEST_NUMBER or len(exponent) > 4 or abs(int(exponent or 0)) > LARGEST_EXPONENT_OF_TEN:
+        fail(
+            at,
+            f"the number {text[:20]}… is too long; {LONGEST_NUMBER} digits and e±{LARGEST_EXPONENT_OF_TEN} are enough",
+        )
+    whole, _, decimals = mantissa.partition(".")
+    shift = int(exponent or 0) - len(decimals)
+    value = fmpq(int((whole + decimals) or "0")) * (fmpq(10**shift) if shift >= 0 else fmpq(1, 10**-shift))
+    return Token("number", text, at, value=value), match.end()
+
+
+def _faster(letter: str, at: int) -> str:
+    if letter not in FASTER:
+        fail(at, "a time derivative of something that is not an angle or a rate")
+    return FASTER[letter]

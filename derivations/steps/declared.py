@@ -1,0 +1,129 @@
+"""Mechanisms that a derivation declares: bodies on hinges and slides, with springs, dampers and drives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from ..algebra.trig import HALF, NOTHING, Formula, Space
+from .conventions import Convention
+from .derivation import add
+from .mechanism import Body, Direction, Mechanism, Segment
+
+Along = Literal["right", "up", "down", "link"]
+QUARTERS = {"down": 0, "right": 1, "up": 2}
+Form = dict[int, int]  # a joint's own motion as a sum of coordinates
+
+
+@dataclass(frozen=True)
+class Joined:
+    """A body on a joint; body k has coordinate k. ``on``: the body that carries it, or -1 for the support.
+
+    ``slide``: the direction of a slide, None for a hinge. ``length``: from its joint to where it carries others;
+    ``at``: where the joint sits on the carrier, from the carrier's joint. ``centre``, ``inertia``: of its mass, the
+    inertia about the centre of mass. ``stiffness``, ``rest``, ``damping``, ``drive``: at its joint.
+    """
+
+    name: str
+    on: int
+    slide: Along | None
+    mass: Formula
+    length: Formula
+    centre: Formula
+    inertia: Formula
+    at: Formula | None = None
+    stiffness: Formula = NOTHING
+    rest: Formula = NOTHING
+    damping: Formula = NOTHING
+    drive: Formula = NOTHING
+
+
+@dataclass(frozen=True)
+class Declared:
+    """A whole mechanism. ``coordinates``: their names, one a body."""
+
+    space: Space
+    bodies: tuple[Joined, ...]
+    coordinates: tuple[str, ...]
+
+    def __hash__(self) -> int:
+        return id(self)
+
+    def mechanism(self, convention: Convention) -> Mechanism:
+        """Built with the angles counted in this way."""
+        n, space = self.space.n, self.space
+        placed = [self._place(k, convention) for k in range(n)]
+        forces = [NOTHING] * n
+        elastic = NOTHING
+        for k, body in enumerate(self.bodies):
+            form = self._own_motion(k, convention)
+            rate = add(space.w(i).times(c) for i, c in form.items())
+            stretch = add(space.q(i).times(c) for i, c in form.items()) - body.rest
+            elastic = elastic + body.stiffness.times(HALF) * stretch * stretch
+            for i, c in form.items():
+                forces[i] = forces[i] + (body.drive - body.damping * rate).times(c)
+        return Mechanism(space, tuple(placed), elastic, tuple(forces))
+
+    def sentence(self) -> tuple[str, str]:
+        """What it is, in English and Japanese."""
+        english, japanese = [], []
+        for body, coordinate in zip(self.bodies, self.coordinates, strict=True):
+            carrier = "the support" if body.on < 0 else self.bodies[body.on].name
+            ja = "支点" if body.on < 0 else self.bodies[body.on].name
+            way = {"right": "to the right", "up": "upwards", "down": "downwards", "link": f"along {carrier}"}
+            moves = f"hinged on {carrier}" if body.slide is None else f"sliding {way[body.slide]} on {carrier}"
+            joint = "回転" if body.slide is None else "直動"
+            english.append(f"{body.name} {moves} ({coordinate})")
+            japanese.append(f"{ja} に{joint}関節で付く {body.name}（{coordinate}）")
+        return "; ".join(english), "；".join(japanese)
+
+    def _chain(self, k: int) -> list[int]:
+        chain = [k]
+        while self.bodies[chain[0]].on >= 0:
+            chain.insert(0, self.bodies[chain[0]].on)
+        return chain
+
+    def _hinges(self, k: int) -> tuple[int, ...]:
+        return tuple(j for j in self._chain(k) if self.bodies[j].slide is None)
+
+    def _direction(self, k: int, convention: Convention) -> Direction:
+        """Of a body: of the last hinge on the way to it; straight down where there is none."""
+        hinges = self._hinges(k)
+        return convention.direction(hinges, self.space.n) if hinges else Direction((0,) * self.space.n)
+
+    def _own_motion(self, k: int, convention: Convention) -> Form:
+        """How far joint k itself has moved, in the coordinates."""
+        if self.bodies[k].slide is not None or convention.relative:
+            return {k: 1}
+        before = self._hinges(k)[:-1]
+        return {k: convention.sense(k)} | ({before[-1]: -convention.sense(before[-1])} if before else {})
+
+    def _place(self, k: int, convention: Convention) -> Body:
+        way: list[Segment] = []
+        chain = self._chain(k)
+        for j in chain:
+            body = self.bodies[j]
+            direction = self._direction(j, convention)
+            if body.slide is not None:
+                way.append(Segment(self.space.q(j), self._slide(j, convention)))
+            after = chain[chain.index(j) + 1] if j != k else None
+            if after is None:
+                way.append(Segment(body.centre, direction))
+            else:
+                place = self.bodies[after].at
+                way.append(Segment(body.length if place is None else place, direction))
+        body = self.bodies[k]
+        turns = self._direction(k, convention).turns
+        return Body(body.mass, body.inertia, tuple(s for s in way if s.length), turns)
+
+    def _slide(self, k: int, convention: Convention) -> Direction:
+        body = self.bodies[k]
+        if body.slide == "link":
+            return self._direction(k, convention)
+        assert body.slide is not None
+        return Direction((0,) * self.space.n, QUARTERS[body.slide])
+
+
+def pivot_to_centre(inertia: Formula, mass: Formula, centre: Formula) -> Formula:
+    """The moment of inertia about the centre of mass, from that about the joint (Steiner)."""
+    return inertia - mass * centre * centre

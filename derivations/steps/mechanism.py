@@ -1,0 +1,126 @@
+"""The equations of motion of any planar open mechanism, exactly, from the positions of its bodies.
+
+A body's centre of mass is reached along segments, each of a length and in a direction; both may depend on coordinates:
+a hinge turns what follows it, a slide is a segment as long as its coordinate. Kinetic and potential energy are sums
+over the bodies, Lagrange's equations are those of their difference. Nothing else is put in.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Literal
+
+from ..algebra.equivalence import System
+from ..algebra.fingerprint import point_of
+from ..algebra.trig import COS, HALF, NOTHING, SIN, Formula, Space
+from .derivation import add, lagrange_rows
+
+Origin = Literal["down", "right", "up", "left"]
+QUARTERS: dict[Origin, int] = {"down": 0, "right": 1, "up": 2, "left": 3}
+
+
+@dataclass(frozen=True)
+class Direction:
+    """The angle Σ turns[k]·q_k + quarters·π/2 from the downward vertical, counter-clockwise."""
+
+    turns: tuple[int, ...]
+    quarters: int = 0
+
+    def wave(self, space: Space, phase: int, by: int) -> Formula:
+        """cos or sin of the angle, and of ``by`` quarter turns more."""
+        sign = 1
+        for _ in range((self.quarters + by) % 4):
+            phase, sign = (SIN, -sign) if phase == COS else (COS, sign)
+        f = space.wave({k: 2 * c for k, c in enumerate(self.turns) if c}, phase)
+        return f if sign > 0 else -f
+
+    def vector(self, space: Space, length: Formula) -> tuple[Formula, Formula]:
+        """(length sin, -length cos): x to the right, y upwards."""
+        return length * self.wave(space, SIN, 0), -(length * self.wave(space, COS, 0))
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A piece of the way to a centre of mass."""
+
+    length: Formula
+    direction: Direction
+
+
+@dataclass(frozen=True)
+class Body:
+    """A body: mass, moment of inertia about its centre of mass, the way to that centre, and how it turns."""
+
+    mass: Formula
+    inertia: Formula
+    way: tuple[Segment, ...]
+    turns: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """Bodies; ``elastic``: potential energy of springs; ``forces``: what stands on the right of Lagrange's equations.
+
+    ``support``: the acceleration, to the right and upwards, of the support; the coordinates are relative to it.
+    """
+
+    space: Space
+    bodies: tuple[Body, ...]
+    elastic: Formula = NOTHING
+    forces: tuple[Formula, ...] = ()
+    weight: Formula | None = None  # g where it is None
+    values: dict[int, Formula] = field(default_factory=dict, compare=False)  # symbols that stand for formulas
+
+    @cached_property
+    def kinetic(self) -> Formula:
+        """T = Σ ½ m v² + ½ I ω²."""
+        return self._valued(add(part for body in self.bodies for part in self._kinetic(body)))
+
+    @cached_property
+    def potential(self) -> Formula:
+        """U = Σ m g y, and what springs store."""
+        g = self.space.g if self.weight is None else self.weight
+        heights = (add(s.direction.vector(self.space, s.length)[1] for s in body.way) for body in self.bodies)
+        total = add(body.mass * g * y for body, y in zip(self.bodies, heights, strict=True))
+        return self._valued(total + self.elastic)
+
+    @cached_property
+    def lagrangian(self) -> Formula:
+        """T - U."""
+        return self.kinetic - self.potential
+
+    @cached_property
+    def rows(self) -> tuple[Formula, ...]:
+        """d/dt ∂L/∂q̇_i - ∂L/∂q_i - Q_i for each coordinate, each to be zero."""
+        rows = lagrange_rows(self.space, self.lagrangian)
+        forces = [self._valued(f) for f in self.forces]
+        return tuple(row - forces[i] if forces else row for i, row in enumerate(rows))
+
+    @cached_property
+    def parameters(self) -> frozenset[int]:
+        """The places of the parameters that occur in the rows."""
+        found = set().union(*(self.space.places(row) for row in self.rows))
+        return frozenset(place for place in found if place >= 2 * self.space.n)
+
+    @cached_property
+    def system(self) -> System:
+        """The rows, and their values at the point where systems of this space are compared."""
+        return System(self.space, self.rows, point_of(self.space))
+
+    def with_values(self, values: dict[int, Formula]) -> Mechanism:
+        """The same mechanism where the symbols at these places have these values."""
+        if not values:
+            return self
+        return replace(self, values={**self.values, **values})
+
+    def _valued(self, f: Formula) -> Formula:
+        return self.space.replace(f, self.values) if self.values else f
+
+    def _kinetic(self, body: Body) -> tuple[Formula, Formula]:
+        s = self.space
+        vectors = [segment.direction.vector(s, segment.length) for segment in body.way]
+        vx, vy = (s.by_time(add(vector[axis] for vector in vectors)) for axis in (0, 1))
+        omega = add(s.w(k).times(c) for k, c in enumerate(body.turns) if c)
+        half = body.mass.times(HALF)
+        return half * (vx * vx + vy * vy), body.inertia.times(HALF) * omega * omega

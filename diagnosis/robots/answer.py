@@ -1,0 +1,211 @@
+"""One engine asked about a robot's own file: what it holds, whether it computes that right, why it reads otherwise."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...engines.model_files.robot import BoundRobot, RobotEngine, RobotReader
+from ...models import InvalidInput
+from ...models.readers.model_file import ModelFile, read_model
+from ...models.readers.rules import Rules, mistakes_in
+from ...models.spatial_mechanism import SpatialMechanism
+from ..finding import Finding
+from .fields import FieldDifference, field_differences
+from .free_armature import armature_finding, armature_in_body_axes
+from .measures import Measured, measured, worst
+from .misreadings import candidates_of, explain_reading
+from .simulation import simulation_findings
+from .wording import Places, field_findings, mistake_finding
+
+LONGEST_MESSAGE = 300  # characters of an engine's own message
+
+
+@dataclass(frozen=True)
+class Question:
+    """``path``: the user's own file, bytes untouched; ``file``: furiko's reading of it; ``meshes``: folders besides its
+    own in which meshes are looked for; ``limits``: whether joints' ranges count."""
+
+    path: Path
+    file: ModelFile
+    meshes: tuple[Path, ...] = ()
+    limits: bool = False
+
+    def read(self, rules: Rules) -> SpatialMechanism:
+        """The file, read with these mistakes."""
+        return read_model(self.path, rules, self.meshes).spatial
+
+
+@dataclass
+class RobotAnswer:
+    """One engine's answer.
+
+    ``status``: ``agrees``, ``differs``, ``missing``, ``refused`` or ``failed``; ``measured``: the engine's mass matrix,
+    bias and accelerations against the truth of what it holds; ``left``: how many numbers differ that no known mistake
+    explains; ``without``: what it leaves out by design; ``simulation``: what a simulation adds to the dynamics.
+    """
+
+    name: str
+    status: str
+    says: str = ""
+    findings: list[Finding] = field(default_factory=list)
+    holds: SpatialMechanism | None = None
+    measured: tuple[Measured, ...] = ()
+    left: int = 0
+    without: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+    simulation: list[Finding] = field(default_factory=list)
+
+    @property
+    def unexplained(self) -> bool:
+        """Whether no cause was found."""
+        return any(finding.cause == "unexplained" for finding in self.findings)
+
+    def to_json(self) -> dict[str, Any]:
+        """The engine's entry in the JSON of ``furiko diagnose``."""
+        content: dict[str, Any] = {"status": self.status, "says": self.says, "reads the file itself": True}
+        if self.holds is not None:
+            content["holds"] = mechanism_to_json(self.holds)
+            content["measured"] = [one.to_json() for one in self.measured]
+        return content
+
+
+def ask_robot(reader: RobotReader, question: Question) -> RobotAnswer:
+    """What one engine makes of the user's own file."""
+    with np.errstate(all="ignore"):
+        try:
+            engine = reader.load(question.path, question.file.language, question.meshes)
+        except ImportError as error:
+            return RobotAnswer(reader.name, "missing", f"pip install {reader.package} [{error}]")
+        except (ValueError, RuntimeError) as error:
+            return _refused(reader, " ".join(str(error).split())[:LONGEST_MESSAGE])
+        return _compared(reader, engine, question)
+
+
+def _refused(reader: RobotReader, message: str) -> RobotAnswer:
+    inertia = any(word in message.lower() for word in ("inertia", "mass", "eigenvalue"))
+    finding = Finding(
+        "inertia-rejected" if inertia else "file-refused", reader.name, None, None, f"{reader.name} refuses: {message}"
+    )
+    return RobotAnswer(reader.name, "refused", message, [finding])
+
+
+def _compared(reader: RobotReader, engine: RobotEngine, question: Question) -> RobotAnswer:
+    answer = RobotAnswer(reader.name, "agrees", without=left_to_caller(reader, question.file.spatial))
+    try:
+        answer.holds = engine.compiled(question.file.spatial)
+        bound = engine.bind(answer.holds)
+        answer.measured = tuple(
+            measured(bound, acting(answer.holds, reader.leaves_to_caller), factorised=reader.factorises)
+        )
+    except (ValueError, RuntimeError, InvalidInput, np.linalg.LinAlgError) as error:
+        answer.status, answer.says = "failed", " ".join(str(error).split())[:LONGEST_MESSAGE]
+        answer.findings = [Finding("unexplained", reader.name, None, None, f"{reader.name}: {answer.says}")]
+        return answer
+    named, left = _reading(reader, question, answer.holds)
+    answer.left = len(left)
+    unexplained = field_findings(reader.name, left, places_in(question.file.spatial))
+    answer.findings = [*named, *unexplained, *_computing(reader, bound, answer)]
+    if reader.name == "mujoco" and question.file.language == "mjcf":
+        answer.simulation = simulation_findings(question.path, question.meshes, question.file.spatial)
+    if answer.findings:
+        answer.status = "differs"
+    return answer
+
+
+def acting(holds: SpatialMechanism, cleared: Sequence[str]) -> SpatialMechanism:
+    """The mechanism without these numbers of its joints: what the engine's forward dynamics applies of it."""
+    none: dict[str, Any] = dict.fromkeys(cleared, 0.0)
+    bodies = [replace(b, joints=tuple(replace(joint, **none) for joint in b.joints)) for b in holds.bodies]
+    return replace(holds, bodies=tuple(bodies))
+
+
+def left_to_caller(reader: RobotReader, mechanism: SpatialMechanism) -> tuple[str, ...]:
+    """Sentences on the passive forces that the file has and the engine's forward dynamics leaves to its caller."""
+    left = [name for name in reader.leaves_to_caller if mechanism.per_freedom(name).any()]
+    return tuple(f"{name} in {reader.name}, whose forward dynamics leaves it to the caller" for name in left)
+
+
+def _reading(
+    reader: RobotReader, question: Question, holds: SpatialMechanism
+) -> tuple[list[Finding], tuple[FieldDifference, ...]]:
+    """The mistakes in reading that explain what the engine holds, and the differences that they leave."""
+    file, language = question.file, question.file.language
+    if not field_differences(holds, file.spatial, limits=question.limits, ignored=reader.not_held):
+        return [], ()
+    candidates = candidates_of(reader.name, language)
+    explanation = explain_reading(
+        question.read, language, holds, candidates, ignored=reader.not_held, limits=question.limits
+    )
+    places, sentences = places_in(file.spatial), mistakes_in(language)
+    named = [
+        mistake_finding(reader.name, flag, sentences[flag], changes, places) for flag, changes in explanation.mistakes
+    ]
+    return named, explanation.left
+
+
+def _computing(reader: RobotReader, bound: BoundRobot, answer: RobotAnswer) -> list[Finding]:
+    """Where the engine's numbers are not those of the mechanism that it holds."""
+    beyond = worst(answer.measured)
+    if beyond is None or answer.holds is None:
+        return []
+    known = armature_in_body_axes(bound, acting(answer.holds, reader.leaves_to_caller))
+    if known is not None:
+        return [armature_finding(reader.name, known)]
+    says = (
+        f"{reader.name}: {beyond.quantity} at {beyond.where} is {beyond.found:.9g}, the mechanism that it holds has "
+        f"{beyond.expected:.9g}; rounding explains {beyond.allowed:.2g}"
+    )
+    return [Finding("unexplained", f"{reader.name}: {beyond.where}", beyond.found, beyond.expected, says)]
+
+
+def places_in(mechanism: SpatialMechanism) -> Places:
+    """Element and line of every body and joint of the file."""
+    lines: dict[str, str] = {}
+    for body in mechanism.bodies:
+        lines[f"link {body.name!r}"] = body.where
+        for joint in body.joints:
+            lines[f"joint {joint.name!r}"] = joint.where
+    return Places(lines)
+
+
+def mechanism_to_json(mechanism: SpatialMechanism) -> dict[str, Any]:
+    """A mechanism for a report, SI units: bodies with parent, pose, joints and inertial in the body's own frame."""
+    bodies = []
+    for body in mechanism.bodies:
+        tensor = body.inertial.tensor
+        entry: dict[str, Any] = {
+            "name": body.name,
+            "parent": mechanism.bodies[body.parent].name if body.parent >= 0 else None,
+            "position": _floats(body.position),
+            "quaternion": _floats(body.quaternion),
+            "mass": float(body.inertial.mass),
+            "centre of mass": _floats(body.inertial.centre),
+            "inertia": _floats([tensor[0, 0], tensor[1, 1], tensor[2, 2], tensor[0, 1], tensor[0, 2], tensor[1, 2]]),
+            "joints": [_joint(joint) for joint in body.joints],
+        }
+        bodies.append(entry)
+    return {"gravity": _floats(mechanism.gravity), "bodies": bodies}
+
+
+def _joint(joint: Any) -> Mapping[str, Any]:
+    numbers = {
+        n: float(getattr(joint, n)) for n in ("ref", "armature", "damping", "friction", "stiffness", "springref")
+    }
+    entry: dict[str, Any] = {"name": joint.name, "kind": joint.kind}
+    if joint.kind in ("hinge", "slide"):
+        entry["axis"] = _floats(joint.axis)
+    if joint.kind in ("hinge", "ball"):
+        entry["anchor"] = _floats(joint.anchor)
+    entry |= {name: value for name, value in numbers.items() if value}
+    if joint.limits is not None:
+        entry["limits"] = _floats(joint.limits)
+    return entry
+
+
+def _floats(values: Sequence[float] | Any) -> list[float]:
+    return [float(value) for value in values]

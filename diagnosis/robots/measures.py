@@ -1,0 +1,116 @@
+"""An engine's mass matrix, bias, passive forces and accelerations, held against the truth of what the engine holds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from ...engines.model_files.robot import BoundRobot
+from ...models.spatial_mechanism import Array, SpatialMechanism
+from ...reference.rounding.spatial import allowed_bias, allowed_mass_matrix, allowed_residual
+from ...reference.truth.spatial import SpatialTruth, spatial_truth
+from .states import probe_states, random_torques
+
+
+@dataclass(frozen=True)
+class Measured:
+    """The worst entry of one ``quantity`` over the states: ``ratio`` of its difference to what rounding explains.
+
+    ``where``: the joint; ``found`` and ``expected``: the engine's number and the true one, ``allowed``: how far apart
+    rounding may bring them.
+    """
+
+    quantity: str
+    ratio: float
+    where: str
+    found: float
+    expected: float
+    allowed: float
+
+    def to_json(self) -> dict[str, Any]:
+        """For ``furiko diagnose --json``."""
+        return asdict(self)
+
+
+def measured(bound: BoundRobot, mechanism: SpatialMechanism, *, factorised: bool = True) -> list[Measured]:
+    """Each quantity of an engine against the truth of ``mechanism``, which is what the engine holds.
+
+    ``factorised``: whether its accelerations come from a factorised mass matrix. Raises RuntimeError where an
+    answer has the wrong shape, NaN or infinity.
+    """
+    if not mechanism.nv:
+        return []
+    q, v = probe_states(mechanism)
+    truths = [spatial_truth(mechanism, q[k], v[k]) for k in range(len(q))]
+    rows = [*_terms(bound, mechanism, truths)]
+    matrix, bias = (np.array([getattr(t, name).float for t in truths]) for name in ("mass_matrix", "bias"))
+    for quantity, torque in (
+        ("accelerations", np.zeros_like(v)),
+        ("driven accelerations", random_torques(matrix, bias)),
+    ):
+        rows.append(_accelerations(quantity, bound, mechanism, truths, torque, factorised))
+    return rows
+
+
+def worst(measurements: Sequence[Measured]) -> Measured | None:
+    """The first of the quantities that is beyond rounding, in the order mass matrix, bias, passive, accelerations."""
+    beyond = [one for one in measurements if not one.ratio <= 1]
+    return beyond[0] if beyond else None
+
+
+def _terms(bound: BoundRobot, mechanism: SpatialMechanism, truths: list[SpatialTruth]) -> Iterator[Measured]:
+    q, v = (np.array([getattr(t, name) for t in truths]) for name in "qv")
+    nv = mechanism.nv
+    matrix = _finite("mass matrix", bound.mass_matrix(q), (len(q), nv, nv))
+    expected = np.array([truth.mass_matrix.float for truth in truths])
+    allowed = np.array([allowed_mass_matrix(mechanism, row) for row in q])
+    yield _worst("mass matrix", mechanism, matrix, expected, allowed)
+    bias = _finite("bias", bound.bias(q, v), v.shape)
+    allowed = np.array([allowed_bias(mechanism, *state) for state in zip(q, v, strict=True)])
+    yield _worst("bias", mechanism, bias, np.array([truth.bias.float for truth in truths]), allowed)
+
+
+def _accelerations(
+    quantity: str,
+    bound: BoundRobot,
+    mechanism: SpatialMechanism,
+    truths: list[SpatialTruth],
+    torque: Array,
+    factorised: bool,
+) -> Measured:
+    """The accelerations by their residual in the equations of motion, row by row; in forces."""
+    q, v = (np.array([getattr(t, name) for t in truths]) for name in "qv")
+    found = _finite(quantity, bound.accelerations(q, v, torque), v.shape)
+    residual = np.array([_residual(*state) for state in zip(truths, found, torque, strict=True)])
+    masses = [truth.mass_matrix.float for truth in truths]
+    states = zip(q, v, found, masses, torque, strict=True)
+    allowed = np.array([allowed_residual(mechanism, *state, factorised=factorised) for state in states])
+    return _worst(f"force of {quantity}", mechanism, residual, np.zeros_like(residual), allowed)
+
+
+def _residual(undriven: SpatialTruth, found: Array, torque: Array) -> Array:
+    """M a + bias − passive − torque for an engine's accelerations, from the truth of the state without torque."""
+    from flint import arb
+
+    balls = undriven.residual(found).balls
+    return np.array([float((ball - arb(float(t))).mid()) for ball, t in zip(balls, torque, strict=True)])
+
+
+def _worst(quantity: str, mechanism: SpatialMechanism, found: Array, expected: Array, allowed: Array) -> Measured:
+    ratio = np.abs(found - expected) / np.maximum(allowed, 1e-290)
+    at = np.unravel_index(int(np.argmax(ratio)), ratio.shape)
+    freedoms = [placed.joint.name for placed in mechanism.joints for _ in range(placed.joint.freedoms)]
+    where = " and ".join(dict.fromkeys(f"joint {freedoms[int(k)]!r}" for k in at[1:]))
+    return Measured(quantity, float(ratio[at]), where, float(found[at]), float(expected[at]), float(allowed[at]))
+
+
+def _finite(quantity: str, answer: object, shape: tuple[int, ...]) -> Array:
+    values = np.asarray(answer, dtype=np.float64)
+    if values.shape != shape:
+        raise RuntimeError(f"{quantity}: shape {values.shape} returned, {shape} expected")
+    if not np.isfinite(values).all():
+        raise RuntimeError(f"{quantity}: {int((~np.isfinite(values)).sum())} of {values.size} values are not finite")
+    return values

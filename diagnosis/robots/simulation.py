@@ -1,0 +1,67 @@
+"""What a simulation of the user's file adds to its dynamics: servos, contacts at the start, time steps too long.
+
+None of these is a difference between an engine and the file: they change no verdict, and are said beside it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+
+from ...engines.model_files.robot_simulation import Simulation, simulate_file
+from ...models.spatial_mechanism import SpatialMechanism
+from ..finding import Finding
+from .states import probe_states
+
+# Of the kinetic energy, lost or won in a run that keeps its energy: a tenth of this is seen in no plot.
+COARSE = 0.01
+MOST_PAIRS = 3  # of touching geoms, named
+
+
+def simulation_findings(path: Path, meshes: tuple[Path, ...], mechanism: SpatialMechanism) -> list[Finding]:
+    """Contacts at the start and a time step too long for the file, from MuJoCo's own run of it.
+
+    The run starts at rest in a configuration inside the joints' ranges, without contacts, limits, dry friction,
+    dampers and actuators. Empty where MuJoCo cannot run it.
+    """
+    q, _ = probe_states(mechanism, 2)
+    try:
+        run = simulate_file(path, meshes, q[1], 0.0 * mechanism.per_freedom("armature"))
+    except (ValueError, RuntimeError):
+        return []
+    return list(_said(run))
+
+
+def _said(run: Simulation) -> Iterator[Finding]:
+    if run.touching:
+        more = len(run.touching) - MOST_PAIRS
+        pairs = "; ".join(run.touching[:MOST_PAIRS]) + (f"; and {more} more pairs" if more > 0 else "")
+        says = f"mujoco: geoms touch in the file's initial configuration and push each other: {pairs}"
+        yield Finding("colliding-geoms", "mujoco", len(run.touching), 0, says)
+    start, end = run.energy
+    stable = math.isfinite(end)
+    if not run.drift <= COARSE:
+        words = f"from {start:.6g} to {end:.6g} J" if stable else "to no finite number: it is unstable"
+        says = (
+            f"mujoco: {run.integrator} with the file's time step of {run.timestep:g} s is too coarse: in "
+            f"{run.seconds:.3g} s without friction and contacts the energy goes {words}"
+        )
+        if stable:
+            says += f", {100 * run.drift:.2g} % of the kinetic energy; use a shorter step or integrator='RK4'"
+        yield Finding("coarse-time-step", "mujoco", end if stable else None, start, says)
+
+
+def servo_findings(servos: tuple[tuple[str, str], ...]) -> list[Finding]:
+    """Actuators that pull although their control is zero: (actuator, joint)."""
+    return [
+        Finding(
+            "servo",
+            f"actuator {actuator!r}",
+            None,
+            None,
+            f"mujoco: actuator {actuator!r} pulls at joint {joint!r} at ctrl = 0, wherever the joint is not at its "
+            "target or moves; the comparison is without it",
+        )
+        for actuator, joint in servos
+    ]

@@ -1,0 +1,236 @@
+"""``furiko diagnose`` on robots' files: sound ones agree, and each kind of misreading is named by its cause.
+
+The right values are worked out by hand, or are what both engines' own interfaces give.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import pytest
+
+from furiko import diagnose
+from furiko.diagnosis.finding import CAUSES
+from furiko.diagnosis.model_files.fix import write_fixed
+from furiko.diagnosis.robots.misreadings import explain_reading
+from furiko.models import InvalidInput
+from furiko.models.readers.model_file import read_model
+
+INERTIAL = '<inertial pos="0.1 0 -0.4" mass="1.5" diaginertia="0.1 0.2 0.25"/>'
+LINK = '<link name="{}"><inertial><origin xyz="0.2 0 -1"/><mass value="1"/>{}</inertial>{}</link>'
+TENSOR = '<inertia ixx=".1" iyy=".12" izz=".14" ixy="0" ixz="0" iyz="0"/>'
+
+SOUND = {
+    "cart-pole.xml": f"""<mujoco><worldbody><body name="cart"><joint name="x" type="slide" axis="1 0 0" damping="0.3"/>
+        <geom type="box" size=".1 .1 .1" mass="1.2"/><body name="pole"><joint name="q" axis="0 1 0"/>{INERTIAL}</body>
+        </body></worldbody></mujoco>""",
+    "arm.xml": f"""<mujoco><compiler angle="degree"/><worldbody><body name="a" pos="0 0 1" euler="10 20 30">
+        <joint name="j1" axis="1 2 0" ref="20"/>{INERTIAL}<body name="b" pos="0.3 0 0">
+        <joint name="j2" axis="0 0 1" pos="0 0.1 0"/><joint name="j3" axis="0 1 0"/>
+        {INERTIAL}<body name="c" pos="0 0.2 0"><joint name="j4" type="ball"/>
+        {INERTIAL}</body></body></body></worldbody></mujoco>""",
+    "free.xml": f"""<mujoco><worldbody><body name="a" pos="0 0 1"><freejoint name="root"/>{INERTIAL}<body name="b">
+        <joint name="hip" axis="0 1 0" armature="0.01"/>{INERTIAL}</body></body></worldbody></mujoco>""",
+    "floating.urdf": f"""<robot name="r"><link name="base"/>{LINK.format("a", TENSOR, "")}
+        <joint name="j" type="floating">
+        <origin xyz="0 0 2" rpy="0.3 0 0"/><parent link="base"/><child link="a"/></joint></robot>""",
+}
+# name → (text, the engine that misreads it, the cause, part of what is said)
+MISREAD = {
+    "bare.xml": (
+        f"""<mujoco><worldbody><body><joint name="j1" axis="0 1 0"/>{INERTIAL}<body name="b" pos="0 0 -1">
+        <joint name="j2" axis="0 1 0"/>{INERTIAL}</body></body></worldbody></mujoco>""",
+        "pinocchio-aba",
+        "bare-bodies-lost",
+        "'j1'",
+    ),
+    "roots.xml": (
+        f"""<mujoco><worldbody><body name="a"><joint name="j1" axis="0 1 0"/>{INERTIAL}</body>
+        <body name="b" pos="1 0 0">
+        <joint name="j2" type="slide" axis="0 0 1"/>{INERTIAL}</body></worldbody></mujoco>""",
+        "pinocchio-aba",
+        "first-root-only",
+        "'j2'",
+    ),
+    "class.xml": (  # a ball of 0.1 m of water weighs 4.18879 kg
+        """<mujoco><default><geom type="sphere" size="0.1" mass="2"/></default><worldbody><body name="a">
+        <joint name="j" type="slide" axis="0 0 1"/><geom/></body></worldbody></mujoco>""",
+        "pinocchio-aba",
+        "default-geom-mass-dropped",
+        "4.18879 kg, the file says 2 kg",
+    ),
+    "shown.xml": (
+        """<mujoco><worldbody><body name="a"><joint name="j" axis="0 1 0"/><geom size="0.1" mass="1" pos="0 0 -1"/>
+        <geom size="0.1" mass="2" pos="0 0 -1" contype="0" conaffinity="0"/></body></worldbody></mujoco>""",
+        "pinocchio-aba",
+        "geoms-without-contact-weigh-nothing",
+        "mass 1 kg, the file says 3 kg",
+    ),
+    "collision.urdf": (  # 1000 kg/m³ · 4/3 π 0.1³ = 4.18879 kg more
+        f"""<robot name="r"><link name="world"/>{LINK.format("a", TENSOR, "")}<link name="tip"><collision><geometry>
+        <sphere radius="0.1"/></geometry></collision></link><joint name="j" type="continuous"><parent link="world"/>
+        <child link="a"/><axis xyz="0 1 0"/></joint><joint name="f" type="fixed"><origin xyz="0 0 -1"/>
+        <parent link="a"/><child link="tip"/></joint></robot>""",
+        "mujoco",
+        "collision-weighs",
+        "mass 5.18879 kg, the file says 1 kg",
+    ),
+    "plane.urdf": (
+        f"""<robot name="r"><link name="world"/>{LINK.format("a", TENSOR, "")}<joint name="j" type="planar">
+        <parent link="world"/><child link="a"/><axis xyz="0 1 0"/></joint></robot>""",
+        "pinocchio-aba",
+        "planar-axis-ignored",
+        "axis",
+    ),
+    "turning.xml": (
+        """<mujoco><worldbody><body name="a" pos="0 0 1"><joint name="f" type="free" armature="0.1"/>
+        <inertial pos="0 0 -.2" mass="1" diaginertia="0.1 0.2 0.3"/></body></worldbody></mujoco>""",
+        "pinocchio-aba",
+        "free-armature-in-body-axes",
+        "0.1",
+    ),
+}
+
+
+def saved(folder, name, text):
+    path = folder / name
+    path.write_text(text)
+    return path
+
+
+@pytest.mark.parametrize("name", SOUND)
+def test_a_sound_robot_is_no_difference(tmp_path, name):
+    found = diagnose(saved(tmp_path, name, SOUND[name]))
+    assert (found.verdict, found.findings, found.exit_status) == ("agrees", (), 0), found.text()
+    assert found.engines["mujoco"]["status"] == found.engines["pinocchio-aba"]["status"] == "agrees"
+    assert "mujoco and pinocchio-aba" in found.headline
+
+
+@pytest.mark.parametrize("name", MISREAD)
+def test_a_misreading_is_named_by_its_cause(tmp_path, name):
+    text, engine, cause, part = MISREAD[name]
+    found = diagnose(saved(tmp_path, name, text))
+    first = found.findings[0]
+    assert (found.verdict, found.exit_status) == ("differs", 1)
+    assert first.cause == cause, found.text()
+    assert first.where.startswith(engine)
+    assert part in first.says
+    assert cause in CAUSES
+    other = "mujoco" if engine != "mujoco" else "pinocchio-aba"
+    assert found.engines[other]["status"] == "agrees"
+
+
+def test_two_misreadings_at_once_are_both_named(tmp_path):
+    text = MISREAD["shown.xml"][0].replace("<mujoco>", '<mujoco><compiler settotalmass="6"/>')
+    found = diagnose(saved(tmp_path, "two.xml", text))
+    assert {finding.cause for finding in found.findings} == {
+        "geoms-without-contact-weigh-nothing",
+        "total-mass-ignored",
+    }
+
+
+@pytest.mark.parametrize("name", ["bare.xml", "class.xml", "shown.xml"])
+def test_the_fixed_file_is_read_alike(tmp_path, name):
+    path, out = saved(tmp_path, name, MISREAD[name][0]), tmp_path / "fixed.xml"
+    write_fixed(path, out)
+    found = diagnose(out)
+    assert {engine: entry["status"] for engine, entry in found.engines.items() if engine != "exudyn-tree"} == {
+        "mujoco": "agrees",
+        "pinocchio-aba": "agrees",
+    }, found.text()
+    assert [f.cause for f in diagnose(out, path).findings] == []
+
+
+def test_a_fix_is_not_written_over_the_file_itself_or_in_another_format(tmp_path):
+    path = saved(tmp_path, "a.xml", SOUND["free.xml"])
+    with pytest.raises(InvalidInput, match="is not overwritten"):
+        write_fixed(path, path)
+    with pytest.raises(InvalidInput, match="must end in"):
+        write_fixed(path, tmp_path / "a.yaml")
+
+
+def test_an_engine_that_refuses_is_never_agreement(tmp_path):
+    """No body has moments 0.1, 0.1, 0.9: MuJoCo refuses it."""
+    text = SOUND["floating.urdf"].replace('izz=".14"', 'izz=".9"')
+    path = saved(tmp_path, "a.urdf", text)
+    found = diagnose(path)
+    assert (found.verdict, found.exit_status, found.findings[0].cause) == ("differs", 1, "inertia-rejected")
+    named = diagnose(path, engines=["mujoco", "pinocchio-aba"])
+    assert (named.verdict, named.exit_status) == ("incomplete", 3)
+    assert diagnose(path, engines=["pinocchio-aba"]).verdict == "agrees"
+
+
+def test_servos_and_long_time_steps_are_said_and_change_no_verdict(tmp_path):
+    text = SOUND["cart-pole.xml"].replace(
+        "</worldbody>", '</worldbody><actuator><position name="servo" joint="q" kp="12"/></actuator>'
+    )
+    text = text.replace("<mujoco>", '<mujoco><option timestep="0.05"/>')
+    found = diagnose(saved(tmp_path, "a.xml", text))
+    assert found.verdict == "agrees"
+    assert {finding.cause for finding in found.simulation} == {"servo", "coarse-time-step"}
+    assert any("'servo'" in f.says and "'q'" in f.says for f in found.simulation)
+    assert any("actuator" in line for line in found.without)
+
+
+def test_damping_that_pinocchio_leaves_to_its_caller_is_said(tmp_path):
+    found = diagnose(saved(tmp_path, "a.xml", SOUND["cart-pole.xml"]))
+    assert any("damping in pinocchio-aba" in line for line in found.without)
+
+
+def test_limits_count_where_they_are_asked_for(tmp_path):
+    limited = SOUND["free.xml"].replace('axis="0 1 0" arm', 'axis="0 1 0" range="-30 30" arm')
+    a, b = saved(tmp_path, "a.xml", limited), saved(tmp_path, "b.xml", SOUND["free.xml"])
+    assert diagnose(a, b).verdict == "agrees"
+    assert [f.cause for f in diagnose(a, b, limits=True).findings] == ["joint-limit"]
+
+
+@pytest.mark.parametrize(("limits", "causes"), [(False, []), (True, ["joint-limit"])])
+def test_a_range_that_an_engine_does_not_hold_is_left_where_ranges_count(tmp_path, limits, causes):
+    holds = read_model(saved(tmp_path, "a.xml", SOUND["free.xml"])).spatial
+    hip = replace(holds.bodies[1].joints[0], limits=(-0.5, 0.5))
+    said = replace(holds, bodies=(holds.bodies[0], replace(holds.bodies[1], joints=(hip,))))
+    explanation = explain_reading(lambda rules: said, "mjcf", holds, ("first_root_only",), limits=limits)
+    assert [difference.cause for difference in explanation.left] == causes
+
+
+def test_another_robot_is_compared_number_by_number(tmp_path):
+    a = saved(tmp_path, "a.xml", SOUND["free.xml"])
+    b = saved(tmp_path, "b.xml", SOUND["free.xml"].replace('armature="0.01"', 'armature="0.02"'))
+    found = diagnose(a, b)
+    assert [(f.cause, f.measured, f.expected) for f in found.findings] == [("armature", 0.01, 0.02)]
+
+
+def test_json_of_a_robot(tmp_path):
+    document = json.loads(json.dumps(diagnose(saved(tmp_path, "a.xml", SOUND["arm.xml"])).to_json()))
+    assert document["mechanism"] is None
+    assert [j["kind"] for body in document["spatial"]["bodies"] for j in body["joints"]] == [
+        "hinge",
+        "hinge",
+        "hinge",
+        "ball",
+    ]
+    assert document["engines"]["pinocchio-aba"]["measured"][0]["ratio"] <= 1
+
+
+def test_a_file_in_which_nothing_moves_is_refused(tmp_path):
+    text = f'<mujoco><worldbody><body name="a">{INERTIAL}</body></worldbody></mujoco>'
+    with pytest.raises(InvalidInput, match="no joint"):
+        diagnose(saved(tmp_path, "a.xml", text))
+
+
+def test_an_element_of_half_a_million_attributes_is_refused_before_any_engine_reads_it(tmp_path):
+    many = "".join(f"a{i}='' " for i in range(500_000))
+    with pytest.raises(InvalidInput, match="500000 attributes; at most 500"):
+        diagnose(saved(tmp_path, "a.xml", SOUND["free.xml"].replace("<mujoco>", f"<mujoco {many}>")))
+
+
+def test_an_unknown_engine_is_refused(tmp_path):
+    with pytest.raises(InvalidInput, match="mujocoo"):
+        diagnose(saved(tmp_path, "a.xml", SOUND["free.xml"]), engines=["mujocoo"])
+
+
+def test_readings_are_spatial_wherever_a_file_is_no_planar_tree(tmp_path):
+    file = read_model(saved(tmp_path, "a.xml", SOUND["arm.xml"]))
+    assert file.planar is None
+    assert "not a planar tree" in file.not_planar
