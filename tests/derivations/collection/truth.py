@@ -104,7 +104,7 @@ def _turn(angle, circle):
     return c, s
 
 
-def _value(expression, circle, numbers):
+def value_of(expression, circle, numbers):
     def exact(function):
         value = _turn(function.args[0], circle)[isinstance(function, sp.sin)]
         return sp.Rational(value.numerator, value.denominator)
@@ -113,7 +113,7 @@ def _value(expression, circle, numbers):
     return sp.sympify(expression).xreplace(trigonometric).xreplace(numbers)
 
 
-def _state(expressions, mechanism, seed):
+def state_of(expressions, mechanism, seed):
     draw = random.Random(seed)
 
     def number():
@@ -130,7 +130,7 @@ def _state(expressions, mechanism, seed):
 
 def _accelerations(rows, unknowns, circle, numbers):
     known = {s: n for s, n in numbers.items() if s not in unknowns}
-    values = [_value(row, circle, known) for row in rows]
+    values = [value_of(row, circle, known) for row in rows]
     matrix = sp.Matrix([[sp.diff(value, a) for a in unknowns] for value in values])
     if matrix.free_symbols or matrix.det() == 0:
         return None
@@ -147,7 +147,7 @@ def compare(printed, mechanism, special=None):
     printed = [sp.sympify(row).subs(special) for row in printed]
     unknowns = [a for _, _, a in mechanism.coordinates]
     for seed in range(POINTS):
-        circle, numbers = _state([*truth, *printed, *unknowns], mechanism, seed)
+        circle, numbers = state_of([*truth, *printed, *unknowns], mechanism, seed)
         right = _accelerations(truth, unknowns, circle, numbers)
         found = _accelerations(printed, unknowns, circle, numbers)
         if found != right:
