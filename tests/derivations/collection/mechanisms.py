@@ -2,7 +2,6 @@
 
 import sympy as sp
 from sympy import cos, sin
-
 from truth import Body, Mechanism, coordinate
 
 g, M, m, m1, m2, m3, l, l1, l2, l3, r0 = sp.symbols("g M m m1 m2 m3 l l1 l2 l3 r0", positive=True)

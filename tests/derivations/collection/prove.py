@@ -43,5 +43,6 @@ def right_in(name):
 if __name__ == "__main__":
     for name in sys.argv[1:] or INDEX:
         found, state = verdict(name)
-        print(name, found, "as said" if found == INDEX[name]["verdict"] else "NOT AS SAID",
-              right_in(name) if found == "wrong" else "", state and {k: state[k] for k in state if k != "state"})  # fmt: skip
+        said = "as said" if found == INDEX[name]["verdict"] else "NOT AS SAID"
+        others = right_in(name) if found == "wrong" else []
+        print(name, found, said, others, state and {k: state[k] for k in state if k != "state"})

@@ -1,12 +1,58 @@
 """What arms, carts, single pendulums, springs and wheels print, entered by hand, and what each is said to describe."""
 
 import sympy as sp
-from sympy import Rational, cos, sin
-
 from mechanisms import (
-    CART, F, I, I1, I2, M, a1, a2, al, b, b1, b2, bobs, cart_pole, chain, elastic, g, k, l, l1, l2, lc1, lc2, links,
-    m, m1, m2, pendulum, ph, phd, phdd, r, r0, rd, rdd, tau, tau1, tau2, th, th1, th2, u, w, w1, w2, wheel, x, xd, xdd,
+    CART,
+    I1,
+    I2,
+    F,
+    I,
+    M,
+    a1,
+    a2,
+    al,
+    b,
+    b1,
+    b2,
+    bobs,
+    cart_pole,
+    chain,
+    elastic,
+    g,
+    k,
+    l,
+    l1,
+    l2,
+    lc1,
+    lc2,
+    links,
+    m,
+    m1,
+    m2,
+    pendulum,
+    ph,
+    phd,
+    phdd,
+    r,
+    r0,
+    rd,
+    rdd,
+    tau,
+    tau1,
+    tau2,
+    th,
+    th1,
+    th2,
+    u,
+    w,
+    w1,
+    w2,
+    wheel,
+    x,
+    xd,
+    xdd,
 )  # fmt: skip
+from sympy import Rational, cos, sin
 from truth import Body, Mechanism, lagrange
 
 half = Rational(1, 2)
@@ -124,7 +170,10 @@ def solved_up(force):
 
 def gym_cart():
     temp = (F + m * l * w**2 * S) / (M + m)
-    return [al - (g * S - C * temp) / (l * (Rational(4, 3) - m * C**2 / (M + m))), xdd - temp + m * l * al * C / (M + m)]
+    return [
+        al - (g * S - C * temp) / (l * (Rational(4, 3) - m * C**2 / (M + m))),
+        xdd - temp + m * l * al * C / (M + m),
+    ]
 
 
 def backslash():

@@ -1,11 +1,31 @@
-"""What chains of bobs and rods print, entered by hand from the page, and the mechanism that each is said to describe."""
+"""What is printed of chains of bobs and rods, entered by hand from the page, and the mechanism that each describes."""
 
 import sympy as sp
-from sympy import Rational, cos, sin
-
 from mechanisms import (
-    a1, a2, a3, b1, b2, bobs, g, l, l1, l2, l3, m, m1, m2, m3, rods, th1, th2, th3, w1, w2, w3,
+    a1,
+    a2,
+    a3,
+    b1,
+    b2,
+    bobs,
+    g,
+    l,
+    l1,
+    l2,
+    l3,
+    m,
+    m1,
+    m2,
+    m3,
+    rods,
+    th1,
+    th2,
+    th3,
+    w1,
+    w2,
+    w3,
 )  # fmt: skip
+from sympy import Rational, cos, sin
 from truth import lagrange, momenta
 
 half = Rational(1, 2)

@@ -47,9 +47,7 @@ class Mechanism:
 
 def rate(expression, mechanism):
     """Time derivative, by the chain rule."""
-    total = sum(
-        sp.diff(expression, q) * v + sp.diff(expression, v) * a for q, v, a in mechanism.coordinates
-    )
+    total = sum(sp.diff(expression, q) * v + sp.diff(expression, v) * a for q, v, a in mechanism.coordinates)
     return total + sum(sp.diff(expression, phase) * speed for phase, speed in mechanism.phases.items())
 
 
@@ -170,8 +168,7 @@ def conventions(printed, mechanism):
 
 
 def _is_angle(q, mechanism):
-    return any(sp.sympify(body.x).atoms(sp.sin, sp.cos) and any(
-        q in f.free_symbols for f in sp.sympify(body.x).atoms(sp.sin, sp.cos)) for body in mechanism.bodies)  # fmt: skip
+    return any(q in f.free_symbols for body in mechanism.bodies for f in sp.sympify(body.x).atoms(sp.sin, sp.cos))
 
 
 def _relative(mechanism):
