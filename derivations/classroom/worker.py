@@ -11,9 +11,10 @@ import os
 import resource
 import signal
 import sys
+from typing import NoReturn
 
 from .assess import assess_text, unread
-from .problem import problem_of
+from .problem import Problem, problem_of
 
 MEGABYTES = 1024
 STUCK = 5  # [s] after its limit in which a process that nobody ends any more ends itself
@@ -23,22 +24,42 @@ def main() -> None:
     """Assess what comes until standard input ends."""
     answer_to = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)
-    resource.setrlimit(resource.RLIMIT_AS, (MEGABYTES << 20, MEGABYTES << 20))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     problem = problem_of(json.loads(sys.stdin.readline()))
+    _limit()
     print("ready", file=answer_to, flush=True)
     for line in sys.stdin:
         task = json.loads(line)
-        signal.alarm(int(problem.seconds) + STUCK)
-        try:
-            found = assess_text(problem, task["who"], task["text"])
-        except MemoryError:
-            found = unread(problem, task["who"], "not graded", f"it needs more than {MEGABYTES} MB of memory")
-        except Exception as error:
-            why = f"a mistake in furiko: {type(error).__name__}: {str(error)[:200]}"
-            found = unread(problem, task["who"], "not graded", why)
-        signal.alarm(0)
-        print(json.dumps(found.to_dict()), file=answer_to, flush=True)
+        print(_assessed(problem, task["who"], task["text"]), file=answer_to, flush=True)
+
+
+def answer_in(descriptor: int, problem: Problem, who: str, text: str) -> NoReturn:
+    """Write the assessment to a pipe and end this process, which is a fork."""
+    try:
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGALRM):
+            signal.signal(number, signal.SIG_DFL)
+        _limit()
+        with os.fdopen(descriptor, "w", encoding="utf-8") as answer_to:
+            answer_to.write(_assessed(problem, who, text))
+    finally:
+        os._exit(0)
+
+
+def _limit() -> None:
+    resource.setrlimit(resource.RLIMIT_AS, (MEGABYTES << 20, MEGABYTES << 20))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+def _assessed(problem: Problem, who: str, text: str) -> str:
+    signal.alarm(int(problem.seconds) + STUCK)
+    try:
+        found = assess_text(problem, who, text)
+    except MemoryError:
+        found = unread(problem, who, "not graded", f"it needs more than {MEGABYTES} MB of memory")
+    except Exception as error:
+        why = f"a mistake in furiko: {type(error).__name__}: {str(error)[:200]}"
+        found = unread(problem, who, "not graded", why)
+    signal.alarm(0)
+    return json.dumps(found.to_dict())
 
 
 if __name__ == "__main__":

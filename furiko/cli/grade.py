@@ -103,7 +103,9 @@ def _grade_class(
     from ..classroom import assess_class, assess_one, exit_status, write_class
     from .progress import status_line
 
-    if gradescope is not None and len(paths) == 1:
+    if gradescope is None and len(paths) == 1 and paths[0].is_file():
+        found = assess_class(problem, paths, hints=hints)
+    elif gradescope is not None and len(paths) == 1:
         found = assess_one(problem, paths[0], hints=hints)
     else:
         with status_line() as say:

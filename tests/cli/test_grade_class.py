@@ -107,6 +107,17 @@ def test_one_submission_is_told_what_its_hints_allow(folder):
     assert furiko(folder, "in/ann.toml").returncode == 0
 
 
+def test_one_alone_has_its_time_too(folder):
+    """Twenty rows of twenty squared terms in each row take seconds to prove different or equal."""
+    problem = PROBLEM.replace("links = 2", "links = 20").replace("seconds = 2", "seconds = 0.5")
+    (folder / "problem.toml").write_text(problem.replace("rows = [4, 6]", "total = 1"))
+    sums = ["+".join(f"l{j}*m{k}*a{j}*cos(t{k}-2*t{j})^2" for j in range(1, 21)) for k in range(1, 21)]
+    rows = [f"{k} = '{row} = g*sin(t{k})'" for k, row in enumerate(sums, 1)]
+    (folder / "in" / "long.toml").write_text("[equations]\n" + "\n".join(rows))
+    done = furiko(folder, "in/long.toml")
+    assert (done.returncode, done.stdout) == (3, "It could not be graded: it takes longer than 0.5 s\n")
+
+
 def test_gradescope_gets_its_results(folder):
     furiko(folder, "in/bob.toml", "--gradescope", "results.json")
     results = json.loads((folder / "results.json").read_text())
@@ -125,7 +136,8 @@ def test_gradescope_gets_its_results(folder):
 
 
 @pytest.mark.parametrize(
-    "arguments", [["nowhere.toml"], ["in", "--gradescope", "r.json"], ["in", "--system", "n-leg"], []]
+    "arguments",
+    [["nowhere.toml"], ["in/ann.toml", "in/bob.toml", "--gradescope", "r.json"], ["in", "--system", "n-leg"], []],
 )
 def test_bad_usage_is_one_line(folder, arguments):
     done = furiko(folder, *arguments)

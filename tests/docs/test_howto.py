@@ -91,5 +91,8 @@ def test_nbgrader_grades_the_example(tmp_path):
         (folder / "derivation.ipynb").write_text(json.dumps(notebook))
     nbgrader("autograde", "pendulum", "--create")
     nbgrader("export")
-    rows = {row["student_id"]: float(row["score"]) for row in csv.DictReader((course / "grades.csv").open())}
+    rows = {
+        row["student_id"]: float(row["score"])
+        for row in csv.DictReader((course / "grades.csv").read_text().splitlines())
+    }
     assert rows == {who: points for who, (_, points) in CHANGES.items()}
