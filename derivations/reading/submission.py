@@ -198,24 +198,17 @@ def _convention(data: dict[str, Any], n: int) -> Convention:
 
 def _texts(data: dict[str, Any]) -> Iterable[str]:
     """All lines of mathematics in a file."""
-    for table in ("define", "positions", "velocities", "equations", "solved"):
+    for table in ("define", "equations"):
         found = data.get(table)
         entries = found.values() if isinstance(found, dict) else found if isinstance(found, list) else ()
         yield from (entry.translate(FULL_WIDTH) for entry in entries if isinstance(entry, str))
-    for name in ("kinetic", "potential", "lagrangian"):
-        if isinstance(data.get(name), str):
-            yield LEFT_SIDE[name].sub("", data[name]).translate(FULL_WIDTH)
+    if isinstance(data.get("lagrangian"), str):
+        yield LAGRANGIAN.sub("", data["lagrangian"]).translate(FULL_WIDTH)
 
 
-_OF = r"\s*(?:\([^=()]{0,200}\)\s*)?"
-LEFT_SIDE = {  # what people write in front of an energy
-    "kinetic": re.compile(rf"^\s*(?:[TK]|KE|E_?k){_OF}="),
-    "potential": re.compile(rf"^\s*(?:[UV]|PE|E_?p){_OF}="),
-    "lagrangian": re.compile(
-        rf"^\s*(?:L|\\mathcal\s*\{{?\s*L\s*\}}?|\\mathscr\s*\{{?\s*L\s*\}}?|ℒ|𝓛){_OF}(?:=\s*T\s*[-−]\s*[UV]\s*)?="
-    ),
-}
-ENERGIES = {"kinetic": "T", "potential": "U", "lagrangian": "L"}
+LAGRANGIAN = re.compile(
+    r"^\s*(?:L|\\mathcal\s*\{?\s*L\s*\}?|\\mathscr\s*\{?\s*L\s*\}?|ℒ|𝓛)\s*(?:\([^=()]{0,200}\)\s*)?(?:=\s*T\s*[-−]\s*[UV]\s*)?="
+)
 
 
 class Reader:
@@ -275,18 +268,18 @@ class Reader:
         self.doubtful += [written[start:end] for start, end in self.slashes.doubtful]
         self.slashes.doubtful.clear()
 
-    def rows(self, table: object, name: str = "equations") -> tuple[tuple[str, Formula], ...]:
-        """The equations of motion in the field ``name``; one in matrices is as many as it has rows."""
+    def rows(self, table: object) -> tuple[tuple[str, Formula], ...]:
+        """The equations of motion; one in matrices is as many as it has rows."""
         n = self.evaluation.space.n
         if isinstance(table, list):
             table = {str(i): line for i, line in enumerate(table, 1)}
         if not isinstance(table, dict) or not table:
-            raise InvalidInput(f'{name}: a table of rows is needed, as in 1 = "m1*l1^2*a1 = -m1*g*l1*sin(t1)"')
+            raise InvalidInput('equations: a table of rows is needed, as in 1 = "m1*l1^2*a1 = -m1*g*l1*sin(t1)"')
         if len(table) > n:
-            raise InvalidInput(f"{name}: {len(table)} rows for {n} angles; one row for each angle is needed")
+            raise InvalidInput(f"equations: {len(table)} rows for {n} angles; one row for each angle is needed")
         rows: list[tuple[str, Formula]] = []
         for label, line in table.items():
-            where = f"{name}.{label!s:.40}"
+            where = f"equations.{label!s:.40}"
             found, text = _located(where, self._row, line)
             self.lines.append((str(label)[:40], text))
             labels = [str(label)[:40]] if len(found) == 1 else [str(len(rows) + k) for k in range(1, len(found) + 1)]
@@ -309,26 +302,17 @@ class Reader:
 
     def lagrangian(self, line: object) -> Formula:
         """The Lagrangian."""
-        return self.energy("lagrangian", line)
-
-    def energy(self, name: str, line: object) -> Formula:
-        """One of ``ENERGIES``."""
-        blank = LEFT_SIDE[name].sub(lambda m: " " * len(m[0]), _line(line))
-        return self.expression(name, ENERGIES[name], blank)
-
-    def expression(self, where: str, label: str, line: object) -> Formula:
-        """An expression without a sum in a denominator. ``label``: under which it is said back."""
 
         def read() -> Quotient:
-            written = _line(line)
+            written = LAGRANGIAN.sub(lambda m: " " * len(m[0]), _line(line))
             node = parse_expression(written, self.names, self.words, self.slashes)
             self._doubts(written)
-            self.lines.append((label, self.typesetter.equation((node,))))
+            self.lines.append(("L", self.typesetter.equation((node,))))
             return self.evaluation.scalar(node)
 
-        value = _located(where, read)
+        value = _located("lagrangian", read)
         if value.denominator:
-            raise InvalidInput(f"{where}: column 1: a sum in a denominator; here there is none")
+            raise InvalidInput("lagrangian: column 1: a sum in a denominator; a Lagrangian has none")
         return value.numerator
 
 
