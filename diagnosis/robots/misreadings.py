@@ -82,16 +82,20 @@ class _Search:
         self._known: dict[frozenset[str], SpatialMechanism | None] = {}
 
     def explained(self, candidates: Sequence[str]) -> Explanation:
-        effective = self._effective(candidates)
+        effective = [flag for flag in candidates if self._changes(flag, ())]
+        if not self._fits(effective):
+            effective = self._besides(effective, candidates)
         chosen = self._smallest(effective) if self._fits(effective) else self._greedy(effective)
         reading = self._reading(chosen)
         left = self._left_by(reading) if reading is not None else []
         named = ((flag, tuple(self._changes(flag, ()) or self._changes(flag, chosen))) for flag in chosen)
         return Explanation(tuple(named), tuple(left))
 
-    def _effective(self, candidates: Sequence[str]) -> list[str]:
-        """The mistakes that change the reading, alone or beside others that do."""
-        effective = [flag for flag in candidates if self._changes(flag, ())]
+    def _besides(self, effective: list[str], candidates: Sequence[str]) -> list[str]:
+        """The ``effective`` mistakes, and those that change a reading only where these are made."""
+        together, reading = self._reading(effective), self._reading(candidates)
+        if together is not None and reading is not None and not field_differences(reading, together):
+            return effective
         return [flag for flag in candidates if flag in effective or self._changes(flag, effective)]
 
     def _changes(self, flag: str, others: Sequence[str]) -> list[FieldDifference]:
