@@ -39,8 +39,8 @@ class Measured:
 def measured(bound: BoundRobot, mechanism: SpatialMechanism, *, factorised: bool = True) -> list[Measured]:
     """Each quantity of an engine against the truth of ``mechanism``, which is what the engine holds.
 
-    ``factorised``: whether its accelerations come from a factorised mass matrix. Raises RuntimeError where an
-    answer has the wrong shape, NaN or infinity.
+    Without accelerations where a joint moves no mass. ``factorised``: whether its accelerations come from a factorised
+    mass matrix. Raises RuntimeError where an answer has the wrong shape, NaN or infinity.
     """
     if not mechanism.nv:
         return []
@@ -49,12 +49,24 @@ def measured(bound: BoundRobot, mechanism: SpatialMechanism, *, factorised: bool
     units = magnitudes(mechanism, q, v)
     rows = [*_terms(bound, mechanism, truths, units)]
     matrix, bias = (np.array([getattr(t, name).float for t in truths]) for name in ("mass_matrix", "bias"))
+    if weightless_freedom(mechanism, matrix):
+        return rows
     for quantity, torque in (
         ("accelerations", np.zeros_like(v)),
         ("driven accelerations", random_torques(matrix, bias)),
     ):
         rows.append(_accelerations(quantity, bound, mechanism, truths, units, torque, factorised))
     return rows
+
+
+def weightless_freedom(mechanism: SpatialMechanism, matrices: Array) -> str:
+    """The first joint that moves no mass in one of the states, ``matrices`` (B, nv, nv), or nothing.
+
+    Its row of the mass matrix is zero, and no accelerations are determined there: they are not looked at.
+    """
+    zero = (np.abs(matrices).max(axis=2) == 0).any(axis=0)
+    freedoms = [placed.joint.name for placed in mechanism.joints for _ in range(placed.joint.freedoms)]
+    return next((name for name, none in zip(freedoms, zero, strict=True) if none), "")
 
 
 def worst(measurements: Sequence[Measured]) -> Measured | None:
