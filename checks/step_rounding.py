@@ -27,6 +27,7 @@ from ..reference.rounding.bounds import EPSILON, allowed, turns
 from ..reference.rounding.iterations import left_in_accelerations, left_in_maximal_coordinates
 from ..reference.rounding.maximal_elimination import joint_spread
 from ..reference.rounding.monte_carlo import ONE_ROUNDING
+from ..reference.rounding.norms import norm
 from ..reference.rounding.stepped import Ends, stepped
 from .cell import Cell
 from .textbook import MAXIMAL, Candidate
@@ -144,7 +145,7 @@ def sharp_steps(
         rates = np.hypot(rates, gamma / (beta * h) * by.angles)
     # Differences to the parent's angle, and sums along the tree, when coordinates are changed at both ends.
     changed = ONE_ROUNDING * np.sqrt(2.0) * np.stack([cell.amplitude.path_sums(values) for values in state])
-    rounding = np.sqrt(found.rounding**2 + changed**2 + np.stack([np.zeros_like(theta), rates**2]))
+    rounding = norm(np.stack([found.rounding, changed, np.stack([np.zeros_like(theta), rates])]), 0)
     left = found.left + (np.stack([h / 2 * by.speeds, by.speeds]) if held == "velocities" else 0.0)
     exact = found.exact if candidate.coordinates != MAXIMAL else np.stack(candidate.end(theta, omega, h, steps))
     return Ends(exact, rounding, left)
