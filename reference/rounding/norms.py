@@ -19,10 +19,10 @@ def norm(values: NDArray[Any], axis: int | tuple[int, ...] = -1) -> Array:
 
 def root_mean_square(values: NDArray[Any], axis: int = 0) -> Array:
     """√(Σ values² / count) over the axis."""
-    return norm(values, axis) / np.sqrt(values.shape[axis])
+    return np.asarray(norm(values, axis) / np.sqrt(values.shape[axis]))
 
 
-def product(matrix: Array, other: Array) -> Array:
+def product(matrix: NDArray[Any], other: NDArray[Any]) -> Array:
     """√(matrix∘² other∘²), the product of matrices (…, n, m) and (…, m, k) in which errors add up as independent ones.
 
     Rows of the one and columns of the other are brought near to one before they are squared.
@@ -31,7 +31,7 @@ def product(matrix: Array, other: Array) -> Array:
     return np.asarray(np.sqrt((matrix / rows) ** 2 @ (other / columns) ** 2) * rows * columns)
 
 
-def vector_product(matrix: Array, vector: Array) -> Array:
+def vector_product(matrix: NDArray[Any], vector: NDArray[Any]) -> Array:
     """The same of a vector (…, m)."""
     return product(matrix, vector[..., None])[..., 0]
 
