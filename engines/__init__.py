@@ -10,7 +10,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from .info import EngineInfo, Integrator, Quantity
-from .registry import ENGINES, cannot, engine_info, engine_names, engine_version, load_engine
+from .registry import ENGINES, cannot, engine_info, engine_names, engine_version, load_engine, untested
 
 if TYPE_CHECKING:
     from .protocol import BareCall, Engine, ModelFields, Native
@@ -39,6 +39,7 @@ __all__ = [
     "engine_names",
     "engine_version",
     "load_engine",
+    "untested",
 ]
 
 

@@ -3,7 +3,7 @@
 May import nothing else of furiko: everything else rests on it.
 """
 
-from .errors import EngineMissing, InvalidInput
+from .errors import EngineMissing, InvalidInput, LibraryMissing
 from .scene import Scene, catalogue, find_scene, find_scenes
 from .systems import DocumentSystem, NLegPendulum, RodChain, System
 from .tree import Link, PlanarTree
@@ -14,6 +14,7 @@ __all__ = [
     "DocumentSystem",
     "EngineMissing",
     "InvalidInput",
+    "LibraryMissing",
     "Link",
     "NLegPendulum",
     "PlanarTree",

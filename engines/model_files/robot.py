@@ -112,7 +112,7 @@ ROBOT_READERS: dict[str, RobotReader] = {
             "drake",
             ".robot_drake:DrakeRobot",
             "pydrake",
-            "furiko[drake]",
+            "drake",
             not_held=("stiffness", "friction"),
             leaves_to_caller=("stiffness",),
         ),
