@@ -20,7 +20,7 @@ from pathlib import Path
 import msgspec
 
 from ..engines import ENGINES
-from ..models import Scene
+from ..models import AnyScene, TreeScene
 from ..models.writers.whole_file import replace_file
 from ..records.check import Diagnosis, Result
 from .foundations import own_foundation, package_foundation
@@ -85,11 +85,11 @@ class Cache:
             entry = _Entry(len(results), results, list(diagnoses))
             self._save("results", _results_key(task), msgspec.json.encode(entry))
 
-    def facts(self, scene: Scene, random_states: int) -> bytes | None:
+    def facts(self, scene: AnyScene, random_states: int) -> bytes | None:
         """A scene's truth as its worker sent it; None where it has to be computed."""
         return self._load("truths", _facts_key(scene, random_states) if self.folder else None)
 
-    def keep_facts(self, scene: Scene, random_states: int, content: bytes) -> None:
+    def keep_facts(self, scene: AnyScene, random_states: int, content: bytes) -> None:
         """Keep a scene's truth."""
         if self.folder:
             self._save("truths", _facts_key(scene, random_states), content)
@@ -173,18 +173,16 @@ def _results_key(task: Task) -> str | None:
     return _digest("results", scene, task.engine, foundation.hex(), checks, str(task.random_states))
 
 
-def _facts_key(scene: Scene, random_states: int) -> str:
+def _facts_key(scene: AnyScene, random_states: int) -> str:
     return _digest("facts", _scene(scene), str(random_states))
 
 
-def _scene(scene: Scene) -> str:
+def _scene(scene: AnyScene) -> str:
     """Everything of a scene that a result depends on, and nothing that it does not."""
-    system = scene.system
     parts = (
         scene.name,
-        system,
-        scene.theta,
-        scene.omega,
+        scene.system,
+        *((scene.q, scene.v) if isinstance(scene, TreeScene) else (scene.theta, scene.omega)),
         scene.duration,
         scene.random,
         scene.named,

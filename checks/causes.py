@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import msgspec
 
 from ..diagnosis.explanation import UNEXPLAINED, Explanation
@@ -11,6 +13,9 @@ from ..records.check import Diagnosis, Result
 from ..records.findings import Difference
 from .cell import Cell
 from .check import Check
+
+if TYPE_CHECKING:
+    from .trees.cell import TreeCell
 
 # What a cause can show in, for those that do not show in every term: M, V (velocity terms) and G (gravity terms).
 TERMS_OF_CAUSE = {
@@ -50,7 +55,7 @@ ALSO_OF_THE_MECHANISM = ("symmetry", "joint forces", "energy")
 class Causes:
     """Gives each result that differs its cause as it comes, and all of them so far in one :class:`Diagnosis`."""
 
-    def __init__(self, cell: Cell) -> None:
+    def __init__(self, cell: Cell | TreeCell) -> None:
         self._cell = cell
         self._explains: list[str] = []
         self._model_differs = False

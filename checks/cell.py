@@ -38,6 +38,13 @@ class Cell:
     states: States
     facts: SceneFacts
 
+    @property
+    def start(self) -> tuple[Array, Array] | None:
+        """The state from which trajectories start, θ and ω, (n,) each; None where the scene has none."""
+        if self.scene.theta is None or self.scene.omega is None:
+            return None
+        return np.array(self.scene.theta), np.array(self.scene.omega)
+
     @cached_property
     def amplitude(self) -> Amplitudes:
         """Magnitudes of the terms in the coordinates in which this engine computes."""
@@ -110,18 +117,7 @@ class Cell:
 
     def answer(self, quantity: str, answer: object, shape: tuple[int, ...]) -> Array:
         """``answer`` as an array of this shape, or :class:`EngineFault` saying what is wrong with it."""
-        try:
-            array = np.asarray(answer, dtype=np.float64)
-        except (TypeError, ValueError) as error:
-            raise EngineFault(f"{quantity}: not an array of numbers: {error}") from None
-        if array.shape != shape:
-            raise EngineFault(f"{quantity}: shape {array.shape} returned, {shape} expected")
-        bad = ~np.isfinite(array)
-        if bad.any():
-            row = int(np.argwhere(bad)[0][0])
-            where = f", first in state {self.states.labels[row]!r}" if shape[0] == len(self.states) else ""
-            raise EngineFault(f"{quantity}: {int(bad.sum())} of {bad.size} values are NaN or infinite{where}")
-        return array
+        return array_of(quantity, answer, shape, self.states.labels)
 
     def result(self, check: str, outcome: Outcome, **fields: Any) -> Result:
         """A result of this cell."""
@@ -134,6 +130,25 @@ class Cell:
             "in each of them, and the states furthest off were looked at"
         )
         return self.result(f"{check}, other states", "skipped", reason=reason)
+
+
+def array_of(quantity: str, answer: object, shape: tuple[int, ...], labels: tuple[str, ...]) -> Array:
+    """``answer`` as an array of this shape, or :class:`EngineFault` saying what is wrong with it.
+
+    ``labels``: of the states, where the first axis goes over them.
+    """
+    try:
+        array = np.asarray(answer, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise EngineFault(f"{quantity}: not an array of numbers: {error}") from None
+    if array.shape != shape:
+        raise EngineFault(f"{quantity}: shape {array.shape} returned, {shape} expected")
+    bad = ~np.isfinite(array)
+    if bad.any():
+        row = int(np.argwhere(bad)[0][0])
+        where = f", first in state {labels[row]!r}" if shape[0] == len(labels) else ""
+        raise EngineFault(f"{quantity}: {int(bad.sum())} of {bad.size} values are NaN or infinite{where}")
+    return array
 
 
 @dataclass(frozen=True)

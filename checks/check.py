@@ -7,17 +7,26 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from ..engines import EngineInfo, Quantity
-from ..models import Scene
+from ..engines import EngineInfo, Quantity, TreeQuantity
+from ..models import AnyScene, TreeScene
 
 if TYPE_CHECKING:
     from ..records.check import Result
     from .cell import Cell
+    from .trees.cell import TreeCell
 
 
-def always(_scene: Scene, _info: EngineInfo) -> str:
+def always(_scene: AnyScene, _info: EngineInfo) -> str:
     """For a check that every scene and engine has."""
     return ""
+
+
+@dataclass(frozen=True)
+class OfTrees:
+    """The same check of an open mechanism: its file in ``checks/trees/``, and what it needs of the engine."""
+
+    module: str
+    needs: TreeQuantity
 
 
 @dataclass(frozen=True)
@@ -28,7 +37,8 @@ class Check:
     ``checks/comparisons/``; ``meaning``: what it tells a reader; ``bound``: where its limit comes from;
     ``why_not``: the reason why it is not run on a scene and engine, an empty string where it is;
     ``long``: takes seconds rather than milliseconds, hence in a full run only; ``explained``: a difference is one of
-    the model, for which :mod:`furiko.diagnosis` looks for the cause.
+    the model, for which :mod:`furiko.diagnosis` looks for the cause; ``trees``: how open mechanisms are compared, or a
+    sentence why they are not.
     """
 
     name: str
@@ -36,7 +46,8 @@ class Check:
     module: str
     meaning: str
     bound: str
-    why_not: Callable[[Scene, EngineInfo], str] = always
+    trees: OfTrees | str
+    why_not: Callable[[AnyScene, EngineInfo], str] = always
     long: bool = False
     explained: bool = False
 
@@ -45,11 +56,19 @@ class Check:
         """Whether it runs the engine's integrators: pointless where the accelerations differ already."""
         return self.needs == "trajectory"
 
-    def skipped(self, scene: Scene, info: EngineInfo) -> str:
+    def skipped(self, scene: AnyScene, info: EngineInfo) -> str:
         """Why it is not run on this scene and engine, in a sentence; an empty string where it is."""
-        return info.missing.get(self.needs, "") or self.why_not(scene, info)
+        if not isinstance(scene, TreeScene):
+            return info.missing.get(self.needs, "") or self.why_not(scene, info)
+        if isinstance(self.trees, str):
+            return self.trees
+        missing = info.tree.missing.get(self.trees.needs, "") if info.tree else ""
+        return missing or self.why_not(scene, info)
 
-    def compare(self, cell: Cell) -> Iterator[Result]:
+    def compare(self, cell: Cell | TreeCell) -> Iterator[Result]:
         """The results, one a comparison; the comparison's module is imported now."""
-        results: Iterator[Result] = import_module(f".comparisons.{self.module}", __package__).compare(cell)
+        module = f".comparisons.{self.module}"
+        if isinstance(self.trees, OfTrees) and isinstance(cell.scene, TreeScene):
+            module = f".trees.{self.trees.module}"
+        results: Iterator[Result] = import_module(module, __package__).compare(cell)
         return results

@@ -12,15 +12,17 @@ import msgspec
 
 from ..engines.workers.messages import Send, Step
 from ..engines.workers.worker import one_line
-from ..models import EngineMissing, LibraryMissing, Scene, System
+from ..models import AnyScene, EngineMissing, LibraryMissing, System, TreeScene
 from .check import Check
 from .plan import Task
 from .registry import CHECKS
 
 if TYPE_CHECKING:
+    from ..engines import EngineInfo
     from ..records.check import Diagnosis, Outcome, Result
     from .causes import Causes
     from .cell import Cell
+    from .trees.cell import TreeCell
 
 
 @dataclass(frozen=True)
@@ -42,15 +44,23 @@ class Compared:
 class TruthJob:
     """Compute a scene's truth in the states that its cells look at."""
 
-    scene: Scene
+    scene: AnyScene
     random_states: int
 
     def run(self, send: Send) -> None:
+        send(Step("truth"))
+        send(Facts(self._content()))
+
+    def _content(self) -> bytes:
+        if isinstance(self.scene, TreeScene):
+            from ..models.trees.states import tree_states
+            from .trees.facts import tree_facts
+
+            return tree_facts(self.scene, tree_states(self.scene, self.random_states)).to_bytes()
         from ..models.states import states
         from .facts import scene_facts
 
-        send(Step("truth"))
-        send(Facts(scene_facts(self.scene, states(self.scene, self.random_states)).to_bytes()))
+        return scene_facts(self.scene, states(self.scene, self.random_states)).to_bytes()
 
 
 @dataclass(frozen=True)
@@ -85,22 +95,39 @@ class CellJob:
                 diagnosis = causes.diagnosis()
                 send(diagnosis)
 
-    def _cell(self, announce: Callable[[bool], None]) -> Cell:
-        from ..engines import AnyShape, engine_info, load_engine
+    def _cell(self, announce: Callable[[bool], None]) -> Cell | TreeCell:
+        from ..engines import engine_info
+
+        info = replace(engine_info(self.task.engine), name=self.task.engine)  # as the plan calls it
+        scene = self.task.scene
+        if isinstance(scene, TreeScene):
+            return self._tree_cell(scene, info, announce)
+        from ..engines import AnyShape, load_engine
         from ..models.states import states
         from .cell import Cell
         from .facts import SceneFacts
 
-        task = self.task
         announce(True)
-        engine = load_engine(task.engine, task.scene.system)
+        engine = load_engine(self.task.engine, scene.system)
         announce(False)
-        info = replace(engine_info(task.engine), name=task.engine)  # as the plan calls it
-        looked_at = states(task.scene, task.random_states)
+        looked_at = states(scene, self.task.random_states)
         facts = SceneFacts.from_bytes(self.facts)
-        return Cell(task.scene, info, cast(AnyShape, Announced(engine, announce)), looked_at, facts)
+        return Cell(scene, info, cast(AnyShape, Announced(engine, announce)), looked_at, facts)
 
-    def _results(self, check: Check, cell: Cell, differs: bool, causes: Causes) -> Any:
+    def _tree_cell(self, scene: TreeScene, info: EngineInfo, announce: Callable[[bool], None]) -> TreeCell:
+        from ..engines import TreeShape, load_tree_engine
+        from ..models.trees.states import tree_states
+        from .trees.cell import TreeCell
+        from .trees.facts import TreeFacts
+
+        announce(True)
+        engine = load_tree_engine(self.task.engine, scene.system)
+        announce(False)
+        looked_at = tree_states(scene, self.task.random_states)
+        facts = TreeFacts.from_bytes(self.facts)
+        return TreeCell(scene, info, cast(TreeShape, Announced(engine, announce)), looked_at, facts)
+
+    def _results(self, check: Check, cell: Cell | TreeCell, differs: bool, causes: Causes) -> Any:
         """The results of one check; a failure ends this check alone."""
         if check.moves and differs:
             yield cell.result(check.name, "skipped", reason="the accelerations differ already: no trajectory can agree")

@@ -3,18 +3,27 @@
 from __future__ import annotations
 
 from ..engines import EngineInfo
-from ..models import Scene
-from .check import Check
+from ..models import AnyScene, TreeScene
+from .check import Check, OfTrees
 
 
-def _no_duration(scene: Scene, _info: EngineInfo) -> str:
+def _no_duration(scene: AnyScene, _info: EngineInfo) -> str:
     return "" if scene.duration else "the scene has no duration: nothing moves in it"
 
 
-def _not_chaotic(scene: Scene, _info: EngineInfo) -> str:
+def _no_motion(scene: AnyScene, info: EngineInfo) -> str:
+    if isinstance(scene, TreeScene):
+        if {"ball", "free"} & scene.system.features:
+            return "motions are followed of trees of hinges and slides alone"
+        if not scene.starts:
+            return "the scene has no state for a trajectory to start from"
+    return _no_duration(scene, info)
+
+
+def _not_chaotic(scene: AnyScene, _info: EngineInfo) -> str:
     if "chaotic" not in scene.tags:
         return "the scene is not tagged 'chaotic': its divergence time is not asked"
-    return "" if scene.theta is not None else "the scene has no state for a trajectory to start from"
+    return "" if scene.starts else "the scene has no state for a trajectory to start from"
 
 
 CHECKS = {
@@ -26,6 +35,7 @@ CHECKS = {
             module="model_fields",
             meaning="The masses, centres, inertias and joints that the engine compiled are those of the scene.",
             bound="rounding of what the engine's reader computes from the file's numbers",
+            trees="engines are given a tree body by body; what they make of a file is compared by 'furiko diagnose'",
             explained=True,
         ),
         Check(
@@ -34,6 +44,7 @@ CHECKS = {
             module="accelerations",
             meaning="The engine's forward dynamics solve the document's equations of motion.",
             bound="backward error: residual over the sum of the magnitudes of the row's terms",
+            trees=OfTrees("accelerations", "accelerations"),
             explained=True,
         ),
         Check(
@@ -42,6 +53,7 @@ CHECKS = {
             module="symmetries",
             meaning="The engine answers alike where the mechanism looks alike: mirrored, turned, scaled, exchanged.",
             bound="rounding of both answers",
+            trees="in which ways a tree looks alike is not known beforehand",
         ),
         Check(
             name="terms",
@@ -49,6 +61,7 @@ CHECKS = {
             module="terms",
             meaning="Mass matrix, velocity terms and gravity terms agree entry by entry.",
             bound="rounding of the magnitudes that make up each entry",
+            trees=OfTrees("terms", "mass_matrix"),
             explained=True,
         ),
         Check(
@@ -57,6 +70,7 @@ CHECKS = {
             module="joint_forces",
             meaning="The joint reaction forces are those of Newton's law for all that hangs below.",
             bound="rounding of the sum of the magnitudes of the forces",
+            trees="forces in joints are compared for the documents' mechanisms alone",
         ),
         Check(
             name="energy",
@@ -64,6 +78,7 @@ CHECKS = {
             module="energy",
             meaning="Kinetic and potential energy agree, up to one constant of the potential.",
             bound="rounding of the sum of the magnitudes of the links' energies",
+            trees=OfTrees("energy", "energy"),
         ),
         Check(
             name="step map",
@@ -71,6 +86,7 @@ CHECKS = {
             module="step_map",
             meaning="One step of each of the engine's integrators is one step of a textbook scheme.",
             bound="rounding of the accelerations, handed on through one step",
+            trees="schemes are applied in extended precision to the documents' mechanisms alone",
         ),
         Check(
             name="trajectory",
@@ -78,7 +94,8 @@ CHECKS = {
             module="trajectories",
             meaning="Each integrator converges to the true motion with its order.",
             bound="Richardson extrapolation's own uncertainty, and rounding grown along the motion",
-            why_not=_no_duration,
+            trees=OfTrees("trajectories", "trajectory"),
+            why_not=_no_motion,
         ),
         Check(
             name="invariant",
@@ -86,6 +103,7 @@ CHECKS = {
             module="invariants",
             meaning="Energy, angular momentum and the way back hold in the limit of small steps.",
             bound="Richardson extrapolation's own uncertainty, and rounding along the run",
+            trees="a tree may have dampers, and an energy that is not kept",
             long=True,
         ),
         Check(
@@ -94,6 +112,7 @@ CHECKS = {
             module="horizon",
             meaning="Trajectories of a chaotic motion diverge when their errors predict it, and no earlier.",
             bound="the predicted divergence time, from local errors and the tangent flow",
+            trees="when motions of a tree part is not predicted",
             why_not=_not_chaotic,
             long=True,
         ),

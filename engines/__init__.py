@@ -9,12 +9,22 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from .info import EngineInfo, Integrator, Quantity
-from .registry import ENGINES, cannot, engine_info, engine_names, engine_version, load_engine, untested
+from .info import EngineInfo, Integrator, Quantity, TreeInfo, TreeQuantity
+from .registry import (
+    ENGINES,
+    cannot,
+    engine_info,
+    engine_names,
+    engine_version,
+    load_engine,
+    load_tree_engine,
+    untested,
+)
 
 if TYPE_CHECKING:
-    from .protocol import BareCall, Engine, ModelFields, Native
+    from .protocol import BareCall, Engine, ModelFields, Native, TreeEngine
     from .shapes import AnyShape
+    from .trees.shapes import TreeShape
 
 _HOMES = {
     "AnyShape": "shapes",
@@ -22,6 +32,8 @@ _HOMES = {
     "Engine": "protocol",
     "ModelFields": "protocol",
     "Native": "protocol",
+    "TreeEngine": "protocol",
+    "TreeShape": "trees.shapes",
 }
 
 __all__ = [
@@ -34,11 +46,16 @@ __all__ = [
     "ModelFields",
     "Native",
     "Quantity",
+    "TreeEngine",
+    "TreeInfo",
+    "TreeQuantity",
+    "TreeShape",
     "cannot",
     "engine_info",
     "engine_names",
     "engine_version",
     "load_engine",
+    "load_tree_engine",
     "untested",
 ]
 

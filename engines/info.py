@@ -7,6 +7,26 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 Quantity = Literal["fields", "accelerations", "inverse_dynamics", "joint_forces", "energy", "trajectory"]
+TreeQuantity = Literal["accelerations", "mass_matrix", "bias", "passive", "energy", "trajectory"]
+# What a tree may have that an engine cannot hold. "several joints": of one link; "spring of a ball": or of a free one;
+# "massless link": that moves, and nothing with mass is fixed to it; "ball before a rotation": on one link;
+# "free beside others": a link with a free joint is not the only one on the world.
+TreeFeature = Literal[
+    "hinge",
+    "slide",
+    "ball",
+    "free",
+    "several joints",
+    "several joints, the first with ref",
+    "armature",
+    "armature of a free joint",
+    "damping",
+    "spring",
+    "spring of a ball",
+    "massless link",
+    "ball before a rotation",
+    "free beside others",
+]
 
 
 @dataclass(frozen=True)
@@ -25,6 +45,20 @@ class Integrator:
 
 
 @dataclass(frozen=True)
+class TreeInfo:
+    """What an engine does with open mechanisms (scenes of ``kind = "tree"``).
+
+    ``adapter``: the class for them, ``module:Class`` (:class:`~furiko.engines.protocol.TreeEngine`); ``missing``: by
+    name of each quantity that it cannot give, and ``cannot_hold``: by name of each feature that it cannot have, a
+    sentence that says why. The largest system, the integrators and how it computes are the engine's.
+    """
+
+    adapter: str
+    missing: Mapping[TreeQuantity, str] = field(default_factory=dict)
+    cannot_hold: Mapping[TreeFeature, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
 class EngineInfo:
     """An engine's name and capabilities.
 
@@ -33,6 +67,7 @@ class EngineInfo:
     * ``tested``: versions of the package that furiko was tested with, the latest last; empty: nothing is known of any.
     * ``integrators``: with a fixed step; ``adaptive``: names of schemes that choose their steps from a tolerance.
     * ``missing``: by name of each quantity that it cannot give, a sentence that says why.
+    * ``tree``: what it does with open mechanisms; None: it takes the documents' alone.
 
     Limits: ``largest_n`` links, ``least_mass`` [kg] and ``least_inertia`` [kg m²] about the hinge for each link. The
     reasons for them are half sentences that follow "takes at most … links:" and "takes masses from …:".
@@ -76,4 +111,5 @@ class EngineInfo:
     ordering: Literal["unknown", "colamd"] = "unknown"
     algorithm: Literal["aba", "crba"] = "crba"
     inverse: Literal["rnea", "crba", "matrix"] = "matrix"
+    tree: TreeInfo | None = None
     tested: tuple[str, ...] = ()

@@ -55,7 +55,7 @@ class Mujoco:
         for body, link in zip(self._bodies, tree.links, strict=True):
             if link.inertia < LEAST_INERTIA:
                 self._model.body_inertia[body] = link.inertia
-        _keep_centres(self._model)
+        keep_centres(self._model)
         # Energies are computed only when they are asked for.
         self._model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_ENERGY)
         self._data = quiet_data(self._model)
@@ -201,7 +201,7 @@ def model_from_spec(tree: PlanarTree) -> Any:
         return spec.compile()
 
 
-def _keep_centres(model: Any) -> None:
+def keep_centres(model: Any) -> None:
     """Make the compiled model use each centre of mass as it is given, however near the hinge."""
     treated_as_hinge = model.body_sameframe == int(mujoco.mjtSameFrame.mjSAMEFRAME_BODY)
     wrong = treated_as_hinge & model.body_ipos.any(axis=1)

@@ -28,6 +28,11 @@ engine cannot answer goes into ``info.missing`` with the sentence that the repor
 may then be left out. ``path``, ``bare_calls``, ``native``, ``lighter`` and ``gap`` are optional: leave the method
 out, nothing else. ``adaptive`` is needed only where ``info.adaptive`` names schemes.
 
+**Open mechanisms** (scenes of ``kind = "tree"``) are asked of a second class, a :class:`TreeEngine`, which
+``info.tree`` names. It is made for a :class:`~furiko.models.spatial_mechanism.SpatialMechanism` and answers in that
+one's coordinates, which are MuJoCo's: ``q`` and ``v`` by joint, in the mechanism's order, not absolute angles. In the
+example below, ``tree=TreeInfo("my_adapter:MyTree", missing={"energy": "…"}, cannot_hold={"ball": "…"})`` would name it.
+
 A complete adapter; ``furiko check -e my_adapter:MyMujoco`` runs it, ``my_adapter.py`` being on Python's path::
 
     import mujoco
@@ -70,6 +75,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..models import System
+from ..models.spatial_mechanism import SpatialMechanism
 
 Array = NDArray[np.float64]
 
@@ -204,5 +210,57 @@ class Engine(Protocol):
         """Largest distance [m] between the two points that a joint holds together, at the end of the last run.
 
         Optional: only where joints are constraints (maximal coordinates), which a solver satisfies approximately.
+        """
+        ...
+
+
+class TreeEngine(Protocol):
+    """An adapter of an engine for open mechanisms; an engine without one takes the documents' mechanisms alone.
+
+    States are ``q`` (B, nq) and ``v`` (B, nv), B ≥ 0, forces (B, nv), all in the coordinates of
+    :mod:`furiko.models.spatial_mechanism`: joint after joint in the mechanism's order; a ball's or free joint's
+    quaternion (w first) may have any length but zero and stands for the rotation of its direction; a free joint's
+    velocity is that of its body's origin in the world's axes, then the angular velocity in the body's. An engine with
+    other coordinates converts. Units are SI. With these signs the equation of motion is
+
+        M(q) a + bias(q, v) = passive(q, v)
+
+    where M has the armature, the bias gravity and all that is quadratic in v, and passive forces are those of dampers,
+    −damping × v, and springs. Nothing else acts: no dry friction, limits, contacts, actuators.
+
+    Arrays, NaN, exceptions and shapes as in the module's docstring. ``info.tree`` says what is missing.
+    """
+
+    def __init__(self, mechanism: SpatialMechanism) -> None:
+        """Build the engine's model; raise ValueError where it cannot hold the mechanism."""
+        ...
+
+    def accelerations(self, q: Array, v: Array) -> Array:
+        """The engine's own forward dynamics, springs and dampers included: a = dv/dt, (B, nv)."""
+        ...
+
+    def mass_matrix(self, q: Array) -> Array:
+        """M, (B, nv, nv), both triangles."""
+        ...
+
+    def bias(self, q: Array, v: Array) -> Array:
+        """Generalised forces that hold a = 0 without dampers and springs, (B, nv)."""
+        ...
+
+    def passive(self, q: Array, v: Array) -> Array:
+        """Generalised forces of dampers and springs, (B, nv)."""
+        ...
+
+    def energy(self, q: Array, v: Array) -> Array:
+        """Kinetic energy, with the armatures', and potential energy, with the springs', [J], (B, 2).
+
+        The potential energy may be off by one constant.
+        """
+        ...
+
+    def trajectory(self, q: Array, v: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
+        """q (nq,) and v (nv,) after ``steps`` ≥ 1 steps of ``step`` seconds from the one state (nq,), (nv,).
+
+        As :meth:`Engine.trajectory`.
         """
         ...

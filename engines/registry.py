@@ -5,13 +5,23 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
-from ..models import EngineMissing, InvalidInput, System
+from ..models import EngineMissing, InvalidInput, System, TreeSystem
 from ..models.errors import installing, nearest
-from .info import EngineInfo, Integrator
+from .info import EngineInfo, Integrator, TreeInfo
 
 if TYPE_CHECKING:
     from .shapes import AnyShape
+    from .trees.shapes import TreeShape
 
+_NO_TRAJECTORY: Any = {"trajectory": "Pinocchio computes dynamics; it has no integrator of its own"}
+_NOT_HELD: Any = {
+    "spring of a ball": "Pinocchio has no springs: the adapter adds those of hinges and slides",
+    "armature of a free joint": "Pinocchio's armature of a free joint acts in the body's axes, not in the world's",
+}
+_NOT_READ: Any = {
+    "several joints, the first with ref": "Pinocchio's reader of MJCF ignores the ref of the first of several joints",
+    "free beside others": "Pinocchio's reader takes the world's first body alone, where a free one must be",
+}
 _PINOCCHIO: dict[str, Any] = {
     "module": "pinocchio",
     "package": "pin",
@@ -19,7 +29,7 @@ _PINOCCHIO: dict[str, Any] = {
     "homepage": "https://github.com/stack-of-tasks/pinocchio",
     "coordinates": "relative",
     "inverse": "rnea",
-    "missing": {"trajectory": "Pinocchio computes dynamics; it has no integrator of its own"},
+    "missing": _NO_TRAJECTORY,
     "largest_n": 300,
     "least_mass": 2.0**-52,
     "least_reason": "it divides by 2.2e-16 (machine epsilon) in the place of any lesser mass where it adds inertias",
@@ -46,6 +56,13 @@ ENGINES: dict[str, EngineInfo] = {
             coordinates="relative",
             inverse="crba",
             moments="tree",  # mjData.cinert, cdof, cvel and cacc are "com-based", about subtree_com of the root body
+            tree=TreeInfo(
+                "furiko.engines.trees.mujoco:MujocoTree",
+                cannot_hold={
+                    "massless link": "MuJoCo's compiler refuses a moving link without mass",
+                    "ball before a rotation": "MuJoCo's compiler refuses a ball before another rotation of its link",
+                },
+            ),
             integrators=(Integrator("Euler", 1), Integrator("implicitfast", 1), Integrator("RK4", 4)),
             largest_n=1000,
             largest_n_reason="its compiler fails on bodies nested 1024 deep",
@@ -58,6 +75,7 @@ ENGINES: dict[str, EngineInfo] = {
             formulation="articulated-body algorithm; model from URDF",
             adapter="furiko.engines.pinocchio:PinocchioAba",
             algorithm="aba",
+            tree=TreeInfo("furiko.engines.trees.pinocchio:PinocchioAbaTree", _NO_TRAJECTORY, _NOT_HELD),
             **_PINOCCHIO,
         ),
         EngineInfo(
@@ -66,18 +84,29 @@ ENGINES: dict[str, EngineInfo] = {
             adapter="furiko.engines.pinocchio:PinocchioAbaMjcf",
             placed="world",
             algorithm="aba",
+            tree=TreeInfo("furiko.engines.trees.pinocchio:PinocchioMjcfTree", _NO_TRAJECTORY, _NOT_HELD | _NOT_READ),
             **_PINOCCHIO,
         ),
         EngineInfo(
             name="pinocchio-crba",
             formulation="mass matrix by composite rigid bodies, then Cholesky; model from URDF",
             adapter="furiko.engines.pinocchio:PinocchioCrba",
+            tree=TreeInfo("furiko.engines.trees.pinocchio:PinocchioCrbaTree", _NO_TRAJECTORY, _NOT_HELD),
             **_PINOCCHIO,
         ),
         EngineInfo(
             name="exudyn-tree",
             formulation="kinematic tree in minimal coordinates, mass matrix and LU",
             adapter="furiko.engines.exudyn_tree:ExudynTree",
+            tree=TreeInfo(
+                "furiko.engines.trees.exudyn:ExudynMechanism",
+                {"passive": "it gives the sum of all forces alone"},
+                cannot_hold={
+                    "ball": "Exudyn's kinematic tree has hinges and slides alone",
+                    "free": "Exudyn's kinematic tree has hinges and slides alone",
+                    "armature": "Exudyn's kinematic tree has no armature",
+                },
+            ),
             coordinates="relative",
             interchanges=True,
             inverse="crba",
@@ -156,10 +185,14 @@ def untested(info: EngineInfo) -> str:
     return f"{info.package} {version} is none of the versions that furiko was tested with ({', '.join(info.tested)})"
 
 
-def cannot(info: EngineInfo, system: System) -> str | None:
+def cannot(info: EngineInfo, system: System | TreeSystem) -> str | None:
     """A sentence on why an engine cannot take a system; None where it can."""
     if system.n > info.largest_n:
         return f"{info.name} takes at most {info.largest_n} links, not {system.n}: {info.largest_n_reason}"
+    if isinstance(system, TreeSystem):
+        if info.tree is None:
+            return f"{info.name} takes the documents' mechanisms alone: its adapter has none for other trees"
+        return next((why for feature, why in info.tree.cannot_hold.items() if feature in system.features), None)
     for number, link in enumerate(system.tree().links, start=1):
         inertia = link.inertia + link.mass * (link.com[0] ** 2 + link.com[1] ** 2)
         for value, least, what in (
@@ -188,6 +221,19 @@ def load_engine(name: str, system: System) -> AnyShape:
     _require(info)
     adapter = _adapter(info.adapter if name in ENGINES else name)
     return AnyShape(adapter(system), info, system.n)
+
+
+def load_tree_engine(name: str, system: TreeSystem) -> TreeShape:
+    """Import an engine and build its model of an open mechanism; the rest as for :func:`load_engine`."""
+    from .trees.shapes import TreeShape
+
+    info = engine_info(name)
+    why_not = cannot(info, system)
+    if why_not is not None or info.tree is None:
+        raise InvalidInput(why_not or "")
+    _require(info)
+    mechanism = system.mechanism()
+    return TreeShape(_adapter(info.tree.adapter)(mechanism), info, mechanism)
 
 
 def _adapter(path: str) -> Any:

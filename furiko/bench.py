@@ -10,7 +10,16 @@ from pathlib import Path
 
 from . import __version__
 from .engines import engine_info, engine_names, engine_version
-from .models import EngineMissing, InvalidInput, Scene, find_scene, find_scenes
+from .models import (
+    AnyScene,
+    EngineMissing,
+    InvalidInput,
+    Scene,
+    TreeScene,
+    document_catalogue,
+    find_document_scene,
+    find_scene,
+)
 from .models.errors import installing
 from .records import provenance
 from .records.bench import Bench, Motion, Sharpness, Skip, Speed
@@ -22,7 +31,8 @@ NOTES = (
     "All methods of a motion, and all calls of a table, ran in turn in one process, forwards and backwards, after a "
     "warm-up; times are the median of the rounds, ratios are ratios of medians or the median of the rounds' ratios.",
     "MuJoCo's Python package makes the C library read a clock several times in every step; 'timer off' is without it.",
-    "Engines' accelerations are timed by their most direct calls, with the input in place, without furiko's adapters.",
+    "Engines' accelerations are timed by their most direct calls, with the input in place, without furiko's adapters; "
+    "those of trees through them.",
     "Errors of motions: the largest of θ [rad] and ω [rad/s] at the end, against a run in quadruple precision. Errors "
     "of accelerations: relative to a state's largest, against enclosures in ball arithmetic.",
     "'not reached': no run of the method had so small an error. Nothing is extrapolated.",
@@ -41,7 +51,8 @@ def bench(
 ) -> Bench:
     """Measure time against error: motions of ``scenes``, and accelerations where no scenes are named.
 
-    ``scenes``: the benchmark's own motions, scenes of the catalogue or TOML files; None for all of the benchmark's.
+    ``scenes``: the benchmark's own motions, scenes of the catalogue or TOML files; None for all of the benchmark's. Of
+    a tree the accelerations are timed, not the motion.
     ``engines``: names, None for all that are installed. ``budget`` [s]: about the time of the run. ``skips``: measure
     what a check skips instead, without a limit of time. ``sharpness``: measure how small an error a check notices
     instead, in the scenes of the catalogue that are named or in all of them. ``watch`` is called with what is measured
@@ -59,21 +70,26 @@ def bench(
     if sharpness:
         from .studies.bench.sharpness import sharpness as measure_sharpness
 
-        for name in scenes or [scene.name for scene in find_scenes(None)]:
+        for name in scenes or document_catalogue():
             watch(f"smallest error that is noticed: {name}")
             sharp += measure_sharpness([name], names)
     elif skips:
         from .studies.bench.skips import skips as measure_skips
 
+        for name in scenes or ():
+            find_document_scene(name, "furiko bench --skips")
         skipped = list(measure_skips(list(scenes or SKIP_SCENES), names, watch))
     else:
         from .studies.bench.methods import ENGINES
 
-        chosen = [_scene(name) for name in (BENCHMARKS if scenes is None else scenes)]
+        given = [_scene(name) for name in (BENCHMARKS if scenes is None else scenes)]
+        chosen = [scene for scene in given if not isinstance(scene, TreeScene)]
+        trees = [scene for scene in given if isinstance(scene, TreeScene)]
         moving = names if engines is not None else [name for name in names if name in ENGINES]
         both = scenes is None  # the rest of the budget goes into making models and reference solutions
-        motions = list(_motions(chosen, moving, 0.55 * budget if both else budget, watch))
-        speeds = list(_speeds(names, 0.3 * budget, watch)) if both else []
+        part = budget / len(given)
+        motions = list(_motions(chosen, moving, 0.55 * budget if both else part * len(chosen), watch))
+        speeds = list(_speeds(names, 0.3 * budget, watch)) if both else _tree_speeds(trees, names, part, watch)
     return Bench(
         furiko=__version__,
         started=started,
@@ -108,9 +124,25 @@ def _speeds(engines: Sequence[str], budget: float, watch: Watch) -> Iterator[Spe
         yield from speeds(kind, n, engines, budget / len(cases), threads=_processors())
 
 
-def _scene(name: str) -> Scene:
-    """A motion of the benchmark, or a scene. Raises :class:`InvalidInput` where it has no state or no duration."""
+def _tree_speeds(scenes: Sequence[TreeScene], engines: Sequence[str], budget: float, watch: Watch) -> list[Speed]:
+    from .studies.bench.tree_speed import tree_speeds
+
+    found: list[Speed] = []
+    for scene in scenes:
+        watch(f"accelerations of {scene.name}")
+        found += tree_speeds(scene, engines, budget)
+    return found
+
+
+def _scene(name: str) -> AnyScene:
+    """A motion of the benchmark, or a scene.
+
+    Raises :class:`InvalidInput` where a document's mechanism has no state or no duration. Of a tree, whose motion is
+    not timed, the accelerations are.
+    """
     scene = BENCHMARKS[name] if name in BENCHMARKS else find_scene(name)
+    if isinstance(scene, TreeScene):
+        return scene
     if scene.theta is None or not scene.duration:
         raise InvalidInput(f"scene {name!r}: it has no [state] with a duration, so there is no motion to time")
     return scene

@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from . import __version__
 from .checks.cache import Cache, user_cache
 from .checks.imported_ahead import MODULES
 from .checks.ledger import Ledger
-from .checks.plan import Plan, make_plan
+from .checks.plan import Plan, make_plan, random_states
 from .checks.runner import TIMEOUT, run
 from .engines import EngineInfo, engine_version, untested
 from .engines.workers.processes import Workers, worker_processes
-from .models import EngineMissing, InvalidInput, Scene, catalogue
+from .models import AnyScene, EngineMissing, InvalidInput, TreeScene, catalogue
 from .models.errors import installing, installing_all
 from .records import provenance
 from .records.check import Diagnosis, EngineEntry, Footer, Header, Result, SceneEntry
@@ -167,24 +168,34 @@ def make_header(plan: Plan, given: Sequence[str] | None, engines: Sequence[str] 
     )
 
 
-def scene_entry(scene: Scene, plan: Plan, source: str, *, asked: bool = False) -> SceneEntry:
+def scene_entry(scene: AnyScene, plan: Plan, source: str, *, asked: bool = False) -> SceneEntry:
     """One scene in the header. ``source``: what to pass to ``furiko check`` to run it again; ``asked``: by name."""
     from .reference import EQUATIONS
 
-    system = scene.system
     formulas = {f"{equation.document} {equation.number}": equation.formula for equation in EQUATIONS}
-    return SceneEntry(
-        name=scene.name,
-        system=system.kind,
-        n=system.n,
-        lengths=list(system.lengths),
-        masses=list(system.masses),
-        gravity=system.gravity,
-        duration=scene.duration,
-        states=min(scene.random, plan.profile.random_states) + len(scene.named) + (scene.theta is not None),
-        description=scene.description,
-        equations=[f"{name}: {formulas[name]}" if name in formulas else name for name in scene.equations],
-        tags=list(scene.tags),
-        source=scene.name if scene.name in catalogue() else source,
-        asked=asked,
-    )
+    common: dict[str, Any] = {
+        "name": scene.name,
+        "system": scene.system.kind,
+        "n": scene.system.n,
+        "duration": scene.duration,
+        "states": min(scene.random, random_states(scene, plan.profile)) + len(scene.named) + scene.starts,
+        "description": scene.description,
+        "equations": [f"{name}: {formulas[name]}" if name in formulas else name for name in scene.equations],
+        "tags": list(scene.tags),
+        "source": scene.name if scene.name in catalogue() else source,
+        "asked": asked,
+    }
+    if isinstance(scene, TreeScene):
+        from .reference.outline import outline
+
+        tree = scene.system
+        return SceneEntry(
+            **common,
+            lengths=[],
+            masses=[link.mass for link in tree.links],
+            gravity=math.hypot(*tree.gravity),
+            joints=[f"{joint.name} ({joint.kind})" for joint in tree.joints],
+            outline=outline(tree.mechanism(), scene.q or tree.reference),
+        )
+    system = scene.system
+    return SceneEntry(**common, lengths=list(system.lengths), masses=list(system.masses), gravity=system.gravity)

@@ -1,6 +1,7 @@
 """A scene: a mechanism, the states in which it is compared, and the duration of its motion; read from a TOML file.
 
-The scenes of the catalogue are in ``catalogue/`` beside this file, one a file, in the same format as a user's own.
+The scenes of the catalogue are in ``catalogue/`` beside this file, one a file, in the same format as a user's own:
+those of the documents' two mechanisms, and in ``catalogue/trees/`` those of open mechanisms (:mod:`.trees.tables`).
 """
 
 from __future__ import annotations
@@ -16,10 +17,13 @@ import msgspec
 
 from .errors import InvalidInput, nearest
 from .readers.bounded_file import read_text, shown
+from .readers.toml_fields import fitted
 from .readers.toml_text import parse_toml
 from .systems import NLegPendulum, RodChain, number
+from .trees.scene import TreeScene
 
 CATALOGUE = Path(__file__).parent / "catalogue"
+TREES = CATALOGUE / "trees"
 LARGEST_FILE = 2_000_000  # bytes; ten thousand links fit several times over
 LARGEST_N = 10_000
 LARGEST_ANGLE = 1e15  # beyond it neighbouring doubles are more than a tenth of a radian apart
@@ -29,7 +33,7 @@ RANDOM_STATES = 200
 
 @dataclass(frozen=True)
 class Scene:
-    """One scene of the catalogue, or of a user's file.
+    """One scene of a document's mechanism, of the catalogue or of a user's file.
 
     ``theta`` [rad] and ``omega`` [rad/s], (n,) each: the state that a trajectory starts from, or None where the file
     gives none; ``duration`` [s], 0 for no trajectory. ``random``: number of random states, ``named``: names of further
@@ -48,9 +52,17 @@ class Scene:
     equations: tuple[str, ...] = ()
     description: str = ""
 
+    @property
+    def starts(self) -> bool:
+        """Whether the file gives a state."""
+        return self.theta is not None
+
+
+AnyScene = Scene | TreeScene
+
 
 class _System(msgspec.Struct, forbid_unknown_fields=True):
-    kind: Literal["n-leg", "rod-chain"]
+    kind: Literal["n-leg", "rod-chain", "tree"]  # a tree's tables are another module's
     lengths: list[Any]  # numbers: the mechanism's own check names the one that is not
     masses: list[Any] | None = None
     density: Any = None
@@ -78,35 +90,55 @@ class _File(msgspec.Struct, forbid_unknown_fields=True):
 
 
 def catalogue() -> tuple[str, ...]:
-    """Names of the catalogue's scenes, smaller systems first."""
+    """Names of the catalogue's scenes: those of the documents, smaller systems first, then those of trees."""
+    return document_catalogue() + tuple(sorted((path.stem for path in TREES.glob("*.toml")), key=_natural))
+
+
+def document_catalogue() -> tuple[str, ...]:
+    """Names of the catalogue's scenes of the documents' mechanisms."""
     return tuple(sorted((path.stem for path in CATALOGUE.glob("*.toml")), key=_natural))
 
 
-def find_scene(name: str) -> Scene:
+def find_scene(name: str) -> AnyScene:
     """The catalogue's scene of this name, or the scene in this TOML file. Raises :class:`InvalidInput`."""
     if name in catalogue():
-        return read_scene(CATALOGUE / f"{name}.toml")
+        return read_scene((CATALOGUE if name in document_catalogue() else TREES) / f"{name}.toml")
     if name.endswith(".toml") or "/" in name:
         return read_scene(Path(name))
     raise InvalidInput(f"scene {name!r}: not in the catalogue{nearest(name, catalogue())}; 'furiko scenes' lists it")
 
 
-def read_scene(path: Path) -> Scene:
+def document_scenes() -> tuple[Scene, ...]:
+    """The catalogue's scenes of the documents' mechanisms."""
+    return tuple(scene for scene in find_scenes(document_catalogue()) if isinstance(scene, Scene))
+
+
+def find_document_scene(name: str, what: str) -> Scene:
+    """The same for ``what`` (a phrase) is there for the documents' mechanisms alone; others are refused."""
+    scene = find_scene(name)
+    if isinstance(scene, TreeScene):
+        raise InvalidInput(f"scene {name!r}: {what} takes the documents' mechanisms, not a tree")
+    return scene
+
+
+def read_scene(path: Path) -> AnyScene:
     """Read one scene file. Raises :class:`InvalidInput` naming the file, the field, and what would be right."""
     text = read_text(path, LARGEST_FILE)
     name = path.stem.encode("utf-8", "backslashreplace").decode()  # a file's name need not be UTF-8, a scene's is
     try:
-        return scene_from_toml(text, name)
+        return scene_from_toml(text, name, path.parent)
     except InvalidInput as error:
         raise InvalidInput(f"{shown(path)}: {error}") from None
 
 
-def scene_from_toml(text: str, name: str) -> Scene:
-    """The scene that a TOML text describes. Raises :class:`InvalidInput`."""
-    try:
-        file = msgspec.convert(parse_toml(text), _File)
-    except msgspec.ValidationError as error:
-        raise InvalidInput(_field_first(str(error))) from None
+def scene_from_toml(text: str, name: str, folder: Path = Path()) -> AnyScene:
+    """The scene that a TOML text describes; ``folder``: where its model file is. Raises :class:`InvalidInput`."""
+    tables = parse_toml(text)
+    if isinstance(tables.get("system"), dict) and tables["system"].get("kind") == "tree":
+        from .trees.tables import tree_scene  # the documents' scenes need none of it
+
+        return tree_scene(tables, name, folder)
+    file = fitted(tables, _File)
     system = _system(file.system)
     theta, omega, duration = _state(file.state, system.n)
     if not 0 <= file.samples.random <= 100_000:
@@ -170,28 +202,12 @@ def _angles(field: str, values: list[Any], n: int, unit: str) -> tuple[float, ..
     return numbers
 
 
-def _field_first(message: str) -> str:
-    """msgspec's ``Expected `float`, got `str` - at `$.system.lengths[0]``` with the field in front."""
-    unknown = re.fullmatch(r"Object contains unknown field `(.*?)`(?: - at `\$\.?(.*)`)?", message)
-    if unknown:
-        field, table = unknown[1], unknown[2] or ""
-        fields = {"system": _System, "state": _State, "samples": _Samples}.get(table, _File).__struct_fields__
-        where = f"{table}.{field}" if table else field
-        return f"{where}: unknown field{nearest(field, fields)}; known are {', '.join(fields)}"
-    what, _, where = message.partition(" - at `$.")
-    return f"{where.rstrip('`')}: {_lower(what)}" if where else _lower(message)
-
-
-def _lower(sentence: str) -> str:
-    return (sentence[:1].lower() + sentence[1:]).replace("`", "'")
-
-
 def _natural(name: str) -> tuple[str | int, ...]:
     """Sort key that puts rods-2 before rods-10."""
     return tuple(int(part) if part.isdigit() else part for part in re.split(r"(\d+)", name))
 
 
-def find_scenes(names: Sequence[str] | None) -> tuple[Scene, ...]:
+def find_scenes(names: Sequence[str] | None) -> tuple[AnyScene, ...]:
     """The scenes of these names and files, each once, in the order given; the whole catalogue for None."""
     chosen = dict.fromkeys(catalogue() if names is None else names)
     scenes = tuple(find_scene(name) for name in chosen)

@@ -65,7 +65,8 @@ class Speed(msgspec.Struct, frozen=True, kw_only=True):
     minimum: float
     median: float
     error: float | None
-    ratio: float | None  # its time per state over furiko's, the median over rounds; None for furiko itself
+    ratio: float | None  # its time per state over furiko's, the median over rounds; None for furiko itself, and trees
+    scene: str = ""  # of a tree
 
 
 class Skip(msgspec.Struct, frozen=True, kw_only=True):

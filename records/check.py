@@ -20,8 +20,8 @@ class SceneEntry(msgspec.Struct, frozen=True, kw_only=True):
     """One scene in the header, so that a report needs nothing but the stream."""
 
     name: str
-    system: str  # n-leg or rod-chain
-    n: int
+    system: str  # n-leg, rod-chain or tree
+    n: int  # degrees of freedom
     lengths: list[float]
     masses: list[float]
     gravity: float
@@ -32,6 +32,8 @@ class SceneEntry(msgspec.Struct, frozen=True, kw_only=True):
     tags: list[str] = []
     source: str = ""  # what to pass to `furiko check` to run it again: a name or a file's path
     asked: bool = False  # the user named it: a run in which nothing of it was compared is incomplete
+    joints: list[str] = []  # of a tree: each joint's name and kind
+    outline: list[tuple[float, float, float, float]] = []  # of a tree, seen along y: lines x, z to x, z [m]
 
 
 class EngineEntry(msgspec.Struct, frozen=True, kw_only=True):

@@ -11,8 +11,8 @@ class SceneRow(msgspec.Struct, frozen=True, kw_only=True):
     """One scene of the catalogue; ``furiko scenes --json`` prints a list of these."""
 
     name: str
-    system: str  # n-leg or rod-chain
-    n: int  # angles
+    system: str  # n-leg, rod-chain or tree
+    n: int  # degrees of freedom
     duration: float  # of its motion [s]; 0: it has none
     description: str
     equations: list[str]  # of the documents, that it exercises

@@ -74,6 +74,11 @@ def link_words(system: str, n: int) -> str:
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
+def speed_words(speed: Speed) -> str:
+    """The mechanism of a row: as :func:`link_words`, or ``cart-pole, 2 degrees of freedom``."""
+    return f"{speed.scene}, {count(speed.n, 'degree')} of freedom" if speed.scene else link_words(speed.system, speed.n)
+
+
 def one_line(text: str, longest: int = LONGEST_LINE) -> str:
     """:func:`printable`, on one line, at most ``longest`` characters long."""
     line = " ".join(printable(text[: 8 * longest]).split())

@@ -34,7 +34,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engines import Integrator, engine_info, engine_names, load_engine
-from ...models import InvalidInput, Scene, find_scenes
+from ...models import InvalidInput, Scene, document_catalogue, find_document_scene
 from ...models.states import natural_rate, states
 from ...models.systems import DocumentSystem
 from ...records.check import Result
@@ -360,7 +360,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--step", action="append", type=float, help=f"[s]; {', '.join(map(str, STEPS))} if left out")
     parser.add_argument("--duration", type=float, default=LONGEST, help=f"[s]; {LONGEST:g} if left out")
     given = parser.parse_args(arguments)
-    scenes = find_scenes(given.scene or None)
+    scenes = [find_document_scene(name, "this") for name in given.scene or document_catalogue()]
     chosen = [scene for scene in scenes if given.scene or "chaotic" in scene.tags]
     print("scene                 engine            integrator            step   parts: predicted  measured   Lyapunov")
     for scene in chosen:

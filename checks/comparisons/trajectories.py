@@ -24,11 +24,13 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...engines import Integrator
+from ...models import AnyScene
 from ...models.states import States
 from ...records.check import Result
 from ...reference.integration.richardson import amplified, at_step_zero, follows
@@ -67,6 +69,24 @@ ALIKE = 1e-6  # of a state: the step of another scheme of the same order is furt
 TINY = 1e-300  # in place of zero, where nothing disturbs an entry that is zero
 LARGEST_MAXIMAL = 20  # links of which maximal coordinates are stepped in extended precision beside an engine
 SHIFT = 2.0**-24  # half of double precision's digits: the difference and its own rounding part evenly
+
+
+class Moving(Protocol):
+    """A cell whose engine makes runs from the scene's state: of a document's mechanism, or of a tree."""
+
+    @property
+    def scene(self) -> AnyScene:
+        """What moves."""
+        ...
+
+    @property
+    def start(self) -> tuple[Array, Array] | None:
+        """Coordinates and rates, (n,) each."""
+        ...
+
+    def trajectory(self, theta: Array, omega: Array, integrator: Integrator, step: float, steps: int, /) -> Array:
+        """The same at the end, (2, n)."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -290,7 +310,7 @@ def rounding(
 
 
 def settled(
-    cell: Cell, integrator: Integrator, points: tuple[EndPoint, ...], rounded: Rounding
+    cell: Moving, integrator: Integrator, points: tuple[EndPoint, ...], rounded: Rounding
 ) -> tuple[EndPoint, Ladder]:
     """The longest time within the horizon, and steps small enough that the measured orders have settled.
 
@@ -319,7 +339,7 @@ def few_steps(integrator: Integrator, n: int) -> int:
     return round((FEW_STEPS_FIRST_ORDER if integrator.order == 1 else FEW_STEPS) * min(1.0, 10 / n))
 
 
-def refine(cell: Cell, integrator: Integrator, point: EndPoint, rounded: Rounding, steps: int, most: int) -> Ladder:
+def refine(cell: Moving, integrator: Integrator, point: EndPoint, rounded: Rounding, steps: int, most: int) -> Ladder:
     """Halve the steps until the measured orders are near the nominal one, rounding is, or the finest has ``most``."""
     ends = [run(cell, integrator, point.time, steps << k) for k in range(4)]
     while True:
@@ -335,7 +355,7 @@ def refine(cell: Cell, integrator: Integrator, point: EndPoint, rounded: Roundin
 
 
 def run(
-    cell: Cell,
+    cell: Moving,
     integrator: Integrator,
     duration: float,
     steps: int,
@@ -346,9 +366,9 @@ def run(
 
     Infinite where it blows up: too coarse a step makes a large error, and is not yet a fault.
     """
-    assert cell.scene.theta is not None
-    assert cell.scene.omega is not None
-    theta, omega = np.array(cell.scene.theta) + turned, np.array(cell.scene.omega) + sped
+    first = cell.start
+    assert first is not None
+    theta, omega = first[0] + turned, first[1] + sped
     try:
         with np.errstate(all="ignore"):
             return cell.trajectory(theta, omega, integrator, duration / steps, steps)
@@ -365,7 +385,7 @@ def _apart(a: Array, b: Array) -> float:
     return float(np.abs(a - b).max()) if np.isfinite(a).all() and np.isfinite(b).all() else math.inf
 
 
-def growth(cell: Cell, integrator: Integrator, ladder: Ladder) -> tuple[float, float]:
+def growth(cell: Moving, integrator: Integrator, ladder: Ladder) -> tuple[float, float]:
     """Angles at the end [rad] per angle [rad] and per rate [rad/s] at the start: the engine's own runs tell.
 
     In directions that no symmetry makes special, as turning all angles alike would be. At least what free links do.

@@ -162,9 +162,9 @@ def expected_of(against: Any, meshes: Sequence[Path] = ()) -> Expected:
     if isinstance(against, str | Path):
         if str(against).endswith(MODEL_ENDINGS):
             return expected_of(read_model(against, meshes=meshes))
-        from ...models import find_scene
+        from ...models import find_document_scene
 
-        scene = find_scene(str(against))
+        scene = find_document_scene(str(against), "--against")
         return Expected(scene.name, mechanism_of(scene.system.tree()))
     if isinstance(against, ModelFile):
         return Expected(against.path, against.planar, against.spatial)

@@ -154,6 +154,10 @@ class PinocchioRobot:
         return made
 
     def bind(self, mechanism: SpatialMechanism) -> BoundPinocchio:
+        return BoundPinocchio(*self.bound_to(mechanism))
+
+    def bound_to(self, mechanism: SpatialMechanism) -> tuple[Any, RobotCoordinates]:
+        """Pinocchio's model, and its coordinates for the mechanism's. Raises as :meth:`bind` does."""
         held = [(part, k) for part in self._parts for k in range(len(part.held))]
         order = match(mechanism, [part.held[k] for part, k in held], "Pinocchio")
         ours: dict[int, list[int]] = {}
@@ -163,7 +167,7 @@ class PinocchioRobot:
             Block(tuple(ours[p]), WAYS.get(part.type, "same"), part.at_q, part.at_v, part.placement)
             for p, part in enumerate(self._parts)
         ]
-        return BoundPinocchio(self._model, RobotCoordinates(mechanism, blocks, int(self._model.nq)))
+        return self._model, RobotCoordinates(mechanism, blocks, int(self._model.nq))
 
 
 class BoundPinocchio:

@@ -17,13 +17,17 @@ from .output import print_text
 @click.option("--out", "-o", type=click.Path(path_type=Path), help="File to write; standard output if not given.")
 def export(scene: str, language: str | None, out: Path | None) -> int:
     """Write a scene's mechanism as an MJCF or URDF file."""
-    from ..models import find_scene, to_mjcf, to_urdf
+    from ..models import TreeScene, find_scene, to_mjcf, to_urdf
+    from ..models.writers.tree_files import tree_to_mjcf, tree_to_urdf
     from ..models.writers.whole_file import write_whole
 
     if language is None:
         raise click.UsageError("one of --mjcf and --urdf is needed")
-    system = find_scene(scene).system
-    text = to_mjcf(system) if language == "mjcf" else to_urdf(system)
+    found = find_scene(scene)
+    if isinstance(found, TreeScene):
+        text = tree_to_mjcf(found) if language == "mjcf" else tree_to_urdf(found)
+    else:
+        text = to_mjcf(found.system) if language == "mjcf" else to_urdf(found.system)
     if out is None:
         print_text(text, end=False)
     else:

@@ -11,7 +11,7 @@ from .options import json_option
 from .output import print_json, print_table
 
 if TYPE_CHECKING:
-    from ..models import Scene
+    from ..models import AnyScene
     from ..records.listings import SceneRow
 
 
@@ -26,11 +26,11 @@ def scenes(as_json: bool) -> int:
         print_json([_row(scene) for scene in found])
     else:
         rows = [(s.name, s.system.kind, str(s.system.n), f"{s.duration:g}", s.description) for s in found]
-        print_table(("scene", "system", "angles", "seconds", "description"), rows)
+        print_table(("scene", "system", "freedoms", "seconds", "description"), rows)
     return AGREES
 
 
-def _row(scene: Scene) -> SceneRow:
+def _row(scene: AnyScene) -> SceneRow:
     from ..records.listings import SceneRow
 
     return SceneRow(

@@ -93,9 +93,9 @@ def _kept() -> dict[str, dict[str, Any]]:
 
 def main() -> None:
     """Compute the end points of the catalogue's scenes anew."""
-    from ...models import find_scenes
+    from ...models import document_scenes
 
-    print(f"{write(find_scenes(None), PATH)} end points written to {PATH}")
+    print(f"{write(document_scenes(), PATH)} end points written to {PATH}")
 
 
 if __name__ == "__main__":

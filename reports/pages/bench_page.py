@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ...records.bench import Bench, Motion, Point, Reach, Speed
-from ..words import SAME, batch, duration, figure, link_words, multiple
+from ..words import SAME, batch, duration, figure, link_words, multiple, speed_words
 from .plot import KINDS, LARGE, Plot, Series, draw
 from .rendering import render
 
@@ -100,14 +100,14 @@ class SpeedView:
     @property
     def title(self) -> str:
         """The mechanism, in words."""
-        return "N-leg pendulums" if self.system == "n-leg" else "Chains of rods"
+        return {"n-leg": "N-leg pendulums", "rod-chain": "Chains of rods"}.get(self.system, "open mechanisms")
 
     @cached_property
     def sizes(self) -> list[tuple[str, list[Speed]]]:
         """Each size in words, and its rows."""
         return [
-            (link_words(self.system, n), [speed for speed in self.speeds if speed.n == n])
-            for n in dict.fromkeys(speed.n for speed in self.speeds)
+            (words, [speed for speed in self.speeds if speed_words(speed) == words])
+            for words in dict.fromkeys(map(speed_words, self.speeds))
         ]
 
     @cached_property
@@ -133,7 +133,9 @@ class SpeedView:
 
     @cached_property
     def by_size(self) -> Plot | None:
-        """Time a state against links."""
+        """Time a state against links; None for open mechanisms, whose size says little."""
+        if self.system == "tree":
+            return None
         return draw(self.series, "links", "time a state [s]", frame=LARGE, log_x=True, log_y=True)
 
     @cached_property
@@ -168,7 +170,7 @@ def _largest(rows: Sequence[Speed], most: int = 4096) -> list[Speed]:
 
 def _said(speed: Speed) -> str:
     return (
-        f"{speed.engine}, {speed.call}: {link_words(speed.system, speed.n)}, {speed.states:,} states a call: "
+        f"{speed.engine}, {speed.call}: {speed_words(speed)}, {speed.states:,} states a call: "
         f"{duration(speed.median)} a state, error {figure(speed.error)}"
     )
 

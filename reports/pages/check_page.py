@@ -84,7 +84,7 @@ class SceneView:
     @cached_property
     def mechanism(self) -> MechanismDrawing | None:
         """The drawing of the mechanism."""
-        return draw_mechanism(self.entry) if self.entry and self.entry.lengths else None
+        return draw_mechanism(self.entry) if self.entry and (self.entry.lengths or self.entry.outline) else None
 
     @cached_property
     def errors(self) -> ErrorPlot | None:

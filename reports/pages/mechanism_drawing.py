@@ -26,9 +26,9 @@ class MechanismDrawing:
 
 
 def draw_mechanism(scene: SceneEntry, size: float = 150.0) -> MechanismDrawing:
-    """The links to scale. At rest they would hang on top of one another, so they are drawn swung out."""
+    """The links to scale. At rest they would hang on top of one another: they are drawn swung out, but for a tree."""
     lengths = scene.lengths[:MOST_LINKS]
-    links = _links(scene.system, lengths)
+    links = _seen(scene) if scene.outline else _links(scene.system, lengths)
     across = [0.0, *(x for _, (x, _) in links)]
     down = [0.0, *(y for _, (_, y) in links)]
     scale = (size - 2 * MARGIN) / (max(max(across) - min(across), max(down) - min(down)) or 1.0)
@@ -48,6 +48,11 @@ def draw_mechanism(scene: SceneEntry, size: float = 150.0) -> MechanismDrawing:
         bobs=tuple(bobs) if scene.system == "n-leg" else (),
         left_out=len(scene.lengths) - len(lengths),
     )
+
+
+def _seen(scene: SceneEntry) -> list[tuple[Point, Point]]:
+    """Both ends of each line of a tree [m], y downwards."""
+    return [((x, -z), (other_x, -other_z)) for x, z, other_x, other_z in scene.outline[:MOST_LINKS]]
 
 
 def _links(system: str, lengths: list[float]) -> list[tuple[Point, Point]]:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TextIO
 
 from ...records.bench import Bench, Motion, Reach, Sharpness, Skip, Speed
-from ..words import SAME, batch, duration, figure, link_words, multiple
+from ..words import SAME, batch, duration, figure, link_words, multiple, speed_words
 from .console import PlainConsole
 
 
@@ -23,7 +23,7 @@ def print_bench(found: Bench, path: str | Path | None = None, file: TextIO | Non
     console.line(", ".join(f"{name} {version}" for name, version in versions.items()), "dim")
     for motion in found.motions:
         _motion(motion, console)
-    for _, rows in groupby(found.speeds, key=lambda speed: (speed.system, speed.n)):
+    for _, rows in groupby(found.speeds, key=lambda speed: (speed.system, speed.scene, speed.n)):
         _speeds(list(rows), console)
     if found.skips:
         _skips(found.skips, console)
@@ -98,7 +98,7 @@ def _reached(reach: Reach) -> str:
 
 def _speeds(speeds: Sequence[Speed], console: PlainConsole) -> None:
     console.line()
-    console.line(f"accelerations, {link_words(speeds[0].system, speeds[0].n)}: time a state", "bold")
+    console.line(f"accelerations, {speed_words(speeds[0])}: time a state", "bold")
     rows = [
         (
             speed.engine,

@@ -18,7 +18,7 @@ from ...checks.check import Check
 from ...checks.facts import FORCE_STATES, scene_facts
 from ...checks.registry import CHECKS
 from ...engines import AnyShape, cannot, load_engine
-from ...models import InvalidInput, find_scene
+from ...models import InvalidInput, find_document_scene
 from ...models.states import states
 from ...records.bench import Sharpness
 from ...reference import mass_matrix
@@ -49,7 +49,7 @@ def sharpness(scenes: Sequence[str], engines: Sequence[str], random_states: int 
 
 
 def _of_scene(name: str, engines: Sequence[str], random_states: int) -> Iterator[Sharpness]:
-    scene = find_scene(name)
+    scene = find_document_scene(name, "furiko bench --sharpness")
     looked_at = states(scene, random_states)
     facts = scene_facts(scene, looked_at)
     for engine in engines:

@@ -21,7 +21,7 @@ from ...checks.plan import Plan, Task, make_plan
 from ...checks.runner import run
 from ...engines import engine_names
 from ...engines.workers.processes import worker_processes
-from ...models import Scene
+from ...models import AnyScene, Scene
 from ...records.bench import Skip
 from ...records.check import Result
 
@@ -142,10 +142,10 @@ def _imports(plan: Plan) -> Skip:
 def check_task(scene: str, engine: str, others: Sequence[str]) -> list[list[str]]:
     """Verdicts of one scene's accelerations on one engine, in this process, once ``others`` are imported as well."""
     from ...engines import load_engine
-    from ...models import find_scene
+    from ...models import find_document_scene
 
     for name in others:
-        load_engine(name, find_scene(scene).system)
+        load_engine(name, find_document_scene(scene, "furiko bench --skips").system)
     task = replace(make_plan([scene], [engine], "smoke").tasks[0], random_states=1)
     return [[*key, verdict] for key, verdict in _verdicts(_cell(task, _facts(task))).items()]
 
@@ -157,8 +157,9 @@ def _fresh(task: Task, others: Sequence[str]) -> tuple[Verdicts, float]:
     return {(scene, engine, check): verdict for scene, engine, check, verdict in rows}, seconds
 
 
-def _only(scene: Scene, named: tuple[str, ...]) -> Scene:
+def _only(scene: AnyScene, named: tuple[str, ...]) -> Scene:
     """The scene in these named states alone."""
+    assert isinstance(scene, Scene)  # the caller refuses trees
     return replace(scene, theta=None, omega=None, duration=0.0, random=0, named=named)
 
 

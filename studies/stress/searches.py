@@ -30,6 +30,7 @@ from .condition import condition_cases
 from .failures import Failure
 from .frontier import Frontier, frontier, next_rung
 from .stability import CHUNKS, STRESSES, TOP, LongRunCase, StabilityCase, Stress
+from .trees import TREE_LADDERS, TreeCase, TreeLadder
 
 TIMEOUT = 30.0  # [s] for one case; those that may take longer say so
 GRACE = 5.0  # [s] that cases under way are given when the time is up
@@ -99,6 +100,43 @@ class AccelerationSearch:
 
     def caught(self, results: Results) -> bool:
         return frontier(self.answers(results), self.top).fails is not None
+
+    def frontier(self, results: Results) -> Frontier:
+        """The frontier known so far."""
+        return frontier(self.answers(results), self.top)
+
+
+@dataclass(frozen=True)
+class TreeSearch:
+    """The same of an open mechanism in space, on one engine."""
+
+    subject: str
+    ladder: TreeLadder
+    seed: int
+
+    family = "trees"
+
+    @property
+    def top(self) -> int:
+        """The last rung."""
+        return len(self.ladder.values) - 1
+
+    def case(self, rung: int) -> TreeCase:
+        """The case of a rung."""
+        return TreeCase(self.ladder.name, self.subject, rung, self.seed)
+
+    def answers(self, results: Results) -> dict[int, bool]:
+        """The known answers, by rung."""
+        found = ((rung, results.get(key(self.case(rung)))) for rung in range(self.top + 1))
+        return {rung: holds(result) for rung, result in found if result is not None}
+
+    def next(self, results: Results) -> tuple[Case | None, int]:
+        answers = self.answers(results)
+        rung = next_rung(answers, self.top)
+        return None if rung is None else self.case(rung), len(answers)
+
+    def caught(self, results: Results) -> bool:
+        return self.frontier(results).fails is not None
 
     def frontier(self, results: Results) -> Frontier:
         """The frontier known so far."""
@@ -182,7 +220,15 @@ class Listed:
 
 
 # What share of the time each family gets while others have something left to ask.
-WEIGHTS = {"accelerations": 6.0, "steps": 2.0, "condition": 1.0, "chain": 2.0, "pairs": 2.0, "long runs": 1.0}
+WEIGHTS = {
+    "accelerations": 6.0,
+    "steps": 2.0,
+    "condition": 1.0,
+    "chain": 2.0,
+    "trees": 2.0,
+    "pairs": 2.0,
+    "long runs": 1.0,
+}
 FAMILIES = tuple(WEIGHTS)
 LONG_STEPS = 10_000_000
 
@@ -199,6 +245,7 @@ def make_searches(
     """Every question of a run about these engines and, of furiko's own, ``document`` and ``kernels``."""
     subjects = [*own, *(info.name for info in engines)]
     found: list[Search] = [AccelerationSearch(subject, ladder, seed) for ladder in ladders for subject in subjects]
+    found += [TreeSearch(info.name, ladder, seed) for ladder in TREE_LADDERS.values() for info in engines if info.tree]
     for info in engines:
         for integrator in info.integrators if "trajectory" not in info.missing else ():
             found += [

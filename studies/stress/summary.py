@@ -25,7 +25,7 @@ from .accelerations import KERNELS, PROMISED
 from .chain_summary import chain_summary
 from .condition import condition_cases
 from .frontier import frontier
-from .searches import AccelerationSearch, LongRun, Results, Search, StabilitySearch, key
+from .searches import AccelerationSearch, LongRun, Results, Search, StabilitySearch, TreeSearch, key
 from .stability import STRESSES, TOP, classify, problem, step
 
 COORDINATES = ("absolute", "relative")
@@ -40,7 +40,7 @@ def summary(searches: Sequence[Search], results: Results, *, seed: int) -> Stres
         seed=seed,
         cases=len(results),
         open=waiting,
-        frontiers=[_frontier(s, results) for s in searches if isinstance(s, AccelerationSearch)],
+        frontiers=[_frontier(s, results) for s in searches if isinstance(s, AccelerationSearch | TreeSearch)],
         kernels=kernel_errors(results),
         condition=condition_growth(results, seed),
         steps=[_stable_step(s, results) for s in searches if isinstance(s, StabilitySearch)],
@@ -50,7 +50,7 @@ def summary(searches: Sequence[Search], results: Results, *, seed: int) -> Stres
     )
 
 
-def _frontier(search: AccelerationSearch, results: Results) -> AxisFrontier:
+def _frontier(search: AccelerationSearch | TreeSearch, results: Results) -> AxisFrontier:
     ladder, found = search.ladder, search.frontier(results)
     rungs = [
         (rung, results[key(search.case(rung))]) for rung in range(search.top + 1) if key(search.case(rung)) in results

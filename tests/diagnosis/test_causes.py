@@ -29,7 +29,7 @@ from furiko.diagnosis.explain import explain, explanation
 from furiko.diagnosis.explain_motion import explain_motion
 from furiko.diagnosis.finding import CAUSES
 from furiko.engines import engine_info, load_engine
-from furiko.models import find_scenes
+from furiko.models import document_scenes
 from furiko.models.readers.rules import mistakes_in
 from furiko.reference import centrifugal_matrix
 
@@ -77,7 +77,7 @@ def test_every_cause_that_can_be_named_is_told_and_planted():
 
 @pytest.mark.parametrize("name", [*NAMES, "exudyn-redundant"])
 def test_no_engine_that_is_right_is_explained(name):
-    for scene in find_scenes(None):
+    for scene in document_scenes():
         if scene.system.n <= 10:
             engine = load_engine(name, scene.system)
             assert explain(engine, scene.system, accuracy=engine.info.accuracy) == []

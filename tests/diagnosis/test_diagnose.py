@@ -14,7 +14,7 @@ from faults.writing import Style, written
 
 from furiko import Diagnosis, diagnose
 from furiko.engines.model_files.adapter import READERS
-from furiko.models import InvalidInput, catalogue, find_scene, to_mjcf, to_urdf
+from furiko.models import InvalidInput, document_catalogue, find_scene, to_mjcf, to_urdf
 from furiko.models.readers.model_file import model_from_text
 
 # A swing-up arm as control suites have it: upright at zero, capsules that weigh, a damped hinge.
@@ -100,7 +100,7 @@ def test_a_cart_is_no_planar_tree_of_hinges_and_agrees_all_the_same():
         diagnose(model_from_text(CART, "cart.xml"), "rods-2")
 
 
-@pytest.mark.parametrize("name", [name for name in catalogue() if find_scene(name).system.n <= 20])
+@pytest.mark.parametrize("name", [name for name in document_catalogue() if find_scene(name).system.n <= 20])
 @pytest.mark.parametrize(("write", "ending"), [(to_mjcf, "xml"), (to_urdf, "urdf")])
 def test_every_scenes_own_files_agree_with_it(tmp_path, name, write, ending):
     path = tmp_path / f"model.{ending}"

@@ -6,7 +6,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from furiko.models import InvalidInput, NLegPendulum, RodChain, catalogue, find_scene, find_scenes
+from furiko.models import (
+    InvalidInput,
+    NLegPendulum,
+    RodChain,
+    catalogue,
+    document_scenes,
+    find_scene,
+    find_scenes,
+)
 from furiko.models.scene import LARGEST_FILE, scene_from_toml
 
 RODS = '[system]\nkind = "rod-chain"\nlengths = [1.0, 0.8]\n'
@@ -103,7 +111,7 @@ def test_two_scenes_of_one_name_are_refused(tmp_path):
 
 
 def test_the_catalogue_covers_every_system_of_the_documents():
-    scenes = find_scenes(None)
+    scenes = document_scenes()
     legs = {s.system.n - 1 for s in scenes if isinstance(s.system, NLegPendulum)}
     rods = {s.system.n for s in scenes if isinstance(s.system, RodChain)}
     assert legs >= {1, 2, 3, 8, 32}

@@ -14,7 +14,8 @@ ROOMS = {
         [
             ("errors",),
             ("readers.bounded_file",),
-            ("readers.toml_text", "writers.whole_file"),
+            ("readers.toml_text", "readers.toml_fields", "writers.whole_file"),
+            ("trees.scene", "trees.system"),
             (".",),
             (
                 "readers.xml_file",
@@ -27,6 +28,7 @@ ROOMS = {
             ("readers.mjcf",),
             ("readers.urdf",),
             ("readers", "writers"),
+            ("trees",),
         ],
     ),
     "reference": (
@@ -41,12 +43,12 @@ ROOMS = {
             ("chain",),
         ],
     ),
-    "engines": ({"models", "records"}, [("workers",), (".",), ("model_files",)]),
+    "engines": ({"models", "records"}, [("workers",), (".",), ("model_files",), ("trees",)]),
     "diagnosis": (
         {"models", "records", "reference", "engines"},
         [("finding", "explanation", "measurement", "question"), ("fits",), (".",), ("model_files",)],
     ),
-    "checks": ({"models", "records", "reference", "engines", "diagnosis"}, [(".",), ("comparisons",)]),
+    "checks": ({"models", "records", "reference", "engines", "diagnosis"}, [(".",), ("comparisons",), ("trees",)]),
     "studies": (
         {"models", "records", "reference", "engines", "diagnosis", "checks"},
         [(".",), ("bench", "stress")],
@@ -74,6 +76,9 @@ FRONT_DOORS = {
 LAZY = {
     "reports.write": "the renderings are imported when a report is written",
     "engines.registry": "adapters are found by name",
+    "models.scene": "the tables of a tree are fitted where there are some",
+    "models.trees.system": "arrays are made where they are asked for",
+    "checks.jobs": "what trees need is imported where a tree is",
 }
 ENGINES = {"mujoco", "pinocchio", "exudyn", "pydrake"}
 

@@ -5,11 +5,11 @@ import numpy as np
 import pinocchio
 import pytest
 
-from furiko.models import NLegPendulum, catalogue, find_scene, to_mjcf
+from furiko.models import NLegPendulum, document_catalogue, find_scene, to_mjcf
 from furiko.models.writers.catalogue_files import FOLDER
 
 
-@pytest.mark.parametrize("name", catalogue())
+@pytest.mark.parametrize("name", document_catalogue())
 def test_mjcf_loads_in_mujoco_and_can_be_drawn(name):
     model = mujoco.MjModel.from_xml_path(str(FOLDER / f"{name}.xml"))
     system = find_scene(name).system
@@ -27,7 +27,7 @@ def test_mjcf_loads_in_mujoco_and_can_be_drawn(name):
     assert data.ncon == 0
 
 
-@pytest.mark.parametrize("name", catalogue())
+@pytest.mark.parametrize("name", document_catalogue())
 def test_urdf_loads_in_mujoco_and_pinocchio(name):
     path = str(FOLDER / f"{name}.urdf")
     system = find_scene(name).system
@@ -44,7 +44,7 @@ def test_mjcf_of_short_links_loads_in_mujoco(length):
     np.testing.assert_array_equal(model.body_ipos[1:, 2], [-1.0, -length])
 
 
-@pytest.mark.parametrize("name", catalogue())
+@pytest.mark.parametrize("name", document_catalogue())
 def test_mjcf_loads_in_pinocchio(name):
     model = pinocchio.buildModelFromMJCF(str(FOLDER / f"{name}.xml"))
     assert model.nv == find_scene(name).system.n

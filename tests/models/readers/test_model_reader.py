@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import furiko
-from furiko.models import InvalidInput, catalogue, find_scene, to_mjcf, to_urdf
+from furiko.models import InvalidInput, document_catalogue, find_scene, to_mjcf, to_urdf
 from furiko.models.readers.model_file import model_from_text, read_model
 from furiko.models.readers.xml_file import parse_xml, write_xml
 
@@ -21,7 +21,7 @@ def body(inside="", **attributes):
     return f'<body {given}><joint axis="0 -1 0"/><inertial pos="0 0 -1" mass="1" diaginertia="1 1 1"/>{inside}</body>'
 
 
-@pytest.mark.parametrize("name", [name for name in catalogue() if find_scene(name).system.n <= 50])
+@pytest.mark.parametrize("name", [name for name in document_catalogue() if find_scene(name).system.n <= 50])
 @pytest.mark.parametrize("write", [to_mjcf, to_urdf])
 def test_what_furiko_writes_it_reads_back_exactly(name, write):
     system = find_scene(name).system

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import furiko
-from furiko.models import find_scene, find_scenes
+from furiko.models import document_scenes, find_scene
 from furiko.reference.truth import end_points
 
-MOVING = [scene.name for scene in find_scenes(None) if scene.theta is not None and scene.duration]
+MOVING = [scene.name for scene in document_scenes() if scene.theta is not None and scene.duration]
 # A run in double precision is off by a few roundings of its numbers, grown along the motion; 3.1 times ε × growth is
 # the largest seen, and the growth in three random directions may miss the fastest one by a few times.
 ROUNDINGS = 16 * 2.0**-52

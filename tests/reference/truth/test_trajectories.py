@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from furiko.models import LibraryMissing, NLegPendulum, RodChain, Scene, find_scene, find_scenes
+from furiko.models import LibraryMissing, NLegPendulum, RodChain, Scene, document_scenes, find_scene
 from furiko.reference import literal_accelerations
 from furiko.reference.arithmetic import balls, floats
 from furiko.reference.truth import end_points as endpoints
@@ -119,9 +119,9 @@ def test_without_heyoka_a_clear_line(monkeypatch):
 
 def test_kept_end_points_are_those_of_the_catalogue():
     kept = json.loads(endpoints.PATH.read_text(encoding="utf-8"))
-    wanted = {scene.name for scene in find_scenes(None) if scene.theta is not None and scene.duration > 0}
+    wanted = {scene.name for scene in document_scenes() if scene.theta is not None and scene.duration > 0}
     assert {entry["scene"] for entry in kept.values()} == wanted
-    for scene in find_scenes(None):
+    for scene in document_scenes():
         if scene.name in wanted:
             key = endpoints._key(scene.system, scene.theta, scene.omega, endpoints._times(scene.duration))
             assert kept[key]["scene"] == scene.name, (

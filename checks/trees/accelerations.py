@@ -1,0 +1,50 @@
+"""Accelerations: the engine's forward dynamics against the proven solution of M a + bias = passive."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...records.check import Result
+from ...reference.rounding.bounds import EPSILON
+from .cell import TreeCell
+from .verdict import judged
+
+Array = NDArray[np.float64]
+
+NAME = "accelerations"
+
+
+def compare(cell: TreeCell) -> Iterator[Result]:
+    """The residual that the engine's accelerations leave decides; the forward error is shown.
+
+    The true M applied to (engine's acceleration less the true one) is that residual, without the cancellation that
+    computing it term by term would suffer. Its unit is that of :meth:`Magnitudes.residual`.
+    """
+    facts, states = cell.facts, cell.states
+    got = cell.answer(NAME, cell.engine.accelerations(states.q, states.v), states.v.shape)
+    error = facts.error(got)
+    residual = (facts.mass_matrix @ error[..., None])[..., 0]
+    factorises = cell.info.algorithm == "crba"
+    unit = np.array(
+        [
+            units.residual(accelerations, mass, factorised=factorises)
+            for units, accelerations, mass in zip(cell.magnitudes, got, facts.mass_matrix, strict=True)
+        ]
+    )
+    forward = np.abs(error).max(axis=-1)
+    size = np.abs(facts.high).max(axis=-1)
+    relative = np.divide(forward, size, out=np.where(forward > 0, np.inf, 0.0), where=size > 0)
+
+    def says(state: int, index: tuple[int, ...]) -> str:
+        (row,) = index
+        return (
+            f"the acceleration of {cell.freedom(row)!r} is {got[state, row]:.9g}, "
+            f"and by the equations of motion {facts.high[state, row]:.9g}"
+        )
+
+    moving = size > size.max(initial=0.0) * EPSILON
+    details = {"forward error": float(relative[moving].max(initial=0.0))}
+    yield judged(cell, NAME, residual, unit, says, details)

@@ -1,0 +1,85 @@
+"""One scene of an open mechanism on one engine: what its comparisons are given."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...diagnosis.explanation import Explanation
+from ...diagnosis.finding import Finding
+from ...engines import EngineInfo, Integrator, TreeShape
+from ...models import TreeScene
+from ...models.spatial_mechanism import SpatialMechanism
+from ...models.trees.states import TreeStates
+from ...records.check import Outcome, Result
+from ...reference.rounding.bounds import EPSILON
+from ...reference.rounding.spatial import Magnitudes
+from ..cell import array_of
+from .facts import TreeFacts
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class TreeCell:
+    """``states`` are those in which quantities are compared; ``facts`` the truth in them."""
+
+    scene: TreeScene
+    info: EngineInfo
+    engine: TreeShape
+    states: TreeStates
+    facts: TreeFacts
+
+    @cached_property
+    def mechanism(self) -> SpatialMechanism:
+        """The scene's mechanism, as arrays."""
+        return self.scene.system.mechanism()
+
+    @cached_property
+    def magnitudes(self) -> list[Magnitudes]:
+        """Of the terms, as this engine computes them, in each state."""
+        world = self.info.moments == "tree" or self.info.placed == "world"
+        pairs = zip(self.states.q, self.states.v, strict=True)
+        return [Magnitudes(self.mechanism, q, v, world=world) for q, v in pairs]
+
+    @cached_property
+    def roundings(self) -> Array:
+        """How many ε of its unit a number may be off by in each state, (B,)."""
+        return np.array([units.roundings for units in self.magnitudes]) * (self.info.accuracy / EPSILON)
+
+    @property
+    def explanation(self) -> Explanation:
+        """No cause is looked for in a tree: what an engine makes of a file is the matter of ``furiko diagnose``."""
+        return Explanation()
+
+    def motion_causes(self, integrator: Integrator) -> list[Finding]:
+        """No cause is looked for in a tree."""
+        return []
+
+    @property
+    def start(self) -> tuple[Array, Array] | None:
+        """The state from which trajectories start, q (nq,) and v (nv,); None where the scene has none."""
+        if self.scene.q is None or self.scene.v is None:
+            return None
+        return np.array(self.scene.q), np.array(self.scene.v)
+
+    def trajectory(self, q: Array, v: Array, integrator: Integrator, step: float, steps: int) -> Array:
+        """q and v at the end of one of the engine's own runs, (2, nv); of mechanisms with as many q as v."""
+        found = np.array(self.engine.trajectory(q, v, integrator.name, step, steps))
+        return self.answer(integrator.name, found, (2, v.size))
+
+    def answer(self, quantity: str, answer: object, shape: tuple[int, ...]) -> Array:
+        """``answer`` as an array of this shape, or :class:`EngineFault` saying what is wrong with it."""
+        return array_of(quantity, answer, shape, self.states.labels)
+
+    def result(self, check: str, outcome: Outcome, **fields: Any) -> Result:
+        """A result of this cell."""
+        return Result(scene=self.scene.name, engine=self.info.name, check=check, outcome=outcome, **fields)
+
+    def freedom(self, index: int) -> str:
+        """What a degree of freedom is called."""
+        return self.scene.system.freedoms[index]

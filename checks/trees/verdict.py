@@ -1,0 +1,44 @@
+"""How an error that is held against its unit becomes a result; shared by the comparisons of trees."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...records.check import Result
+from ...reference.rounding.bounds import EPSILON
+from ..cell import quotient, worst
+from .cell import TreeCell
+
+Array = NDArray[np.float64]
+
+
+def judged(
+    cell: TreeCell,
+    check: str,
+    error: Array,
+    unit: Array,
+    says: Callable[[int, tuple[int, ...]], str],
+    details: dict[str, Any],
+) -> Result:
+    """One result: the worst of ``error`` over ``unit``, (B, …) both, against the roundings that each state allows.
+
+    ``says``: the sentence where it differs, for the number of the worst state and the rest of the worst index.
+    """
+    allowed = cell.roundings.reshape(-1, *[1] * (error.ndim - 1))
+    excess = worst(quotient(error, EPSILON * allowed * unit))
+    state, *rest = excess.index
+    bound = float(cell.roundings[state])
+    agrees = excess.value <= 1
+    return cell.result(
+        check,
+        "agrees" if agrees else "differs",
+        measured=excess.value * bound,
+        allowed=bound,
+        unit="ε",
+        reason="" if agrees else f"{says(state, tuple(rest))} in state {cell.states.labels[state]!r}",
+        details={"states": len(cell.states), "worst state": cell.states.labels[state]} | details,
+    )

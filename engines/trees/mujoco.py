@@ -1,0 +1,149 @@
+"""MuJoCo with an open mechanism that is given to it body by body (``MjSpec``), so that no reader of files takes part.
+
+* A point mass or a thin rod has moments below 1e-15 kg m², which the compiler raises (``boundinertia``): those of
+  tensors without products are set in the compiled model. That raising moves other tensors by no more than that.
+* Accelerations are ``qacc_smooth``, what ``mj_forward`` finds before constraints, of which the model has none.
+"""
+
+from __future__ import annotations
+
+import warnings
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+
+from ...models.spatial_mechanism import WORLD, Joint, RigidBody, SpatialMechanism
+from ...models.writers.mjcf import LEAST_INERTIA
+from ..model_files.robot_coordinates import Block, RobotCoordinates
+from ..model_files.robot_mujoco import BoundMujoco
+from ..mujoco import INTEGRATORS, keep_centres, quiet_data
+from ..protocol import Array
+
+# MuJoCo's bindings have no type stubs that fit: Any, here and nowhere else.
+mujoco: Any = import_module("mujoco")
+
+KINDS = {
+    "hinge": mujoco.mjtJoint.mjJNT_HINGE,
+    "slide": mujoco.mjtJoint.mjJNT_SLIDE,
+    "ball": mujoco.mjtJoint.mjJNT_BALL,
+    "free": mujoco.mjtJoint.mjJNT_FREE,
+}
+
+
+class MujocoTree:
+    """The mechanism in MuJoCo."""
+
+    def __init__(self, mechanism: SpatialMechanism) -> None:
+        mujoco.set_mju_user_warning(lambda message: None)  # else it writes MUJOCO_LOG.TXT
+        self._model = _model(mechanism)
+        joints = [self._model.joint(f"joint{k}").id for k in range(len(mechanism.joints))]
+        at_q, at_v = self._model.jnt_qposadr[joints], self._model.jnt_dofadr[joints]
+        blocks = [Block((k,), "same", int(at_q[k]), int(at_v[k])) for k in range(len(joints))]
+        self._bound = BoundMujoco(self._model, RobotCoordinates(mechanism, blocks, mechanism.nq))
+        self._data = quiet_data(self._model)
+        self._columns_q = _columns(at_q, [placed.joint.coordinates for placed in mechanism.joints])
+        self._columns_v = _columns(at_v, [placed.joint.freedoms for placed in mechanism.joints])
+
+    def accelerations(self, q: Array, v: Array) -> Array:
+        return self._bound.accelerations(q, v, np.zeros_like(v))
+
+    def mass_matrix(self, q: Array) -> Array:
+        return self._bound.mass_matrix(q)
+
+    def bias(self, q: Array, v: Array) -> Array:
+        return self._bound.bias(q, v)
+
+    def passive(self, q: Array, v: Array) -> Array:
+        return self._bound.passive(q, v)
+
+    def energy(self, q: Array, v: Array) -> Array:
+        found = np.empty((len(q), 2))
+        for row in range(len(q)):
+            self._set(q[row], v[row])
+            mujoco.mj_fwdPosition(self._model, self._data)
+            mujoco.mj_fwdVelocity(self._model, self._data)
+            mujoco.mj_energyPos(self._model, self._data)
+            mujoco.mj_energyVel(self._model, self._data)
+            found[row] = self._data.energy[1], self._data.energy[0]
+        return found
+
+    def trajectory(self, q: Array, v: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
+        option = self._model.opt
+        kept = option.integrator, option.timestep
+        mujoco.mj_resetData(self._model, self._data)
+        self._data.warning.number[:] = 1  # else a NaN is announced in a file
+        self._set(q, v)
+        option.integrator, option.timestep = INTEGRATORS[integrator], step
+        try:
+            mujoco.mj_step(self._model, self._data, nstep=steps)
+        finally:
+            option.integrator, option.timestep = kept
+        return self._data.qpos[self._columns_q], self._data.qvel[self._columns_v]
+
+    def _set(self, q: Array, v: Array) -> None:
+        self._data.qpos[self._columns_q], self._data.qvel[self._columns_v] = q, v
+
+
+def _columns(starts: Array, sizes: list[int]) -> Any:
+    """MuJoCo's column of each of the mechanism's, (nq,) or (nv,)."""
+    return np.concatenate([np.arange(start, start + size) for start, size in zip(starts, sizes, strict=True)])
+
+
+def _model(mechanism: SpatialMechanism) -> Any:
+    spec = mujoco.MjSpec()
+    spec.modelname = "furiko"
+    compiler, option = spec.compiler, spec.option
+    compiler.degree = False
+    compiler.inertiafromgeom = mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_FALSE
+    compiler.balanceinertia = compiler.autolimits = False
+    compiler.boundinertia = LEAST_INERTIA
+    option.gravity = mechanism.gravity.tolist()
+    option.disableflags = int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT) | int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
+    bodies: list[Any] = []
+    for k, body in enumerate(mechanism.bodies):
+        parent = spec.worldbody if body.parent == WORLD else bodies[body.parent]
+        bodies.append(_body(parent, body, k))
+    for k, placed in enumerate(mechanism.joints):
+        _joint(bodies[placed.body], placed.joint, f"joint{k}")
+    with warnings.catch_warnings():  # this way the compiler's warnings are Python's
+        warnings.simplefilter("ignore")
+        model = spec.compile()
+    keep_centres(model)
+    for k, body in enumerate(mechanism.bodies):
+        moments = np.diag(body.inertial.tensor)
+        if _diagonal(body) and (moments < LEAST_INERTIA).any() and body.inertial.mass:
+            model.body_inertia[model.body(f"body{k}").id] = moments
+    return model
+
+
+def _body(parent: Any, body: RigidBody, k: int) -> Any:
+    inertial, tensor = body.inertial, body.inertial.tensor
+    moments = (
+        {"inertia": np.diag(tensor).tolist()}
+        if _diagonal(body)
+        else {"fullinertia": tensor[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]].tolist()}
+    )
+    return parent.add_body(
+        name=f"body{k}",
+        pos=body.position.tolist(),
+        quat=body.quaternion.tolist(),
+        mass=float(inertial.mass),
+        ipos=inertial.centre.tolist(),
+        explicitinertial=True,
+        **moments,
+    )
+
+
+def _diagonal(body: RigidBody) -> bool:
+    tensor = body.inertial.tensor
+    return np.array_equal(tensor, np.diag(np.diag(tensor)))
+
+
+def _joint(body: Any, joint: Joint, name: str) -> None:
+    made = body.add_joint(name=name, type=KINDS[joint.kind], armature=joint.armature)
+    made.damping[0], made.stiffness[0] = joint.damping, joint.stiffness
+    if joint.kind in ("hinge", "slide"):
+        made.axis, made.ref, made.springref = joint.axis.tolist(), joint.ref, joint.springref
+    if joint.kind != "free":
+        made.pos = joint.anchor.tolist()

@@ -1,0 +1,184 @@
+"""Pinocchio with an open mechanism, given to it joint by joint, or by its reader of MJCF (``PinocchioMjcfTree``).
+
+Joint by joint:
+
+* Each joint of a link is a joint of Pinocchio's, all but the last with no inertia; a joint's frame is at its anchor.
+* A link's whole subtree is added before its next sibling's: ``crba`` takes the columns of a subtree to be neighbours.
+* It has no ``ref``: angles and lengths are counted from there before they are handed on.
+
+Either way:
+
+* It holds dampers and applies none in ``aba``, and holds no springs: the adapter gives their forces as joint torques.
+  For ``PinocchioCrbaTree`` the equation is M a = passive − bias, by ``crba``, ``rnea`` and NumPy's Cholesky factors.
+* ``computeKineticEnergy`` counts the armature of joints about x, y or z and leaves that of others out (seen in 4.1.0):
+  it is asked for the bodies alone, and ½ Σ armature v² is added.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from importlib import import_module
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+
+from ...models.spatial import IDENTITY, Pose, from_quaternion
+from ...models.spatial_mechanism import WORLD, Joint, SpatialMechanism
+from ...models.writers.spatial_mjcf import spatial_mjcf
+from ..model_files.robot_coordinates import Block, RobotCoordinates
+from ..model_files.robot_pinocchio import BoundPinocchio, PinocchioRobot
+from ..protocol import Array
+
+# Pinocchio is a C++ extension without types: Any, here and nowhere else.
+pinocchio: Any = import_module("pinocchio")
+
+WAYS = {"hinge": "same", "slide": "same", "ball": "quaternion-last", "free": "free-in-body"}
+
+
+class PinocchioAbaTree:
+    """The mechanism in Pinocchio; accelerations by ``aba``.
+
+    ``counts_from_reference``: whether the model's angles and lengths are zero in the reference configuration.
+    """
+
+    counts_from_reference = True
+
+    def __init__(self, mechanism: SpatialMechanism) -> None:
+        self._mechanism = mechanism
+        self._model, self._coordinates = self._built(mechanism)
+        self._bodies = self._model.copy()
+        self._bodies.armature = np.zeros(mechanism.nv)
+        self._data = self._model.createData()
+        self._bound = BoundPinocchio(self._model, self._coordinates)
+        single = [placed for placed in mechanism.joints if placed.joint.kind in ("hinge", "slide")]
+        self._at_q, self._at_v = [placed.at_q for placed in single], [placed.at_v for placed in single]
+        self._ref = np.array([placed.joint.ref for placed in single]) * self.counts_from_reference
+        self._rest = np.array([placed.joint.springref for placed in single])
+        self._stiffness = np.array([placed.joint.stiffness for placed in single])
+        self._damping = mechanism.per_freedom("damping")
+        self._armature = mechanism.per_freedom("armature")
+
+    def _built(self, mechanism: SpatialMechanism) -> tuple[Any, RobotCoordinates]:
+        """The model, and its coordinates for the mechanism's."""
+        model, indices = _model(mechanism)
+        blocks = [
+            Block((k,), WAYS[placed.joint.kind], int(model.idx_qs[index]), int(model.idx_vs[index]))
+            for k, (placed, index) in enumerate(zip(mechanism.joints, indices, strict=True))
+        ]
+        return model, RobotCoordinates(mechanism, blocks, int(model.nq))
+
+    def accelerations(self, q: Array, v: Array) -> Array:
+        return self._bound.accelerations(self._own(q), v, self.passive(q, v))
+
+    def mass_matrix(self, q: Array) -> Array:
+        found = self._bound.mass_matrix(self._own(q))
+        upper = np.triu(np.ones(found.shape[1:], dtype=np.bool_))  # in some versions crba fills that triangle alone
+        return np.where(upper, found, found.swapaxes(1, 2))
+
+    def bias(self, q: Array, v: Array) -> Array:
+        return self._bound.bias(self._own(q), v)
+
+    def passive(self, q: Array, v: Array) -> Array:
+        forces = -self._damping * v
+        forces[:, self._at_v] -= self._stiffness * (q[:, self._at_q] - self._rest)
+        return forces
+
+    def energy(self, q: Array, v: Array) -> Array:
+        springs = self._stiffness * (q[:, self._at_q] - self._rest) ** 2 / 2
+        found = np.stack([(self._armature * v**2).sum(axis=-1) / 2, springs.sum(axis=-1)], axis=-1)
+        for row, (positions, rates) in enumerate(zip(self._own(q), v, strict=True)):
+            state = self._coordinates.state(positions, rates)
+            found[row, 0] += pinocchio.computeKineticEnergy(self._bodies, self._data, state.positions, state.rates)
+            found[row, 1] += pinocchio.computePotentialEnergy(self._model, self._data, state.positions)
+        return found
+
+    def _own(self, q: Array) -> Array:
+        """The same counted from the reference configuration."""
+        own = q.copy()
+        own[:, self._at_q] -= self._ref
+        return own
+
+
+class PinocchioCrbaTree(PinocchioAbaTree):
+    """The mechanism in Pinocchio; accelerations from its mass matrix and its bias."""
+
+    def accelerations(self, q: Array, v: Array) -> Array:
+        right = self.passive(q, v) - self.bias(q, v)
+        factors = np.linalg.cholesky(self.mass_matrix(q))
+        halfway = np.linalg.solve(factors, right[..., None])
+        return np.asarray(np.linalg.solve(factors.swapaxes(1, 2), halfway)[..., 0], dtype=np.float64)
+
+
+class PinocchioMjcfTree(PinocchioAbaTree):
+    """The mechanism as Pinocchio reads it from the MJCF that furiko writes; accelerations by ``aba``."""
+
+    counts_from_reference = False
+
+    def _built(self, mechanism: SpatialMechanism) -> tuple[Any, RobotCoordinates]:
+        with TemporaryDirectory() as folder:
+            path = Path(folder) / "mechanism.xml"
+            path.write_text(spatial_mjcf(mechanism), encoding="utf-8")
+            robot = PinocchioRobot(path, "mjcf")
+        model, coordinates = robot.bound_to(mechanism)
+        model.gravity.linear = mechanism.gravity  # its reader does not read it
+        return model, coordinates
+
+
+def _model(mechanism: SpatialMechanism) -> tuple[Any, list[int]]:
+    """The model, and its index of each of the mechanism's joints."""
+    model = pinocchio.Model()
+    model.gravity.linear = mechanism.gravity
+    first = {placed.body: k for k, placed in reversed(list(enumerate(mechanism.joints)))}
+    indices = [0] * len(mechanism.joints)
+    held: dict[int, tuple[int, Pose]] = {WORLD: (0, IDENTITY)}  # of each body: the joint it is fixed in, its pose there
+    for b in _depth_first(mechanism):
+        body = mechanism.bodies[b]
+        joint, pose = held[body.parent]
+        pose = pose @ Pose(from_quaternion(body.quaternion), body.position)
+        for k, moving in enumerate(body.joints, start=first.get(b, 0)):
+            free = moving.kind == "free"
+            anchor = np.zeros(3) if free else moving.anchor
+            placement = IDENTITY if free else pose @ Pose(np.eye(3), anchor)
+            joint = indices[k] = model.addJoint(joint, _joint(moving), _se3(placement), f"joint{k}")
+            pose = Pose(np.eye(3), -anchor)
+        held[b] = joint, pose
+        inertial = body.inertial
+        if joint and (inertial.mass or inertial.tensor.any()):
+            inertia = pinocchio.Inertia(float(inertial.mass), inertial.centre, inertial.tensor)
+            model.appendBodyToJoint(joint, inertia, _se3(pose))
+    armature = np.zeros(model.nv)
+    for placed, index in zip(mechanism.joints, indices, strict=True):
+        armature[model.idx_vs[index] :][: placed.joint.freedoms] = placed.joint.armature
+    model.armature = armature
+    return model, indices
+
+
+def _depth_first(mechanism: SpatialMechanism) -> Iterator[int]:
+    """Indices of the bodies, each before its children, and these before its next sibling."""
+    children: dict[int, list[int]] = {}
+    for b, body in enumerate(mechanism.bodies):
+        children.setdefault(body.parent, []).append(b)
+    left = children.get(WORLD, [])[::-1]
+    while left:
+        b = left.pop()
+        yield b
+        left += children.get(b, [])[::-1]
+
+
+def _joint(joint: Joint) -> Any:
+    if joint.kind == "free":
+        return pinocchio.JointModelFreeFlyer()
+    if joint.kind == "ball":
+        return pinocchio.JointModelSpherical()
+    axis = joint.axis / np.linalg.norm(joint.axis)
+    for k, letter in enumerate("XYZ"):
+        if axis[k] == 1:
+            return getattr(pinocchio, f"JointModel{'R' if joint.kind == 'hinge' else 'P'}{letter}")()
+    made = pinocchio.JointModelRevoluteUnaligned if joint.kind == "hinge" else pinocchio.JointModelPrismaticUnaligned
+    return made(axis)
+
+
+def _se3(pose: Pose) -> Any:
+    return pinocchio.SE3(pose.rotation, pose.translation)

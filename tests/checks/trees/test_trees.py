@@ -1,0 +1,168 @@
+"""The comparisons of trees: a right engine agrees in all, each fault is found by its check and by no other."""
+
+import pytest
+from fake_tree_engines import FewQuestions
+
+from furiko.checks.cache import _scene
+from furiko.checks.jobs import CellJob, TruthJob, messages_of
+from furiko.checks.jobs import Facts as FactsMessage
+from furiko.checks.plan import PROFILES, Task, make_plan, random_states, skip
+from furiko.checks.registry import CHECKS
+from furiko.checks.trees.facts import TreeFacts, tree_facts
+from furiko.engines import engine_info
+from furiko.models import find_scene
+from furiko.models.scene import scene_from_toml
+from furiko.models.trees.states import tree_states
+from furiko.records.check import Result
+
+STATES = 2
+COMPARED = ("accelerations", "terms", "energy", "trajectory")
+
+# A rod that turns about a tilted axis on a slide with spring and damper: everything a comparison looks at.
+SMALL = """
+[system]
+kind = "tree"
+gravity = [0.5, 0.0, -9.81]
+[[system.links]]
+name = "block"
+mass = 1.2
+[[system.links.joints]]
+name = "rail"
+kind = "slide"
+axis = [1.0, 0.2, 0.0]
+damping = 0.3
+stiffness = 4.0
+springref = 0.1
+[[system.links]]
+name = "rod"
+parent = "block"
+mass = 0.7
+centre = [0.1, 0.0, -0.4]
+inertia = [0.04, 0.05, 0.02]
+[[system.links.joints]]
+name = "pin"
+axis = [0.1, 1.0, 0.2]
+armature = 0.01
+damping = 0.02
+[state]
+q = { rail = 0.2, pin = 1.1 }
+v = { pin = -0.4 }
+duration = 0.5
+"""
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return scene_from_toml(SMALL, "small")
+
+
+@pytest.fixture(scope="module")
+def facts(scene):
+    (_, message) = messages_of(TruthJob(scene, STATES))
+    assert isinstance(message, FactsMessage)
+    return message.content
+
+
+def results(scene, facts, engine, checks=COMPARED):
+    task = Task(scene, f"fake_tree_engines:{engine}", checks, STATES)
+    return [message for message in messages_of(CellJob(task, facts)) if isinstance(message, Result)]
+
+
+def outcomes(found):
+    return {result.check: result.outcome for result in found}
+
+
+def test_a_right_engine_agrees_in_every_comparison(scene, facts):
+    found = results(scene, facts, "Right")
+    assert set(outcomes(found)) == {
+        "accelerations",
+        "terms M",
+        "terms bias",
+        "terms G",
+        "terms passive",
+        "energy",
+        "trajectory RK4",
+    }
+    assert set(outcomes(found).values()) == {"agrees"}
+
+
+@pytest.mark.parametrize(
+    ("engine", "check", "says"),
+    [
+        ("WrongAccelerations", "accelerations", "the acceleration of 'pin'|the acceleration of 'rail'"),
+        ("WrongMass", "terms M", "mass matrix: the entry of pin, pin is"),
+        ("WrongVelocityTerms", "terms bias", "bias: the entry of"),
+        ("WrongPassive", "terms passive", "forces of dampers and springs"),
+        ("WrongEnergy", "energy", "the kinetic energy is off by"),
+        ("WrongScheme", "trajectory RK4", "order"),
+    ],
+)
+def test_each_fault_is_found_by_its_check_and_no_other(scene, facts, engine, check, says):
+    found = results(scene, facts, engine)
+    differing = [result for result in found if result.outcome == "differs"]
+    assert [result.check for result in differing] == [check]
+    assert any(word in differing[0].reason for word in says.split("|"))
+    if check != "trajectory RK4":
+        assert "in state" in differing[0].reason
+
+
+def test_gravity_that_is_off_shows_in_gravity_and_in_the_bias(scene, facts):
+    found = outcomes(results(scene, facts, "WrongGravity"))
+    assert {check for check, outcome in found.items() if outcome == "differs"} == {"terms G", "terms bias"}
+
+
+def test_trajectories_are_not_run_where_accelerations_differ(scene, facts):
+    found = outcomes(results(scene, facts, "WrongAccelerations"))
+    assert found["trajectory"] == "skipped"
+
+
+def test_the_potential_energy_may_be_off_by_a_constant(scene, facts):
+    assert outcomes(results(scene, facts, "OtherZero", ("energy",))) == {"energy": "agrees"}
+
+
+def test_bad_answers_are_errors_of_the_engine(scene, facts):
+    (shape,) = results(scene, facts, "BadShape", ("accelerations",))
+    assert shape.outcome == "error"
+    assert "shape (6, 3), not (6, 2)" in shape.reason  # the given state, three named ones, two random ones
+    (nan,) = results(scene, facts, "NotANumber", ("accelerations",))
+    assert nan.outcome == "error"
+    assert "first in state 'random 1'" in nan.reason
+
+
+def test_what_is_skipped_has_its_reason(scene):
+    documents_only = engine_info("exudyn-redundant")
+    assert "takes the documents' mechanisms alone" in skip("accelerations", scene, documents_only)
+    assert skip("accelerations", scene, FewQuestions.info) == "it has no springs"
+    without_spring = scene_from_toml(SMALL.replace("stiffness = 4.0\n", ""), "small")
+    assert skip("accelerations", without_spring, FewQuestions.info) == ""
+    assert skip("energy", without_spring, FewQuestions.info) == "it has accelerations alone"
+    for check in ("model fields", "symmetry", "joint forces", "step map", "invariant", "horizon"):
+        assert len(skip(check, scene, engine_info("mujoco")).split()) > 5
+    assert "hinges and slides alone" in skip("trajectory", find_scene("humanoid"), engine_info("mujoco"))
+    assert "no duration" in skip("trajectory", find_scene("arm-7"), engine_info("mujoco"))
+
+
+def test_every_check_says_what_it_does_with_trees():
+    for check in CHECKS.values():
+        assert check.trees
+
+
+def test_at_most_twenty_states_of_a_tree_in_a_quick_run():
+    tree, document = find_scene("humanoid"), find_scene("rods-2")
+    assert random_states(tree, PROFILES["quick"]) == 20
+    assert random_states(document, PROFILES["quick"]) == 200
+    plan = make_plan(["humanoid", "rods-2"], ["mujoco"], "quick")
+    assert {task.scene.name: task.random_states for task in plan.tasks} == {"humanoid": 20, "rods-2": 200}
+
+
+def test_facts_survive_the_way_to_another_process(scene):
+    facts = tree_facts(scene, tree_states(scene, 1))
+    again = TreeFacts.from_bytes(facts.to_bytes())
+    for name in ("high", "low", "mass_matrix", "bias", "gravity", "passive", "energy", "times", "end_q", "end_error"):
+        assert (getattr(again, name) == getattr(facts, name)).all()
+
+
+def test_every_number_of_a_tree_is_in_its_key(scene):
+    for old, new in (("0.7", "0.70001"), ("[0.1, 1.0, 0.2]", "[0.1, 1.0, 0.3]"), ("pin = -0.4", "pin = -0.5")):
+        assert _scene(scene_from_toml(SMALL.replace(old, new), "small")) != _scene(scene)
+    assert _scene(scene_from_toml(SMALL, "small")) == _scene(scene)

@@ -1,0 +1,161 @@
+"""Fake engines of open mechanisms: one that is right, and some that are wrong in one way each.
+
+Name one on a command line as ``fake_tree_engines:Class``.
+"""
+
+import numpy as np
+
+from furiko.engines import EngineInfo, Integrator, TreeInfo
+from furiko.engines.trees.mujoco import MujocoTree
+from furiko.reference.truth.spatial import energy, spatial_truth
+
+
+def about(name, **tree):
+    return EngineInfo(
+        name=name,
+        formulation="fake",
+        adapter=f"fake_tree_engines:{name}",
+        module="",
+        package="",
+        homepage="",
+        coordinates="relative",
+        integrators=(Integrator("RK4", 4),),
+        tree=TreeInfo(f"fake_tree_engines:{name}", **tree),
+    )
+
+
+class Right:
+    """Answers with the nearest doubles of the truth, and with MuJoCo's Runge-Kutta scheme."""
+
+    info = about("Right")
+    scheme = "RK4"
+
+    def __init__(self, mechanism):
+        self.mechanism = mechanism
+
+    def _truths(self, q, v):
+        return [spatial_truth(self.mechanism, *state) for state in zip(q, v, strict=True)]
+
+    def accelerations(self, q, v):
+        return np.array([truth.accelerations.float for truth in self._truths(q, v)])
+
+    def mass_matrix(self, q):
+        rest = np.zeros((len(q), self.mechanism.nv))
+        return np.array([truth.mass_matrix.float for truth in self._truths(q, rest)])
+
+    def bias(self, q, v):
+        return np.array([truth.bias.float for truth in self._truths(q, v)])
+
+    def passive(self, q, v):
+        return np.array([truth.passive.float for truth in self._truths(q, v)])
+
+    def energy(self, q, v):
+        return np.array([energy(self.mechanism, *state).float for state in zip(q, v, strict=True)])
+
+    def trajectory(self, q, v, integrator, step, steps):
+        return MujocoTree(self.mechanism).trajectory(q, v, self.scheme, step, steps)
+
+
+class WrongAccelerations(Right):
+    """One part in 1e9 too large."""
+
+    info = about("WrongAccelerations")
+
+    def accelerations(self, q, v):
+        return (1 + 1e-9) * super().accelerations(q, v)
+
+
+class WrongMass(Right):
+    """The last diagonal entry is one part in 1e9 too large."""
+
+    info = about("WrongMass")
+
+    def mass_matrix(self, q):
+        mass = super().mass_matrix(q)
+        mass[:, -1, -1] *= 1 + 1e-9
+        return mass
+
+
+class WrongVelocityTerms(Right):
+    """A part in 1e6 of the velocity terms is forgotten; gravity is right."""
+
+    info = about("WrongVelocityTerms")
+
+    def bias(self, q, v):
+        at_rest = super().bias(q, np.zeros_like(v))
+        return at_rest + (1 - 1e-6) * (super().bias(q, v) - at_rest)
+
+
+class WrongGravity(Right):
+    """Gravity's share of the bias is one part in 1e9 too large."""
+
+    info = about("WrongGravity")
+
+    def bias(self, q, v):
+        return super().bias(q, v) + 1e-9 * super().bias(q, np.zeros_like(v))
+
+
+class WrongPassive(Right):
+    """Dampers one part in 1e9 too strong, in the terms alone."""
+
+    info = about("WrongPassive")
+
+    def passive(self, q, v):
+        return super().passive(q, v) * (1 + 1e-9)
+
+
+class WrongEnergy(Right):
+    """The kinetic energy without the armature of the last joint, or a part of it."""
+
+    info = about("WrongEnergy")
+
+    def energy(self, q, v):
+        found = super().energy(q, v)
+        found[:, 0] *= 1 - 1e-9
+        return found
+
+
+class OtherZero(Right):
+    """Right: the potential energy is off by one constant."""
+
+    info = about("OtherZero")
+
+    def energy(self, q, v):
+        return super().energy(q, v) + np.array([0.0, 3.0])
+
+
+class WrongScheme(Right):
+    """Euler's, of first order, under the name of another."""
+
+    info = about("WrongScheme")
+    scheme = "Euler"
+
+
+class FewQuestions(Right):
+    """Knows accelerations alone, and no springs."""
+
+    info = about(
+        "FewQuestions",
+        missing=dict.fromkeys(("mass_matrix", "bias", "passive", "energy", "trajectory"), "it has accelerations alone"),
+        cannot_hold={"spring": "it has no springs"},
+    )
+
+
+class BadShape(Right):
+    """Answers with a column too many."""
+
+    info = about("BadShape")
+
+    def accelerations(self, q, v):
+        return np.zeros((len(q), self.mechanism.nv + 1))
+
+
+class NotANumber(Right):
+    """Answers with NaN in one state."""
+
+    info = about("NotANumber")
+
+    def accelerations(self, q, v):
+        found = super().accelerations(q, v)
+        found[-1] = np.nan
+        return found

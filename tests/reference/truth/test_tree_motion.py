@@ -1,0 +1,50 @@
+"""Motions of open mechanisms: against closed forms, and those that are kept."""
+
+import json
+
+import numpy as np
+import pytest
+
+from furiko.models import TreeScene, find_scene, find_scenes
+from furiko.models.trees.system import TreeJoint, TreeLink, TreeSystem
+from furiko.reference.spatial_kinematics import energy
+from furiko.reference.truth import tree_end_points
+from furiko.reference.truth.tree_motion import tree_motion
+
+
+def test_a_damped_spring_falls_silent_as_its_closed_form():
+    """m ẍ + d ẋ + k x = 0 from x = 1 at rest: x = e^(−βt) (cos ωt + β/ω sin ωt), β = d/2m, ω² = k/m − β²."""
+    slide = TreeJoint("slide", "slide", axis=(1.0, 0.0, 0.0), damping=0.8, stiffness=8.0)
+    mechanism = TreeSystem((TreeLink("body", -1, mass=2.0, joints=(slide,)),)).mechanism()
+    motion = tree_motion(mechanism, np.array([1.0]), np.array([0.0]), [0.5, 1.0])
+    beta, t = 0.2, np.array([0.5, 1.0])
+    omega = np.sqrt(4.0 - beta**2)
+    x = np.exp(-beta * t) * (np.cos(omega * t) + beta / omega * np.sin(omega * t))
+    v = -np.exp(-beta * t) * 4.0 / omega * np.sin(omega * t)
+    assert (np.abs(motion.q[:, 0] - x) <= motion.error).all()
+    assert (np.abs(motion.v[:, 0] - v) <= motion.error).all()
+    assert motion.error.max() < 1e-8
+
+
+def test_kept_end_points_are_those_of_the_catalogue():
+    kept = json.loads(tree_end_points.PATH.read_text(encoding="utf-8"))
+    moving = [scene for scene in find_scenes(None) if isinstance(scene, TreeScene) and tree_end_points.moves(scene)]
+    assert {scene.name for scene in moving} == {"cart-pole", "acrobot", "hopper"}
+    again = "the scene has changed: python -m furiko.reference.truth.tree_end_points"
+    assert {tree_end_points._key(scene): scene.name for scene in moving} == {
+        key: entry["scene"] for key, entry in kept.items()
+    }, again
+
+
+@pytest.mark.parametrize("name", ["cart-pole", "acrobot", "hopper"])
+def test_dampers_take_energy_away_and_nothing_brings_any(name):
+    scene = find_scene(name)
+    motion, mechanism = tree_end_points.end_points(scene), scene.system.mechanism()
+    q = np.array([scene.q, *motion.q])
+    v = np.array([scene.v, *motion.v])
+    assert (np.diff(energy(mechanism, q, v).sum(axis=-1)) < 0).all()
+
+
+def test_rotations_in_space_and_scenes_at_rest_are_not_followed():
+    assert not tree_end_points.moves(find_scene("humanoid"))
+    assert not tree_end_points.moves(find_scene("arm-7"))
