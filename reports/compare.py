@@ -75,7 +75,7 @@ class Comparison:
 
     @cached_property
     def circumstances(self) -> tuple[tuple[str, str, str], ...]:
-        """What else is not the same, engine and library versions, furiko, machine: what, in the first, in the second."""
+        """What else changed, engine and library versions, furiko, machine: what, in the first run, in the second."""
         old, new = self.before.header, self.after.header
         versions = [
             (f"{engine.name} ({engine.package})", there.version or "not installed", engine.version or "not installed")
