@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .derivations.audit.audit import audit
-    from .derivations.grading.grade import grade, grade_text
+    from .derivations.classroom.assess import Assessment
+    from .derivations.classroom.in_python import grade_text
+    from .derivations.grading.grade import grade
     from .derivations.grading.grade_record import Grade
     from .diagnosis.model_files.diagnose import diagnose
     from .diagnosis.model_files.result import Diagnosis
@@ -26,6 +28,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _HOMES = {
+    "Assessment": "derivations.classroom.assess",
     "Diagnosis": "diagnosis.model_files.result",
     "EngineMissing": "models",
     "Grade": "derivations.grading.grade_record",
@@ -41,7 +44,7 @@ _HOMES = {
     "energy": "reference.kernels.energy",
     "engine_names": "engines",
     "grade": "derivations.grading.grade",
-    "grade_text": "derivations.grading.grade",
+    "grade_text": "derivations.classroom.in_python",
     "load_engine": "engines",
     "read_stream": "reports",
     "simulate": "reference.integration.taylor",
@@ -50,6 +53,7 @@ _HOMES = {
 }
 
 __all__ = [
+    "Assessment",
     "Diagnosis",
     "EngineMissing",
     "Grade",
