@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from .diagnosis.model_files.diagnose import diagnose
     from .diagnosis.model_files.result import Diagnosis
     from .engines import engine_names, load_engine
-    from .models import EngineMissing, InvalidInput, NLegPendulum, RodChain, to_mjcf, to_urdf
+    from .models import EngineMissing, InvalidInput, LibraryMissing, NLegPendulum, RodChain, to_mjcf, to_urdf
     from .reference.integration.taylor import simulate
     from .reference.kernels.energy import energy
     from .reference.kernels.forward_dynamics import accelerations
@@ -33,6 +33,7 @@ _HOMES = {
     "EngineMissing": "models",
     "Grade": "derivations.grading.grade_record",
     "InvalidInput": "models",
+    "LibraryMissing": "models",
     "NLegPendulum": "models",
     "Report": "reports",
     "RodChain": "models",
@@ -57,6 +58,7 @@ __all__ = [
     "EngineMissing",
     "Grade",
     "InvalidInput",
+    "LibraryMissing",
     "NLegPendulum",
     "Report",
     "RodChain",

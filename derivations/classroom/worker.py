@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import os
-import resource
 import signal
 import sys
 from typing import NoReturn
@@ -45,12 +44,21 @@ def answer_in(descriptor: int, problem: Problem, who: str, text: str) -> NoRetur
 
 
 def _limit() -> None:
+    if sys.platform == "win32":
+        return  # it has none of these; whoever called ends this process when its time is over
+    import resource
+
     resource.setrlimit(resource.RLIMIT_AS, (MEGABYTES << 20, MEGABYTES << 20))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
+def _alarm(seconds: int) -> None:
+    if sys.platform != "win32":
+        signal.alarm(seconds)
+
+
 def _assessed(problem: Problem, who: str, text: str) -> str:
-    signal.alarm(int(problem.seconds) + STUCK)
+    _alarm(int(problem.seconds) + STUCK)
     try:
         found = assess_text(problem, who, text)
     except MemoryError:
@@ -58,7 +66,7 @@ def _assessed(problem: Problem, who: str, text: str) -> str:
     except Exception as error:
         why = f"a mistake in furiko: {type(error).__name__}: {str(error)[:200]}"
         found = unread(problem, who, "not graded", why)
-    signal.alarm(0)
+    _alarm(0)
     return json.dumps(found.to_dict())
 
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from ...engines.model_files.robot import BoundRobot, RobotEngine, RobotReader
 from ...models import InvalidInput
+from ...models.errors import installing
 from ...models.readers.model_file import ModelFile, read_model
 from ...models.readers.rules import Rules, mistakes_in
 from ...models.spatial_mechanism import SpatialMechanism
@@ -86,7 +87,7 @@ def ask_robot(reader: RobotReader, question: Question) -> RobotAnswer:
         try:
             engine = reader.load(question.path, question.file.language, question.meshes)
         except ImportError as error:
-            return RobotAnswer(reader.name, "missing", f"pip install {reader.package} [{error}]")
+            return RobotAnswer(reader.name, "missing", f"{installing(reader.package)} [{error}]")
         except (ValueError, RuntimeError) as error:
             return _refused(reader, " ".join(str(error).split())[:LONGEST_MESSAGE])
         return _compared(reader, engine, question)

@@ -173,7 +173,7 @@ ROBOT_READERS: dict[str, RobotReader] = {
             "drake",
             ".robot_drake:DrakeRobot",
             "pydrake",
-            "furiko[drake]",
+            "drake",
             not_held=("stiffness", "friction"),
             leaves_to_caller=("stiffness",),
             mistakes={"mjcf": DRAKE_MJCF, "urdf": ("impossible_inertia_becomes_sphere", "drake_rotor_counted")},
