@@ -153,8 +153,8 @@ def _as_rounded(file: ModelFile, own: RobotAnswer | None) -> ModelFile:
     if own is None or own.rounded is None or file.planar is None:
         return file
     planar = planar_mechanism(hinged(own.rounded.bodies), own.rounded.gravity)
-    gravity = {"gravity": file.planar.gravity, "gravity_vector": file.planar.gravity_vector}  # of a scene, for a URDF
-    return replace(file, planar=replace(planar, **gravity))
+    old = file.planar  # whose gravity may be a scene's, for a URDF
+    return replace(file, planar=replace(planar, gravity=old.gravity, gravity_vector=old.gravity_vector))
 
 
 def _failed(name: str, reason: str) -> EngineResult:

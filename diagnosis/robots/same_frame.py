@@ -10,8 +10,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...models.spatial import ZERO_INERTIAL, Inertial, Pose, from_quaternion
-from ...models.spatial_mechanism import WORLD, RigidBody, SpatialMechanism
+from ...models.spatial import Inertial
+from ...models.spatial_mechanism import RigidBody, SpatialMechanism
 
 
 def moved_back(found: SpatialMechanism, expected: SpatialMechanism, reach: float) -> SpatialMechanism:
@@ -19,7 +19,7 @@ def moved_back(found: SpatialMechanism, expected: SpatialMechanism, reach: float
     they are, if that is exactly in their body's frame. Bodies are recognised by name."""
     if not reach:
         return found
-    said = {body.name: body.inertial for body in _fused(expected, found).bodies}
+    said = {body.name: body.inertial for body in expected.bodies}
     return replace(found, bodies=tuple(_moved_back(body, said.get(body.name), reach) for body in found.bodies))
 
 
@@ -33,24 +33,8 @@ def rounded(found: SpatialMechanism, expected: SpatialMechanism, reach: float) -
     """``expected`` with those inertials of ``found`` that are moved back: what an engine has that only rounds so."""
     kept = set(frames_kept(found, expected, reach))
     held = {body.name: body.inertial for body in found.bodies if body.name in kept}
-    fused = _fused(expected, found)
-    return replace(
-        expected, bodies=tuple(replace(body, inertial=held.get(body.name, body.inertial)) for body in fused.bodies)
-    )
-
-
-def _fused(mechanism: SpatialMechanism, like: SpatialMechanism) -> SpatialMechanism:
-    """The mechanism with the inertials of fixed bodies that ``like`` does not have on the body that carries them."""
-    known = {body.name for body in like.bodies}
-    inertials = [body.inertial for body in mechanism.bodies]
-    for i in reversed(range(len(inertials))):  # children are behind their parents
-        body = mechanism.bodies[i]
-        if body.parent != WORLD and not body.joints and body.name not in known:
-            pose = Pose(from_quaternion(body.quaternion), body.position)
-            inertials[body.parent] = inertials[body.parent] + inertials[i].transformed(pose)
-            inertials[i] = ZERO_INERTIAL
-    bodies = zip(mechanism.bodies, inertials, strict=True)
-    return replace(mechanism, bodies=tuple(replace(body, inertial=inertial) for body, inertial in bodies))
+    bodies = (replace(body, inertial=held.get(body.name, body.inertial)) for body in expected.bodies)
+    return replace(expected, bodies=tuple(bodies))
 
 
 def _moved_back(body: RigidBody, said: Inertial | None, reach: float) -> RigidBody:

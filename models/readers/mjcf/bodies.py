@@ -245,7 +245,7 @@ class Bodies:
         self.notes.unknown(given)
         full = given if given.tag == "freejoint" else self.defaults.applied(given, place.childclass)
         name = self._named(given, "joint")
-        joint = read_joint(full, given, place.frame, self.compiler, self.options)
+        joint = replace(read_joint(full, given, place.frame, self.compiler, self.options), name=name)
         if joint.kind == "free" and parent != WORLD:
             raise given.wrong("a free joint on a body that another one carries")
         self.elements[name] = given
