@@ -125,7 +125,7 @@ def mechanism_to_json(mechanism: Mechanism) -> dict[str, Any]:
     links = []
     for i, (link, hinge) in enumerate(zip(mechanism.links, mechanism.hinges, strict=True)):
         not_ideal = {
-            "stops" if name == "limits" else "stops" if name == "limits" else name: getattr(hinge, name)
+            "stops" if name == "limits" else name: getattr(hinge, name)
             for name in HINGE_NUMBERS
             if getattr(hinge, name) != getattr(ideal, name)
         }
@@ -136,8 +136,8 @@ def mechanism_to_json(mechanism: Mechanism) -> dict[str, Any]:
                 "on": mechanism.link_names[link.parent] if link.parent >= 0 else None,
                 "hinge": list(link.hinge),
                 "centre of mass": list(link.com),
-                "mass": link.mass,
-                "inertia": link.inertia,
+                "mass": float(link.mass),
+                "inertia": float(link.inertia),
                 **not_ideal,
             }
         )

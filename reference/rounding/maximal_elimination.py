@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...models import DocumentSystem
+from ...models.errors import library
 from ...models.tree import SUPPORT
 from ...models.units import Units, in_units, units_of
 from .. import mass_matrix
@@ -177,10 +178,8 @@ def _met(matrices: Array, orders: NDArray[np.intp]) -> Array:
 
 def _met_by_superlu(matrix: Array) -> Array:
     """|L||U| of SuperLU's own factors, rows and columns where they were, (5n, 5n)."""
-    from scipy.sparse import csc_array
-    from scipy.sparse.linalg import splu
-
-    found = splu(csc_array(matrix), permc_spec="COLAMD", diag_pivot_thresh=1.0)
+    superlu, sparse = library("scipy.sparse.linalg"), library("scipy.sparse")
+    found = superlu.splu(sparse.csc_array(matrix), permc_spec="COLAMD", diag_pivot_thresh=1.0)
     product = (abs(found.L) @ abs(found.U)).toarray()
     return np.asarray(product[np.ix_(found.perm_r, found.perm_c)])
 
