@@ -181,5 +181,7 @@ def test_what_squares_of_slow_rates_lose_is_rounding(make_cell, engine):
     system = NLegPendulum((2.7e36, 3.8e36, 3.2e36), (4.6e19, 3.1e18, 1.9e19), gravity=0.0)
     omega = (-3.460992552978651e-158, 8.88768517331926e-158, -3.0158355787265936e-157)
     cell = make_cell(engine, Scene("slow", system, (-0.03, 2.17, -1.3), omega))
-    for result in terms.compare(cell):
+    found = {result.check: result for result in terms.compare(cell) if result.outcome != "skipped"}
+    assert "terms velocity" in found
+    for result in found.values():
         assert (result.outcome, result.loose) == ("agrees", False), result
