@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from furiko.diagnosis.robots.fields import field_differences
+from furiko.models.readers.model_file import read_model
 from furiko.models.spatial import Inertial, Pose, from_quaternion, to_quaternion
 from furiko.models.spatial_mechanism import WORLD, Joint, RigidBody, SpatialMechanism
 
