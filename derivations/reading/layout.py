@@ -40,7 +40,7 @@ def laid_out(line: str) -> str:
     line = SQUARED.sub(lambda found: found["dotted"] + "}" + found["power"].ljust(_rest(found)), line)
     if "\\" not in line.replace("\\\\", "") or not re.search(r"\\[A-Za-z]", line):
         line = _matlab(line)
-    return STOP.sub(" ", line).rstrip()
+    return re.sub(r"(?<!\\)\\$", "", STOP.sub(" ", line).rstrip())  # of a blank that LaTeX has as a command
 
 
 def _rest(found: re.Match[str]) -> int:

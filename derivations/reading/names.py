@@ -91,9 +91,7 @@ def spelling(name: str, joined: bool = True) -> re.Pattern[str]:
         low = "_?".join(rest)
         forms.append(rf"\s*_\s*{low}{end}")
         # A Greek word or more letters than one: the backslash or the figure ends what stands before it
-        if joined:
-            forms.append(low + end)
-        elif word in GREEK or not rest[0].isalpha():
+        if joined or word in GREEK or not rest[0].isalpha():
             forms.append(low + end)
     if all(c in LOW for c in rest):
         forms.append("".join(LOW[c] for c in rest) + rf"(?![{LOWS}])")

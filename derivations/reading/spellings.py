@@ -13,7 +13,10 @@ ANGLE = (
     r"(?:\\(?:var)?(?:theta|phi)(?![A-Za-z])|\\(?:psi|alpha|beta|gamma)(?![A-Za-z])|theta|phi|psi|alpha|beta|gamma"
     r"|th(?![a-z])|[θϑφϕψαβγ𝜃]|(?<![A-Za-z\\])[qxyrst](?![A-Za-z]))"
 )
-INDEX = r"(?:\s*_\s*\{\s*[0-9A-Za-z]{1,3}\s*\}|_(?!dd?(?:ot)?(?![A-Za-z])|acc|vel)[0-9A-Za-z]|[0-9]{1,2}|[A-Z](?![A-Za-z])|[₀-₉]{1,2})?"
+INDEX = (
+    r"(?:\s*_\s*\{\s*[0-9A-Za-z]{1,3}\s*\}|_(?!dd?(?:ot)?(?![A-Za-z])|acc|vel)[0-9A-Za-z]|[0-9]{1,2}"
+    r"|[A-Z](?![A-Za-z])|[₀-₉]{1,2})?"
+)
 OF_TIME = r"(?:\(\s*t\s*\)|\{\s*\\left\s*\(\s*t\s*\\right\s*\)\s*\}|\\left\s*\(\s*t\s*\\right\s*\))"
 X = rf"(?P<x>{ANGLE}{INDEX})\s*{OF_TIME}?"
 BEHIND_D = rf"(?P<x>(?:{ANGLE}|[qxyrsz](?![A-Za-z])){INDEX})\s*{OF_TIME}?"

@@ -20,11 +20,11 @@ from ..steps.declared import Declared
 from ..steps.mechanism import Origin
 from .declaration import PRESETS, declared
 from .evaluation import Evaluation
+from .layout import equations_of, laid_out
 from .matrices import Grid, added
 from .meaning import Meaning, own_symbols
 from .names import base_and_index, plain_name
 from .parser import Slashes, parse_equation, parse_expression
-from .layout import equations_of, laid_out
 from .tokens import FULL_WIDTH, LONGEST_LINE
 from .typeset import Typesetter
 from .vocabulary import FUNCTIONS, Vocabulary, vocabulary

@@ -88,7 +88,8 @@ OPERATORS = {
 }  # fmt: skip
 COMMAND_OPERATORS = {"\\cdot": "*", "\\times": "*", "\\div": "/", "\\over": "over"}
 OPENING, CLOSING = {"(": ")", "[": "]", "{": "}"}, ")]}"
-# Full-width characters, as a Japanese keyboard types them, stand for their ASCII twins, and the dots ¨ ˙ for those that combine.
+# Full-width characters, as a Japanese keyboard types them, stand for their ASCII twins; the dots ¨ ˙ for
+# those that combine.
 FULL_WIDTH = {0xFF01 + i: 0x21 + i for i in range(94)} | {0x3000: 0x20, 0xA8: 0x308, 0x2D9: 0x307}
 
 

@@ -39,7 +39,9 @@ def test_a_box_around_a_row():
         row(r"\boxed{a1 = m2*g")
 
 
-@pytest.mark.parametrize("line", [r"a1 = \text{cos}(t1) + X", "a1 = ... as\n X", r"\boxed{a1 = X}", r"\overset{..}{y}+X"])
+@pytest.mark.parametrize(
+    "line", [r"a1 = \text{cos}(t1) + X", "a1 = ... as\n X", r"\boxed{a1 = X}", r"\overset{..}{y}+X"]
+)
 def test_columns_stay_those_of_what_was_written(line):
     assert laid_out(line).index("X") == line.index("X")
 
@@ -64,7 +66,7 @@ def test_matlabs_matrices_and_its_division():
     found = parse_submission(toml("n-leg", [r"[a1; a2] = A \ B"], links=2) + "\n" + MATLAB)
     plain = parse_submission(toml("n-leg", ["a1 = g/l1", "a2 = -g/l2 - l1*w1^2/l2"], links=2))
     assert [f for _, f in found.rows] == [f for _, f in plain.rows]
-    listed = toml("n-leg", ["[a1; a2] = H"], links=2) + "\n[define]\nH = \"[1, m1].'\""
+    listed = toml("n-leg", ["[a1; a2] = H"], links=2) + '\n[define]\nH = "[1, m1].\'"'
     assert [f for _, f in parse_submission(listed).rows] == [row("a1 = 1"), row("a2 = m1")]
 
 
