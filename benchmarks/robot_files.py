@@ -1,6 +1,6 @@
 """Diagnoses every robot file in folders or wheels, and counts: judged, refused and why, crashed, too slow.
 
-    python benchmarks/robot_files.py WHEEL_OR_FOLDER … [--out results.jsonl] [--limit N]
+    python benchmarks/robot_files.py WHEEL_OR_FOLDER … [--out results.jsonl] [--every N] [--first K]
 
 The wheels of the published sample are those of ``pip download --no-deps gymnasium==1.4.0 dm-control==1.0.50
 pybullet==3.2.7 example-robot-data==6.0.0 brax==0.14.2 drake==1.51.1``. Files with the same content are taken once; a
@@ -35,10 +35,11 @@ def main() -> None:
     parser.add_argument("--out", type=Path, help="one JSON document a file")
     parser.add_argument("--limit", type=int, default=0, help="no more than this many files")
     parser.add_argument("--every", type=int, default=1, help="only each so many-th file")
+    parser.add_argument("--first", type=int, default=0, help="from this one on, counted from 0")
     chosen = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         roots = [unpacked(source, Path(folder)) for source in chosen.sources]
-        files = [file for root in roots for file in model_files(root)][:: chosen.every]
+        files = [file for root in roots for file in model_files(root)][chosen.first :: chosen.every]
         rows = []
         for number, file in enumerate(files[: chosen.limit or None], 1):
             row = diagnosed(file)

@@ -12,14 +12,14 @@ import msgspec
 
 from ..engines.workers.messages import Send, Step
 from ..engines.workers.worker import one_line
-from ..models import AnyScene, System, TreeScene
+from ..models import AnyScene, EngineMissing, LibraryMissing, System, TreeScene
 from .check import Check
 from .plan import Task
 from .registry import CHECKS
 
 if TYPE_CHECKING:
     from ..engines import EngineInfo
-    from ..records.check import Diagnosis, Result
+    from ..records.check import Diagnosis, Outcome, Result
     from .causes import Causes
     from .cell import Cell
     from .trees.cell import TreeCell
@@ -138,6 +138,9 @@ class CellJob:
                 now = time.perf_counter()
                 yield msgspec.structs.replace(causes.named(result, check), seconds=now - begun)
                 begun = now
+        except LibraryMissing as error:
+            outcome: Outcome = "error" if isinstance(error, EngineMissing) else "skipped"
+            yield cell.result(check.name, outcome, reason=one_line(error))
         except Exception as error:
             details = {"traceback": traceback.format_exc()}
             yield cell.result(check.name, "error", reason=one_line(error), details=details)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from ..engines import EngineInfo, cannot, engine_info, engine_names, engine_version
 from ..models import AnyScene, InvalidInput, TreeScene, find_scenes
-from ..models.errors import nearest
+from ..models.errors import installing, nearest
 from ..records.check import Outcome, Result
 from .registry import CHECKS
 
@@ -102,7 +102,7 @@ def skip(check: str, scene: AnyScene, info: EngineInfo) -> str:
 
 def _absent(info: EngineInfo) -> str:
     installed = not info.package or engine_version(info.name)
-    return "" if installed else f"not installed: pip install {info.package}"
+    return "" if installed else f"not installed: {installing(info.package)}"
 
 
 def _settled(scene: AnyScene, info: EngineInfo, check: str, outcome: Outcome, reason: str) -> Result:

@@ -10,7 +10,16 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from .info import EngineInfo, Integrator, Quantity, TreeInfo, TreeQuantity
-from .registry import ENGINES, cannot, engine_info, engine_names, engine_version, load_engine, load_tree_engine
+from .registry import (
+    ENGINES,
+    cannot,
+    engine_info,
+    engine_names,
+    engine_version,
+    load_engine,
+    load_tree_engine,
+    untested,
+)
 
 if TYPE_CHECKING:
     from .protocol import BareCall, Engine, ModelFields, Native, TreeEngine
@@ -47,6 +56,7 @@ __all__ = [
     "engine_version",
     "load_engine",
     "load_tree_engine",
+    "untested",
 ]
 
 

@@ -64,6 +64,7 @@ class EngineInfo:
 
     * ``formulation``: a phrase that tells two adapters of one engine apart; ``adapter``: its class, ``module:Class``;
       ``module``: the module it imports; ``package``: the package to pip install; ``homepage``: its address.
+    * ``tested``: versions of the package that furiko was tested with, the latest last; empty: nothing is known of any.
     * ``integrators``: with a fixed step; ``adaptive``: names of schemes that choose their steps from a tolerance.
     * ``missing``: by name of each quantity that it cannot give, a sentence that says why.
     * ``tree``: what it does with open mechanisms; None: it takes the documents' alone.
@@ -111,3 +112,4 @@ class EngineInfo:
     algorithm: Literal["aba", "crba"] = "crba"
     inverse: Literal["rnea", "crba", "matrix"] = "matrix"
     tree: TreeInfo | None = None
+    tested: tuple[str, ...] = ()

@@ -6,7 +6,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 from ..models import EngineMissing, InvalidInput, System, TreeSystem
-from ..models.errors import nearest
+from ..models.errors import installing, nearest
 from .info import EngineInfo, Integrator, TreeInfo
 
 if TYPE_CHECKING:
@@ -25,6 +25,7 @@ _NOT_READ: Any = {
 _PINOCCHIO: dict[str, Any] = {
     "module": "pinocchio",
     "package": "pin",
+    "tested": ("4.1.0",),
     "homepage": "https://github.com/stack-of-tasks/pinocchio",
     "coordinates": "relative",
     "inverse": "rnea",
@@ -37,6 +38,7 @@ _PINOCCHIO: dict[str, Any] = {
 _EXUDYN: dict[str, Any] = {
     "module": "exudyn",
     "package": "exudyn",
+    "tested": ("1.13.6",),
     "homepage": "https://github.com/jgerstmayr/EXUDYN",
 }
 
@@ -49,6 +51,7 @@ ENGINES: dict[str, EngineInfo] = {
             adapter="furiko.engines.mujoco:Mujoco",
             module="mujoco",
             package="mujoco",
+            tested=("3.3.7", "3.17.0", "4.0.0"),
             homepage="https://github.com/google-deepmind/mujoco",
             coordinates="relative",
             inverse="crba",
@@ -174,6 +177,14 @@ def engine_version(name: str) -> str:
         return ""
 
 
+def untested(info: EngineInfo) -> str:
+    """A sentence where the installed version of an engine is none that furiko was tested with; else empty."""
+    version = engine_version(info.name)
+    if not version or not info.tested or version in info.tested:
+        return ""
+    return f"{info.package} {version} is none of the versions that furiko was tested with ({', '.join(info.tested)})"
+
+
 def cannot(info: EngineInfo, system: System | TreeSystem) -> str | None:
     """A sentence on why an engine cannot take a system; None where it can."""
     if system.n > info.largest_n:
@@ -239,7 +250,7 @@ def _require(info: EngineInfo) -> None:
     """Import the engine's own module. Raises :class:`EngineMissing` with how to install it."""
     if not info.module:
         return
-    advice = f"{info.name} needs the package {info.package!r}: pip install {info.package}"
+    advice = f"{info.name} needs the package {info.package!r}: {installing(info.package)}"
     if info.package == "pin":
         advice += " (on PyPI Pinocchio is 'pin'; the package called 'pinocchio' there is an unrelated one)"
     try:

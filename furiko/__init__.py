@@ -11,12 +11,14 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .derivations.audit.audit import audit
-    from .derivations.grading.grade import grade, grade_text
+    from .derivations.classroom.assess import Assessment
+    from .derivations.classroom.in_python import grade_text
+    from .derivations.grading.grade import grade
     from .derivations.grading.grade_record import Grade
     from .diagnosis.model_files.diagnose import diagnose
     from .diagnosis.model_files.result import Diagnosis
     from .engines import engine_names, load_engine
-    from .models import EngineMissing, InvalidInput, NLegPendulum, RodChain, to_mjcf, to_urdf
+    from .models import EngineMissing, InvalidInput, LibraryMissing, NLegPendulum, RodChain, to_mjcf, to_urdf
     from .reference.integration.taylor import simulate
     from .reference.kernels.energy import energy
     from .reference.kernels.forward_dynamics import accelerations
@@ -26,10 +28,12 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _HOMES = {
+    "Assessment": "derivations.classroom.assess",
     "Diagnosis": "diagnosis.model_files.result",
     "EngineMissing": "models",
     "Grade": "derivations.grading.grade_record",
     "InvalidInput": "models",
+    "LibraryMissing": "models",
     "NLegPendulum": "models",
     "Report": "reports",
     "RodChain": "models",
@@ -40,7 +44,7 @@ _HOMES = {
     "energy": "reference.kernels.energy",
     "engine_names": "engines",
     "grade": "derivations.grading.grade",
-    "grade_text": "derivations.grading.grade",
+    "grade_text": "derivations.classroom.in_python",
     "load_engine": "engines",
     "read_stream": "reports",
     "simulate": "reference.integration.taylor",
@@ -49,10 +53,12 @@ _HOMES = {
 }
 
 __all__ = [
+    "Assessment",
     "Diagnosis",
     "EngineMissing",
     "Grade",
     "InvalidInput",
+    "LibraryMissing",
     "NLegPendulum",
     "Report",
     "RodChain",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -19,6 +20,7 @@ from .models import (
     find_document_scene,
     find_scene,
 )
+from .models.errors import installing
 from .records import provenance
 from .records.bench import Bench, Motion, Sharpness, Skip, Speed
 from .studies.bench.scenes import BENCHMARKS
@@ -153,12 +155,12 @@ def _engines(given: Sequence[str] | None) -> list[str]:
     for name in given:
         info = engine_info(name)
         if info.package and not engine_version(name):
-            raise EngineMissing(f"{name} needs the package {info.package!r}: pip install {info.package}")
+            raise EngineMissing(f"{name} needs the package {info.package!r}: {installing(info.package)}")
     return list(dict.fromkeys(given))
 
 
 def _processors() -> int:
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count() or 1
 
 
 def _threads() -> dict[str, str]:

@@ -15,9 +15,10 @@ from .checks.imported_ahead import MODULES
 from .checks.ledger import Ledger
 from .checks.plan import Plan, make_plan, random_states
 from .checks.runner import TIMEOUT, run
-from .engines import engine_version
+from .engines import EngineInfo, engine_version, untested
 from .engines.workers.processes import Workers, worker_processes
-from .models import AnyScene, InvalidInput, TreeScene, catalogue
+from .models import AnyScene, EngineMissing, InvalidInput, TreeScene, catalogue
+from .models.errors import installing, installing_all
 from .records import provenance
 from .records.check import Diagnosis, EngineEntry, Footer, Header, Result, SceneEntry
 from .reports import Report, StreamWriter, footer_of, open_report, prepare_reports, write_reports
@@ -54,12 +55,14 @@ def check(
     ``use_cache``: take results of an earlier run with the very same inputs; ``source``: workers started ahead;
     ``watch`` is called with each result as it comes.
 
-    Raises :class:`furiko.InvalidInput` for unknown names and bad files, before anything runs, and
-    :class:`ReportNotWritten` at the end of a run whose files could not all be written.
+    Raises :class:`furiko.InvalidInput` for unknown names and bad files, :class:`furiko.EngineMissing` where none of the
+    engines is installed, before anything runs, and :class:`ReportNotWritten` at the end of a run whose files could not
+    all be written.
     """
     begun = time.monotonic()
     given = None if scenes is None else [str(scene) for scene in scenes]
     plan = make_plan(given, engines, profile)
+    _require_an_engine(plan.engines)
     cache = user_cache() if use_cache else Cache(None)
     results: list[Result] = []
     unwritten: list[str] = []
@@ -95,6 +98,16 @@ def check(
     if unwritten:
         raise ReportNotWritten("; ".join(unwritten), report)
     return report
+
+
+def _require_an_engine(engines: Sequence[EngineInfo]) -> None:
+    """Raise :class:`EngineMissing` where none of the engines is installed: nothing could be compared."""
+    packages = list(dict.fromkeys(info.package for info in engines))
+    if not engines or not all(packages) or any(engine_version(info.name) for info in engines):
+        return
+    commands = [installing(package) for package in packages]
+    every = f"; {installing_all()} installs every one" if len(packages) > 1 else ""
+    raise EngineMissing(f"no engine to check is installed: {' or '.join(commands)}{every}")
 
 
 def _written(write: Callable[[R], R], record: R, unwritten: list[str]) -> R:
@@ -147,6 +160,7 @@ def make_header(plan: Plan, given: Sequence[str] | None, engines: Sequence[str] 
                 formulation=info.formulation,
                 package=info.package,
                 version=engine_version(info.name),
+                untested=untested(info),
                 asked=engines is not None,
             )
             for info in plan.engines

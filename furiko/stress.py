@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 from . import __version__
 from .engines import EngineInfo, engine_info, engine_names, engine_version
 from .models import EngineMissing, InvalidInput
+from .models.errors import installing
 from .models.writers.whole_file import make_folder
 from .records import provenance
 from .records.check import EngineEntry, Header
@@ -143,7 +144,7 @@ def make_plan(
     infos = [replace(engine_info(name), name=name) for name in names if name not in OWN]
     missing = [info for info in infos if info.package and not engine_version(info.name)]
     if missing and engines is not None:
-        raise EngineMissing(f"{missing[0].name}: not installed: pip install {missing[0].package}")
+        raise EngineMissing(f"{missing[0].name}: not installed: {installing(missing[0].package)}")
     infos = [info for info in infos if info not in missing]
     searches = make_searches(ladders, infos, own, seed=seed, families=families, long_steps=long_steps)
     if not searches:

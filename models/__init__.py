@@ -3,7 +3,7 @@
 May import nothing else of furiko: everything else rests on it.
 """
 
-from .errors import EngineMissing, InvalidInput
+from .errors import EngineMissing, InvalidInput, LibraryMissing
 from .scene import (
     AnyScene,
     Scene,
@@ -26,6 +26,7 @@ __all__ = [
     "DocumentSystem",
     "EngineMissing",
     "InvalidInput",
+    "LibraryMissing",
     "Link",
     "NLegPendulum",
     "PlanarTree",

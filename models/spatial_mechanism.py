@@ -78,7 +78,8 @@ class RigidBody:
 
     ``position`` (3,) [m] and ``quaternion`` (4,) (w, x, y, z), of any length but zero: in the parent's frame, in the
     reference configuration. No joint: fixed to the parent. ``inertial``: in the body's own frame. ``where``: its place
-    in the file, for messages.
+    in the file, for messages. ``meshes`` [kg m²]: the largest moments of inertia of the meshes that it is weighed by,
+    added up; engines that keep a mesh in its principal axes know these to so many digits only.
     """
 
     name: str
@@ -88,6 +89,7 @@ class RigidBody:
     joints: tuple[Joint, ...] = ()
     inertial: Inertial = ZERO_INERTIAL
     where: str = ""
+    meshes: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -89,7 +89,8 @@ def in_units(tree: PlanarTree, units: Units) -> PlanarTree:
         )
         for link in tree.links
     )
-    return PlanarTree(links, tree.gravity / units.acceleration)
+    # One by one: the unit of acceleration itself may be below all numbers.
+    return PlanarTree(links, tree.gravity / units.length * units.time * units.time)
 
 
 def _over(point: tuple[float, float], unit: float) -> tuple[float, float]:

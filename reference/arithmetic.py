@@ -15,6 +15,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..models.errors import library
+
 Array = NDArray[Any]
 
 
@@ -170,7 +172,7 @@ def balls() -> Arithmetic:
 
 def sympy_arithmetic() -> Arithmetic:
     """sympy expressions; floats become the rational numbers that they are."""
-    import sympy
+    sympy = library("sympy")
 
     def number(x: Any) -> Any:
         return sympy.Rational(x) if isinstance(x, float) else sympy.sympify(x)
@@ -180,7 +182,7 @@ def sympy_arithmetic() -> Arithmetic:
 
 def heyoka_arithmetic() -> Arithmetic:
     """heyoka expressions; numbers become quadruple precision constants."""
-    import heyoka
+    heyoka = library("heyoka")
 
     def number(x: Any) -> Any:
         return x if isinstance(x, heyoka.expression) else heyoka.expression(heyoka.real128(x))

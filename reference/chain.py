@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..models import InvalidInput, RodChain
+from ..models.errors import library
 from .documents.equations_of_motion import energies
 from .integration.schemes import classical_step
 from .truth.closed_forms import hanging_chain_rates
@@ -40,20 +41,15 @@ def small_swings(n: int, links: Links, count: int, length: float = LENGTH, gravi
     """Angular rates [rad/s] of the ``count`` ≤ n slowest small swings of n equal links, rising."""
     mass, stiffness = matrices(n, links, length, gravity)
     if n <= DENSE:
-        from scipy.linalg import eigh
-
-        squares = eigh(_full(stiffness), _full(mass), eigvals_only=True)[:count]
+        squares = library("scipy.linalg").eigh(_full(stiffness), _full(mass), eigvals_only=True)[:count]
     else:
-        from scipy.sparse import diags_array
-        from scipy.sparse.linalg import eigsh
-
+        sparse, solver = library("scipy.sparse"), library("scipy.sparse.linalg")
         M, K = (
-            # scipy has no types: the one of its default, 0, is taken for the only one.
-            diags_array([band[1][1:], band[0], band[1][1:]], offsets=[-1, 0, 1]).tocsc()  # pyright: ignore[reportArgumentType]
+            sparse.diags_array([band[1][1:], band[0], band[1][1:]], offsets=[-1, 0, 1]).tocsc()
             for band in (mass, stiffness)
         )
         start = np.linspace(0, 1, n)  # fixed: the solver's own would be random
-        squares = np.sort(eigsh(K, k=count, M=M, sigma=0, v0=start, tol=0, return_eigenvectors=False))
+        squares = np.sort(solver.eigsh(K, k=count, M=M, sigma=0, v0=start, tol=0, return_eigenvectors=False))
     return np.asarray(np.sqrt(squares))
 
 

@@ -6,7 +6,7 @@ same in ball arithmetic, computed another way, and the tests hold one against th
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -28,6 +28,10 @@ class Motion:
     linear: Array
     axis: Array
     pivot: Array
+
+    def of_state(self, row: int) -> Motion:
+        """One of the states, as a batch of one."""
+        return Motion(*(getattr(self, part.name)[row : row + 1] for part in fields(self)))
 
 
 def motion(mechanism: SpatialMechanism, q: Array, v: Array) -> Motion:

@@ -10,7 +10,7 @@ from typing import Literal
 from ..records.check import Result
 from ..records.exit_status import AGREES, DIFFERS, INCOMPLETE
 from .report import Report
-from .words import count, figure, one_line, word
+from .words import count, few, figure, one_line, word
 
 # ! agreed, or was missing, and now differs or fails     * differed or failed and now agrees
 # + error grew     - error shrank     x bound or unit changed, so the errors cannot be compared
@@ -30,7 +30,7 @@ BAD = ("differs", "error")
 FACTOR = 2.0  # two machines, or two orders of summation, may change an error by this factor with nothing wrong
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Change:
     """One comparison in both runs; ``before`` or ``after`` is None where that run does not have it."""
 
@@ -67,10 +67,52 @@ class Comparison:
 
     @cached_property
     def exit_status(self) -> int:
-        """0: nothing broke; 1: something differs or fails now that did not before; 3: a run is incomplete."""
-        if self.marked("!"):
+        """0: nothing got worse; 1: something differs or fails now that did not before, or its error grew; 3: a run is
+        incomplete."""
+        if self.marked("!", "+"):
             return DIFFERS
         return AGREES if self.before.complete and not self.after.flaws else INCOMPLETE
+
+    @cached_property
+    def circumstances(self) -> tuple[tuple[str, str, str], ...]:
+        """What else changed, engine and library versions, furiko, machine: what, in the first run, in the second."""
+        old, new = self.before.header, self.after.header
+        versions = [
+            (f"{engine.name} ({engine.package})", there.version or "not installed", engine.version or "not installed")
+            for engine in new.engines
+            if (there := self.before.engine(engine.name)) is not None
+        ]
+        packages = {engine.package for engine in (*old.engines, *new.engines)}
+        names = [name for name in new.versions if name in old.versions and name not in packages]
+        found = [
+            ("furiko", old.furiko, new.furiko),
+            ("profile", old.profile, new.profile),
+            *versions,
+            *((name, old.versions[name], new.versions[name]) for name in names),
+            *((name, old.machine[name], new.machine[name]) for name in new.machine if name in old.machine),
+        ]
+        return tuple(item for item in found if item[1] != item[2])
+
+    @cached_property
+    def not_looked_at(self) -> frozenset[Change]:
+        """What only the first run has because the second was asked for less: fewer scenes or engines, or a profile that
+        has no such check. Within what both were asked for, a comparison that is gone has disappeared."""
+        old, new = self.before.header, self.after.header
+        scenes = {scene.name for scene in old.scenes} - {scene.name for scene in new.scenes}
+        engines = {engine.name for engine in old.engines} - {engine.name for engine in new.engines}
+        checks = {result.comparison for result in self.before.results} - {r.comparison for r in self.after.results}
+        checks = checks if old.profile != new.profile else set()
+        return frozenset(
+            change
+            for change in self.marked("<")
+            if change.result.scene in scenes or change.result.engine in engines or change.result.comparison in checks
+        )
+
+    def _narrower(self) -> str:
+        left = [change.result for change in self.not_looked_at]
+        scenes = few((result.scene for result in left), "scene")
+        engines = few((result.engine for result in left), "engine")
+        return f"{count(len(left), 'comparison')} not looked at in the second run: {scenes} × {engines}"
 
     def text(self) -> str:
         """One line for each change, under headings; unchanged comparisons are only counted."""
@@ -79,11 +121,14 @@ class Comparison:
             for name, run in (("first", self.before), ("second", self.after))
             for flaw in run.flaws
         ]
+        lines += [f"other {what}: {one_line(old)} → {one_line(new)}" for what, old, new in self.circumstances]
         for mark, says in SAYS.items():
-            found = self.marked(mark)
+            found = [change for change in self.marked(mark) if mark != "<" or change not in self.not_looked_at]
             if found:
                 lines += [f"{says} ({len(found)})", *(f"  {mark} {_line(change)}" for change in found), ""]
-        tally = Counter(change.mark for change in self.changes)
+        if self.not_looked_at:
+            lines += [self._narrower(), ""]
+        tally = Counter(change.mark for change in self.changes if change not in self.not_looked_at)
         said = [f"{tally[mark]} {says}" for mark, says in SAYS.items() if tally[mark]]
         return "\n".join([*lines, "; ".join([*said, f"{count(tally[' '], 'comparison')} unchanged"]) + "."])
 

@@ -7,15 +7,15 @@ write to a file that only this process has open for writing, so that lines of tw
 
 from __future__ import annotations
 
-import fcntl
 import os
 from pathlib import Path
 from types import TracebackType
 from typing import BinaryIO
 
 from ..models.errors import InvalidInput
-from ..models.readers.bounded_file import open_regular, shown
+from ..models.readers.bounded_file import RAW, open_regular, shown
 from ..records.check import Header, Result
+from .locking import lock
 from .report import Report
 from .stream import LARGEST_STREAM, StreamWriter, read_stream
 from .words import word
@@ -72,7 +72,7 @@ class Journal:
         """
         with self._open() as file:
             try:
-                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                lock(file.fileno())
             except BlockingIOError:
                 raise InvalidInput(
                     f"{self.path}: another run is writing it; give this one a folder of its own"
@@ -133,9 +133,9 @@ class _Appending(StreamWriter):
 
     def __enter__(self) -> StreamWriter:
         try:
-            descriptor = os.open(self.path, os.O_WRONLY | os.O_APPEND | os.O_CLOEXEC)
+            descriptor = os.open(self.path, os.O_WRONLY | os.O_APPEND | RAW)
             self._file = os.fdopen(descriptor, "ab", buffering=0)
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            lock(descriptor)
             self._size = self.path.stat().st_size
             self._seal.update(self.path.read_bytes())
         except OSError as error:

@@ -7,10 +7,10 @@ and no infinity: a figure that is not finite is written as null, and the result'
 
 from __future__ import annotations
 
-import fcntl
 import hashlib
 import math
 import os
+import sys
 from collections import Counter
 from collections.abc import Iterator
 from io import FileIO
@@ -21,10 +21,11 @@ from typing import Any, BinaryIO
 import msgspec
 
 from ..models.errors import InvalidInput
-from ..models.readers.bounded_file import open_regular, shown
+from ..models.readers.bounded_file import RAW, open_regular, shown
 from ..records.check import FORMAT, Diagnosis, Footer, Header, Record, Result
 from ..records.findings import Difference
 from ..records.printable import without_surrogates
+from .locking import lock
 from .report import Report
 from .words import Word, word
 
@@ -270,11 +271,12 @@ def _told(error: Exception) -> str:
 def _alone(path: Path) -> FileIO:
     """Open the file, empty, so that only this process writes it until it closes it."""
     # a pipe without a reader is an error, and is not waited for
-    descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC | os.O_NONBLOCK, 0o666)
-    os.set_blocking(descriptor, True)
+    descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | RAW, 0o666)
+    if sys.platform != "win32":
+        os.set_blocking(descriptor, True)
     file = FileIO(descriptor, "wb")
     try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        lock(descriptor)
         if path.is_file():  # a device or a pipe has nothing to empty
             os.ftruncate(descriptor, 0)
     except BaseException:

@@ -81,7 +81,7 @@ def scalings(given: Terms, right: Terms) -> list[Scaled]:
 def row_differences(s: Submission, mechanism: Mechanism) -> tuple[WrongTerm, ...]:
     """The wrong terms of all rows, each row at the factor that accuses fewest."""
     return tuple(
-        _finding(s, scaled, key, label, f"Row {label}", f"第{label}行")
+        term_finding(s, scaled, key, label, f"Row {label}", f"第{label}行")
         for label, scaled in aligned(s, mechanism)
         for key in scaled.wrong
     )
@@ -122,9 +122,8 @@ def lagrangian_differences(s: Submission, mechanism: Mechanism) -> tuple[tuple[W
     """The wrong terms of a Lagrangian in the scale that leaves most of it right; other scales are said in a note."""
     assert s.lagrangian is not None
     space = s.space
-    given, right = (_without_constants(terms(space, f, apart=True)) for f in (s.lagrangian, mechanism.lagrangian))
-    best, *others = scalings(given, right)
-    findings = tuple(_finding(s, best, key, "", "The Lagrangian", "ラグランジアン") for key in best.wrong)
+    best, *others = lagrangian_scalings(space, s.lagrangian, mechanism.lagrangian)
+    findings = tuple(term_finding(s, best, key, "", "The Lagrangian", "ラグランジアン") for key in best.wrong)
     notes: list[Said] = []
     if best.factor != CONSTANT_ONE:
         size = pretty(text(space, best.factor))
@@ -142,11 +141,18 @@ def lagrangian_differences(s: Submission, mechanism: Mechanism) -> tuple[tuple[W
     return findings, notes
 
 
-def _without_constants(parts: Terms) -> Terms:
+def lagrangian_scalings(space: Space, lagrangian: Formula, right: Formula) -> list[Scaled]:
+    """A Lagrangian beside the right one at each scale; what is constant counts in neither."""
+    return scalings(*(without_constants(terms(space, f, apart=True)) for f in (lagrangian, right)))
+
+
+def without_constants(parts: Terms) -> Terms:
+    """Without what neither moves nor turns."""
     return {key: f for key, f in parts.items() if key[0] or key[1]}
 
 
-def _finding(s: Submission, scaled: Scaled, key: Term, label: str, where: str, wo: str) -> WrongTerm:
+def term_finding(s: Submission, scaled: Scaled, key: Term, label: str, where: str, wo: str) -> WrongTerm:
+    """One term that differs, as a record. ``where``, ``wo``: of what, in English and Japanese."""
     found, expected = scaled.given.get(key, NOTHING), scaled.expected.get(key, NOTHING)
     code, english, japanese = difference(found, expected, s.space)
     name = authors(s, _shown(s, key, CONSTANT_ONE)) if any(key[:2]) else "the constant"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,7 +11,7 @@ from ...models.errors import InvalidInput
 from ...models.readers.bounded_file import read_text, shown
 from ..algebra.fingerprint import RandomPoint
 from ..reading.pinned import Pinned
-from ..reading.submission import LARGEST_FILE, Submission, parse_submission
+from ..reading.submission import LARGEST_FILE, Submission, read_table, table_of
 from ..steps.families import family
 from .differences import row_differences
 from .grade_record import Grade, Verdict
@@ -35,19 +36,33 @@ def grade(source: str | os.PathLike[str], *, pinned: Pinned | None = None) -> Gr
 
 def grade_text(toml: str, *, pinned: Pinned | None = None) -> Grade:
     """Grade the text of such a file."""
-    first = parse_submission(toml)
-    if pinned is not None:
-        pinned.check(first)
-    readings = [(first, judge(first, pinned=pinned is not None))]
+    data = table_of(toml)
+
+    def read(slashes: int) -> Submission:
+        s = read_table(data, slashes)
+        if pinned is not None:
+            pinned.check(s)
+        return s
+
+    return graded(read, pinned=pinned is not None)[0]
+
+
+def graded(read: Callable[[int], Submission], *, pinned: bool) -> tuple[Grade, Submission]:
+    """The grade of a derivation, and the derivation as it was read then.
+
+    ``read``: reads it, with slashes as in :class:`Slashes`; ``pinned``: nothing is assumed.
+    """
+    first = read(0)
+    readings = [(first, judge(first, pinned=pinned))]
     if first.doubtful and readings[0][1].hypothesis is None:
         for mode in (1, 2, 3):
-            s = parse_submission(toml, mode)
-            readings.append((s, judge(s, pinned=pinned is not None)))
+            s = read(mode)
+            readings.append((s, judge(s, pinned=pinned)))
     right = [(s, j) for s, j in readings if j.hypothesis is not None]
     if right:
         s, judgement = min(right, key=lambda pair: len(pair[1].assumes))
-        return _right(s, judgement, slashes=s is not first)
-    return wrong(first, pinned=pinned is not None)
+        return _right(s, judgement, slashes=s is not first), s
+    return wrong(first, pinned=pinned), first
 
 
 def _right(s: Submission, judgement: Judgement, *, slashes: bool) -> Grade:

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
+from html import escape
 from typing import Any, Literal
+
+from ..algebra.mathml import mathml
+from ..algebra.notation import pretty
 
 Verdict = Literal["correct", "wrong", "undecided"]
 EXIT_STATUS: dict[Verdict, int] = {"correct": 0, "wrong": 1, "undecided": 1}
@@ -86,6 +90,10 @@ class Grade:
         """0 when correct, 1 otherwise."""
         return EXIT_STATUS[self.verdict]
 
+    def _repr_html_(self) -> str:
+        """For a notebook: the mathematics as MathML, and all that was written escaped."""
+        return _html(self)
+
     def text(self, language: Literal["en", "ja"] = "en") -> str:
         """For a terminal."""
         return _english(self) if language == "en" else _japanese(self)
@@ -162,3 +170,26 @@ STAGES_JA = {
     "momentum": "ラグランジアンの微分", "derivative": "ラグランジアンの微分", "force": "力", "moment": "モーメント",
     "equation": "運動方程式", "matrix": "行列形",
 }  # fmt: skip
+
+
+def _html(grade: Grade) -> str:
+    """What was read, the verdict, and each wrong term."""
+    r = grade.reading
+    head = {"correct": "Correct.", "wrong": "Wrong.", "undecided": "Undecided."}[grade.verdict]
+    if grade.assumes and grade.verdict == "correct":
+        head = f"Right if {'; and if '.join(grade.assumes)}."
+    parts = [f"<p><strong>{escape(head)}</strong></p>"]
+    if r.mechanism:
+        parts.insert(0, f"<p>Read: {escape(r.mechanism)}; {escape(r.angles)}.</p>")
+        rows = "".join(f"<li>{escape(label)}: {mathml(line)}</li>" for label, line in r.equations)
+        parts.insert(1, f"<ul>{rows}</ul>")
+    said = [m.says for m in grade.mistakes] + ([f"Right for {grade.right_for}."] if grade.right_for else [])
+    said += list(grade.notes)
+    parts += [f"<p>{escape(line)}</p>" for line in said]
+    terms = "".join(
+        f"<li>{escape(f.says)} Found {mathml(pretty(f.found))}, expected {mathml(pretty(f.expected))}.</li>"
+        for f in grade.findings
+    )
+    if terms:
+        parts.append(f"<ul>{terms}</ul>")
+    return "".join(parts)

@@ -14,7 +14,6 @@ from ..algebra.multiples import is_multiple
 from ..algebra.trig import COS, Formula, Key, Space, constant
 from ..reading.submission import Submission
 from ..steps.derivation import lagrange_rows
-from .fitted_values import fitted
 from .hypotheses import MOST_LINKS_FREE, Hypothesis, Said, absent, hypotheses, simple_values, value_words
 
 MOST_FITTED = 4  # links; nobody writes numbers for more
@@ -117,6 +116,8 @@ def _specials(court: Judge, h: Hypothesis) -> Iterator[Hypothesis]:
         yield _special(h, space, values)
     likely = h.convention == s.convention or space.n <= MOST_FITTED_ANYHOW
     if likely and len(court.given(h).lines) == space.n <= MOST_FITTED:
+        from .fitted_values import fitted  # numpy, which a first verdict need not wait for
+
         fixed, unknown = _fixed(s, places)
         free = [p for p in places if p not in fixed]
         found = fitted(space, [*_given_rows(court, h)], h.mechanism.rows, free, fixed) if free else fixed

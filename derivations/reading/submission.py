@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -90,6 +90,17 @@ class Submission:
         """Whether its angles are measured from the link above."""
         return self.convention.relative
 
+    def renamed(self, places: dict[int, int]) -> Submission:
+        """The same with one symbol in place of another: all lengths, or all masses, are equal."""
+        space, n = self.space, self.space.n
+        rows = tuple((label, space.rename(f, places)) for label, f in self.rows)
+        lagrangian = None if self.lagrangian is None else space.rename(self.lagrangian, places)
+        return replace(
+            self, rows=rows, lagrangian=lagrangian,
+            equal_lengths=self.equal_lengths or 2 * n + 1 in places,
+            equal_masses=self.equal_masses or 3 * n + 1 in places,
+        )  # fmt: skip
+
     @property
     def symbols(self) -> Symbols:
         """The documents' mechanism that is nearest."""
@@ -109,12 +120,32 @@ def read_submission(source: str | os.PathLike[str]) -> Submission:
 
 def parse_submission(text: str, slashes: int = 0) -> Submission:
     """Read the text of such a file. ``slashes``: how 3g/2l is read, as in :class:`Slashes`."""
+    return read_table(table_of(text), slashes)
+
+
+def table_of(text: str) -> dict[str, Any]:
+    """The fields of such a text, as they stand there. Raises InvalidInput where it is too long, or no TOML."""
     if len(text) > LARGEST_FILE:
         raise InvalidInput(f"longer than {LARGEST_FILE} characters; a derivation is not")
-    data = parse_toml(text)
+    return parse_toml(text)
+
+
+def read_table(data: dict[str, Any], slashes: int = 0) -> Submission:
+    """Read the fields of a derivation."""
     for name in data:
         if name not in FIELDS:
             raise InvalidInput(f"{name!r:.40}: no such field{nearest(name, FIELDS)}; known are {', '.join(FIELDS)}")
+    reader = opened(data, slashes)
+    has_equations, has_lagrangian = "equations" in data, "lagrangian" in data
+    if has_equations == has_lagrangian:
+        raise InvalidInput('give either [equations], one row each, or lagrangian = "…"')
+    rows = reader.rows(data["equations"]) if has_equations else ()
+    lagrangian = reader.lagrangian(data["lagrangian"]) if has_lagrangian else None
+    return reader.submission(rows, lagrangian)
+
+
+def opened(data: dict[str, Any], slashes: int = 0) -> Reader:
+    """A reader for the lines of these fields: mechanism, convention and the file's own names are read."""
     own = declared(data)
     kind, n = _system(data) if own is None else ("mechanism", len(own[0].bodies))
     convention = _convention(data, n)
@@ -127,25 +158,13 @@ def parse_submission(text: str, slashes: int = 0) -> Submission:
     else:
         mechanism, symbols, words = own
         meaning = Meaning(kind, mechanism.space, symbols)
-    reading = _Reading(meaning, words, Slashes(slashes))
-    reading.define(defined)
-    has_equations, has_lagrangian = "equations" in data, "lagrangian" in data
-    if has_equations == has_lagrangian:
-        raise InvalidInput('give either [equations], one row each, or lagrangian = "…"')
-    rows = reading.rows(data["equations"]) if has_equations else ()
-    lagrangian = reading.lagrangian(data["lagrangian"]) if has_lagrangian else None
-    for letter in "lm" if n > 1 else "":
-        indices = {index for used, index in meaning.used if used == letter}
-        if 0 in indices and len(indices) > 1:
-            raise InvalidInput(f"both {letter} and {letter}{max(indices)} are used; say what {letter} is, "
-                               f"or give every {letter} its index")  # fmt: skip
-    return Submission(
-        kind, meaning.space, rows, lagrangian, convention,
-        frozenset(name for name in ("angles", "from", "sense") if name in data), frozenset(meaning.used),
-        meaning.equal_lengths, meaning.equal_masses, tuple(reading.lines),
-        tuple(dict.fromkeys(reading.doubtful)), words,
-        tuple(reading.defined), "\n".join(_texts(data)), None if own is None else own[0],
+    reader = Reader(
+        meaning, words, Slashes(slashes), convention,
+        frozenset(name for name in ("angles", "from", "sense") if name in data), "\n".join(_texts(data)),
+        None if own is None else own[0],
     )  # fmt: skip
+    reader.define(defined)
+    return reader
 
 
 def _system(data: dict[str, Any]) -> tuple[str, int]:
@@ -181,8 +200,9 @@ def _convention(data: dict[str, Any], n: int) -> Convention:
 
 def _texts(data: dict[str, Any]) -> Iterable[str]:
     """All lines of mathematics in a file."""
-    for table in (data.get("define"), data.get("equations")):
-        entries = table.values() if isinstance(table, dict) else table if isinstance(table, list) else ()
+    for table in ("define", "equations"):
+        found = data.get(table)
+        entries = found.values() if isinstance(found, dict) else found if isinstance(found, list) else ()
         yield from (entry.translate(FULL_WIDTH) for entry in entries if isinstance(entry, str))
     if isinstance(data.get("lagrangian"), str):
         yield LAGRANGIAN.sub("", data["lagrangian"]).translate(FULL_WIDTH)
@@ -193,16 +213,34 @@ LAGRANGIAN = re.compile(
 )
 
 
-class _Reading:
+class Reader:
     """The lines of one file, read one after another."""
 
-    def __init__(self, meaning: Meaning, words: Vocabulary, slashes: Slashes) -> None:
+    def __init__(
+        self, meaning: Meaning, words: Vocabulary, slashes: Slashes, convention: Convention, stated: frozenset[str],
+        source: str, mechanism: Declared | None,
+    ) -> None:  # fmt: skip
         self.evaluation = Evaluation(meaning)
         self.words, self.slashes = words, slashes
+        self.convention, self.stated, self.source, self.mechanism = convention, stated, source, mechanism
         self.lines: list[tuple[str, str]] = []
         self.defined: list[tuple[str, str]] = []
         self.doubtful: list[str] = []
         self.typesetter = Typesetter(words)
+
+    def submission(self, rows: tuple[tuple[str, Formula], ...], lagrangian: Formula | None) -> Submission:
+        """These rows, or this Lagrangian, as a derivation; after all lines have been read."""
+        meaning = self.evaluation.meaning
+        for letter in "lm" if meaning.space.n > 1 else "":
+            indices = {index for used, index in meaning.used if used == letter}
+            if 0 in indices and len(indices) > 1:
+                raise InvalidInput(f"both {letter} and {letter}{max(indices)} are used; say what {letter} is, "
+                                   f"or give every {letter} its index")  # fmt: skip
+        return Submission(
+            meaning.kind, meaning.space, rows, lagrangian, self.convention, self.stated, frozenset(meaning.used),
+            meaning.equal_lengths, meaning.equal_masses, tuple(self.lines), tuple(dict.fromkeys(self.doubtful)),
+            self.words, tuple(self.defined), self.source, self.mechanism,
+        )  # fmt: skip
 
     @property
     def names(self) -> frozenset[str]:

@@ -24,15 +24,12 @@ from ...models.errors import nearest
 from ...models.mechanism import Mechanism, mechanism_of
 from ...models.readers.model_file import ModelFile, read_model
 from ...models.spatial_mechanism import SpatialMechanism
-from ..compiled import mechanism_from
 from ..finding import Finding
-from ..reader_faults import degrees_in_file
 from ..robots.answer import Question, places_in
 from ..robots.answer import mechanism_to_json as spatial_to_json
 from ..robots.fields import field_differences
 from ..robots.simulation import servo_findings
 from ..robots.wording import field_findings
-from .comparison import compare_with, compare_with_ideal
 from .engine_result import EngineResult, ask_engines
 from .result import Diagnosis, mechanism_to_json
 from .voting import vote
@@ -98,16 +95,30 @@ def verdict(findings: Sequence[Finding], results: Sequence[EngineResult], *, nam
 
 def _of_file(file: ModelFile, wanted: Expected, limits: bool) -> list[Finding]:
     """What is in the file and was not expected there."""
-    found = list(degrees_in_file(file)) if file.planar is not None else []
-    if wanted.planar is not None and file.planar is not None:
-        return found + compare_with(file, wanted.planar)
+    if file.planar is not None:
+        return _of_planar_file(file, wanted, limits)
     if wanted.spatial is not None:
-        differences = field_differences(file.spatial, wanted.spatial, limits=limits)
-        return found + field_findings("the file", differences, places_in(file.spatial))
+        return _in_space(file, wanted.spatial, limits)
     if wanted.name:
         raise InvalidInput(f"{file.path}: {file.not_planar}; it cannot be compared with {wanted.name}")
-    if file.planar is None:
-        return found
+    return []
+
+
+def _in_space(file: ModelFile, wanted: SpatialMechanism, limits: bool) -> list[Finding]:
+    differences = field_differences(file.spatial, wanted, limits=limits)
+    return field_findings("the file", differences, places_in(file.spatial))
+
+
+def _of_planar_file(file: ModelFile, wanted: Expected, limits: bool) -> list[Finding]:
+    from ..reader_faults import degrees_in_file  # and all hypotheses of the plane, which robots do not need
+    from .comparison import compare_with, compare_with_ideal
+
+    found = list(degrees_in_file(file))
+    if wanted.planar is not None:
+        return found + compare_with(file, wanted.planar)
+    if wanted.spatial is not None:
+        return found + _in_space(file, wanted.spatial, limits)
+    assert file.planar is not None
     ideal = compare_with_ideal(file.planar)
     return found + [finding for finding in ideal if limits or finding.cause != "joint-limit"]
 
@@ -169,6 +180,8 @@ def expected_of(against: Any, meshes: Sequence[Path] = ()) -> Expected:
     if isinstance(against, ModelFile):
         return Expected(against.path, against.planar, against.spatial)
     if isinstance(against, Mechanism | PlanarTree) or hasattr(against, "tree"):
+        from ..compiled import mechanism_from
+
         return Expected(getattr(against, "kind", type(against).__name__), mechanism_from(against))
     raise InvalidInput(f"against: a scene, a model file or a mechanism is needed, got {type(against).__name__}")
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...engines.model_files.adapter import FileEngine, Reader
 from ...models import InvalidInput
+from ...models.errors import installing
 from ...models.mechanism import Mechanism
 from ...models.readers.model_file import ModelFile
 from ...reference import planar_tree as planar
@@ -64,7 +65,7 @@ def ask(reader: Reader, file: ModelFile) -> EngineAnswer:
         try:
             engine = reader.load(file)
         except ImportError as error:
-            return EngineAnswer(reader.name, "missing", f"pip install {reader.package} [{error}]", native=reader.native)
+            return EngineAnswer(reader.name, "missing", f"{installing(reader.package)} [{error}]", native=reader.native)
         except (ValueError, RuntimeError) as error:
             return _refused(reader, _one_line(error)[:LONGEST_MESSAGE])
         return _compared(reader, engine, file)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ...engines.model_files.adapter import Reader
 from ...engines.model_files.robot import ROBOT_READERS
@@ -12,7 +12,9 @@ from ...engines.quiet import silenced
 from ...engines.workers.isolated import Call, NotReturned, call_isolated
 from ..finding import Finding
 from ..robots.answer import Question, RobotAnswer, ask_robot
-from .engine_answers import EngineAnswer, ask
+
+if TYPE_CHECKING:
+    from .engine_answers import EngineAnswer
 
 # What is found in the equations of motion, or in their surroundings, whatever the engine holds of the file.
 BESIDE_READING = ("damping-ignored", "friction-ignored", "stiffness-ignored", "colliding-geoms", "float32")
@@ -123,11 +125,15 @@ def ask_engines(
 
 def ask_both(name: str, planar: Reader | None, question: Question) -> EngineResult:
     """One engine, asked about the user's own bytes where it reads the format, and about furiko's text of the file."""
-    own = ROBOT_READERS.get(name)
+    own, answer = ROBOT_READERS.get(name), None
+    if planar is not None and question.file.planar is not None:
+        from .engine_answers import ask  # and all hypotheses of the plane, which robots do not need
+
+        answer = ask(planar, question.file)
     return EngineResult(
         name,
         ask_robot(own, question) if own is not None and question.file.language in own.languages else None,
-        ask(planar, question.file) if planar is not None and question.file.planar is not None else None,
+        answer,
     )
 
 

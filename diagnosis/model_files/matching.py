@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...models.errors import library
 from ...models.mechanism import Mechanism
 from ...models.tree import SUPPORT, Link
 from ..measurement import Array
@@ -242,10 +243,8 @@ def _assignments(
     if len(mine) <= MOST_CHILDREN_PERMUTED:
         yield from itertools.permutations(mine)
         return
-    from scipy.optimize import linear_sum_assignment
-
     matrix = np.array([[(costs[x, y] or (1e9, {}))[0] for x in mine] for y in wanted])
-    rows, columns = linear_sum_assignment(matrix)
+    rows, columns = library("scipy.optimize").linear_sum_assignment(matrix)
     yield tuple(mine[c] for _, c in sorted(zip(rows, columns, strict=True)))
 
 

@@ -88,7 +88,7 @@ class Diagnosis:
     def text(self) -> str:
         """The text that ``furiko diagnose`` prints."""
         lines = [f"{self.model}: {self.verdict}" + (f" (against {self.against})" if self.against else "")]
-        lines += [f"  {self.headline}", f"  {self._described()}"]
+        lines += [f"  {self.headline}", f"  {self.described()}"]
         for name, engine in self.engines.items():
             says = engine.get("says", "")
             lines.append(f"  {name:16} {engine['status']}" + (f": {says}" if says else ""))
@@ -105,7 +105,8 @@ class Diagnosis:
         lines += [f"  note: {note}" for note in self.notes]
         return "\n".join(lines)
 
-    def _described(self) -> str:
+    def described(self) -> str:
+        """The mechanism that was read, in a few words."""
         if self.mechanism is not None:
             links = len(self.mechanism["links"])
             return f"a planar tree of {links} link{'s' * (links != 1)}"
@@ -125,7 +126,7 @@ def mechanism_to_json(mechanism: Mechanism) -> dict[str, Any]:
     links = []
     for i, (link, hinge) in enumerate(zip(mechanism.links, mechanism.hinges, strict=True)):
         not_ideal = {
-            "stops" if name == "limits" else "stops" if name == "limits" else name: getattr(hinge, name)
+            "stops" if name == "limits" else name: getattr(hinge, name)
             for name in HINGE_NUMBERS
             if getattr(hinge, name) != getattr(ideal, name)
         }
@@ -136,8 +137,8 @@ def mechanism_to_json(mechanism: Mechanism) -> dict[str, Any]:
                 "on": mechanism.link_names[link.parent] if link.parent >= 0 else None,
                 "hinge": list(link.hinge),
                 "centre of mass": list(link.com),
-                "mass": link.mass,
-                "inertia": link.inertia,
+                "mass": float(link.mass),
+                "inertia": float(link.inertia),
                 **not_ideal,
             }
         )

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...models.readers.model_file import ModelFile
 from ...models.spatial_mechanism import SpatialMechanism
 from ..finding import Finding
-from ..measurement import Array
 from ..robots.fields import field_differences
-from .engine_answers import EngineAnswer
 from .engine_result import EngineResult
+
+if TYPE_CHECKING:
+    from ..measurement import Array
+    from .engine_answers import EngineAnswer
 
 REFUSALS = ("inertia-rejected", "file-refused")
 ALIKE = 1e-7  # engines agree with one another within this, relative to each state's largest acceleration

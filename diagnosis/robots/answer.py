@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -11,6 +12,7 @@ import numpy as np
 
 from ...engines.model_files.robot import BoundRobot, RobotEngine, RobotReader
 from ...models import InvalidInput
+from ...models.errors import installing
 from ...models.readers.model_file import ModelFile, read_model
 from ...models.readers.rules import Rules, mistakes_in
 from ...models.spatial_mechanism import SpatialMechanism
@@ -18,10 +20,15 @@ from ..finding import Finding
 from .fields import FieldDifference, field_differences
 from .free_armature import armature_finding, armature_in_body_axes
 from .measures import Measured, measured, worst
-from .misreadings import candidates_of, explain_reading
+from .misreadings import explain_reading
+from .same_frame import frames_kept, moved_back
 from .simulation import simulation_findings
-from .wording import Places, field_findings, mistake_finding
+from .wording import MOST_PLACES, Places, field_findings, mistake_finding
 
+NEARLY_IN_FRAME = (
+    "{engine} has the inertials of {bodies}, which are within {reach:g} of the body's frame, in that frame"
+)
+ALL_MEASURED = 4  # quantities: mass matrix, bias, accelerations without and with torques
 LONGEST_MESSAGE = 300  # characters of an engine's own message
 
 
@@ -80,14 +87,14 @@ def ask_robot(reader: RobotReader, question: Question) -> RobotAnswer:
         try:
             engine = reader.load(question.path, question.file.language, question.meshes)
         except ImportError as error:
-            return RobotAnswer(reader.name, "missing", f"pip install {reader.package} [{error}]")
+            return RobotAnswer(reader.name, "missing", f"{installing(reader.package)} [{error}]")
         except (ValueError, RuntimeError) as error:
             return _refused(reader, " ".join(str(error).split())[:LONGEST_MESSAGE])
         return _compared(reader, engine, question)
 
 
 def _refused(reader: RobotReader, message: str) -> RobotAnswer:
-    inertia = any(word in message.lower() for word in ("inertia", "mass", "eigenvalue"))
+    inertia = "XML Error" not in message and re.search(r"inertia\b|\bmass|eigenvalue", message.lower()) is not None
     finding = Finding(
         "inertia-rejected" if inertia else "file-refused", reader.name, None, None, f"{reader.name} refuses: {message}"
     )
@@ -99,22 +106,45 @@ def _compared(reader: RobotReader, engine: RobotEngine, question: Question) -> R
     try:
         answer.holds = engine.compiled(question.file.spatial)
         bound = engine.bind(answer.holds)
+    except (ValueError, RuntimeError, InvalidInput) as error:
+        return _failed(answer, error)
+    named, left = _reading(reader, question, answer.holds)
+    answer.left = len(left)
+    answer.findings = [*named, *field_findings(reader.name, left, places_in(question.file.spatial))]
+    try:
         answer.measured = tuple(
             measured(bound, acting(answer.holds, reader.leaves_to_caller), factorised=reader.factorises)
         )
+        answer.findings += _computing(reader, bound, answer)
+        if answer.measured and len(answer.measured) < ALL_MEASURED:
+            answer.notes = (f"{reader.name}: a joint moves no mass: its accelerations are not determined",)
     except (ValueError, RuntimeError, InvalidInput, np.linalg.LinAlgError) as error:
-        answer.status, answer.says = "failed", " ".join(str(error).split())[:LONGEST_MESSAGE]
-        answer.findings = [Finding("unexplained", reader.name, None, None, f"{reader.name}: {answer.says}")]
-        return answer
-    named, left = _reading(reader, question, answer.holds)
-    answer.left = len(left)
-    unexplained = field_findings(reader.name, left, places_in(question.file.spatial))
-    answer.findings = [*named, *unexplained, *_computing(reader, bound, answer)]
+        return _failed(answer, error)
+    kept = frames_kept(answer.holds, question.file.spatial, reader.same_frame)
+    if kept:
+        answer.notes += (NEARLY_IN_FRAME.format(engine=reader.name, bodies=listed(kept), reach=reader.same_frame),)
     if reader.name == "mujoco" and question.file.language == "mjcf":
         answer.simulation = simulation_findings(question.path, question.meshes, question.file.spatial)
     if answer.findings:
         answer.status = "differs"
     return answer
+
+
+def _failed(answer: RobotAnswer, error: Exception) -> RobotAnswer:
+    """What the engine's error leaves: what it holds otherwise than the file, if that is known, explains it."""
+    message = " ".join(str(error).split())[:LONGEST_MESSAGE]
+    if answer.findings:
+        answer.status, answer.notes = "differs", (*answer.notes, f"{answer.name}: {message}")
+    else:
+        answer.status, answer.says = "failed", message
+        answer.findings = [Finding("unexplained", answer.name, None, None, f"{answer.name}: {message}")]
+    return answer
+
+
+def listed(bodies: Sequence[str]) -> str:
+    """The first few of these names."""
+    more = len(bodies) - MOST_PLACES
+    return ", ".join(map(repr, bodies[:MOST_PLACES])) + (f" and {more} more" if more > 0 else "")
 
 
 def acting(holds: SpatialMechanism, cleared: Sequence[str]) -> SpatialMechanism:
@@ -135,12 +165,14 @@ def _reading(
 ) -> tuple[list[Finding], tuple[FieldDifference, ...]]:
     """The mistakes in reading that explain what the engine holds, and the differences that they leave."""
     file, language = question.file, question.file.language
-    if not field_differences(holds, file.spatial, limits=question.limits, ignored=reader.not_held):
+    how: dict[str, Any] = {"limits": question.limits, "ignored": reader.not_held, "mesh_axes": reader.mesh_axes}
+
+    def left(reading: SpatialMechanism) -> list[FieldDifference]:
+        return field_differences(moved_back(holds, reading, reader.same_frame), reading, **how)
+
+    if not left(file.spatial):
         return [], ()
-    candidates = candidates_of(reader.name, language)
-    explanation = explain_reading(
-        question.read, language, holds, candidates, ignored=reader.not_held, limits=question.limits
-    )
+    explanation = explain_reading(question.read, language, left, reader.mistakes.get(language, ()))
     places, sentences = places_in(file.spatial), mistakes_in(language)
     named = [
         mistake_finding(reader.name, flag, sentences[flag], changes, places) for flag, changes in explanation.mistakes

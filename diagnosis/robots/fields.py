@@ -33,19 +33,25 @@ class FieldDifference:
 
 
 def field_differences(
-    found: SpatialMechanism, expected: SpatialMechanism, *, limits: bool = False, ignored: Iterable[str] = ()
+    found: SpatialMechanism,
+    expected: SpatialMechanism,
+    *,
+    limits: bool = False,
+    ignored: Iterable[str] = (),
+    mesh_axes: float = 0.0,
 ) -> list[FieldDifference]:
     """What ``found`` has otherwise than ``expected``, joints that are missing first, then link by link from the root.
 
     Links are recognised by the name of their last joint. Both are seen in the reference configuration of ``expected``;
     a frame that is placed otherwise is named where it is, not again in the links that it carries. ``limits``: whether
-    ranges of joints count; ``ignored``: numbers of joints that do not (``friction`` …).
+    ranges of joints count; ``ignored``: numbers of joints that do not (``friction`` …). ``mesh_axes``: of a mesh that
+    ``found`` keeps in its principal axes, the largest product of inertia that these leave, over the largest moment.
     """
-    return list(_differences(found, expected, limits, frozenset(ignored)))
+    return list(_differences(found, expected, limits, frozenset(ignored), mesh_axes))
 
 
 def _differences(
-    found: SpatialMechanism, expected: SpatialMechanism, limits: bool, ignored: frozenset[str]
+    found: SpatialMechanism, expected: SpatialMechanism, limits: bool, ignored: frozenset[str], mesh_axes: float
 ) -> Iterator[FieldDifference]:
     theirs = moving_links(found, coordinates_of(expected, expected.reference, found))
     ours = moving_links(expected)
@@ -60,7 +66,7 @@ def _differences(
             turn = _turn(theirs, other, ours, link)
             yield from _placement(other, link, turn, scale)
             yield from _joint_numbers(other, link, limits, ignored)
-            yield from _inertial(other, link, turn, scale)
+            yield from _inertial(other, link, turn, scale, mesh_axes)
 
 
 def _joints(theirs: tuple[MovingLink, ...], ours: tuple[MovingLink, ...]) -> Iterator[FieldDifference]:
@@ -176,7 +182,9 @@ def _same_limits(found: tuple[float, float] | None, expected: tuple[float, float
     return bool(np.allclose(found, expected, rtol=SAME, atol=SAME))
 
 
-def _inertial(other: MovingLink, link: MovingLink, turn: Array, scale: _Scale) -> Iterator[FieldDifference]:
+def _inertial(
+    other: MovingLink, link: MovingLink, turn: Array, scale: _Scale, mesh_axes: float
+) -> Iterator[FieldDifference]:
     theirs, ours, where = other.inertial, link.inertial, f"link {link.name!r}"
     heavy = max(abs(theirs.mass), abs(ours.mass))
     if abs(theirs.mass - ours.mass) > SAME * heavy:
@@ -192,6 +200,8 @@ def _inertial(other: MovingLink, link: MovingLink, turn: Array, scale: _Scale) -
     largest = max(float(np.abs(theirs.tensor).max()), float(np.abs(ours.tensor).max()))
     # A tensor about the centre of mass is a difference of larger ones where bodies are fixed together.
     rounding = 64 * EPSILON * heavy * scale.length**2
+    # Three products of inertia of at most e each make up a tensor of the norm 2 e, whatever the axes.
+    rounding += 2 * mesh_axes * link.meshes
     if not ours.tensor.any():  # a point mass, which MuJoCo compiles with as much
         rounding += 2 * POINT_MASS_BOUND
     if largest:

@@ -10,7 +10,8 @@ import numpy as np
 
 from ...engines.model_files.robot import BoundRobot
 from ...models.spatial_mechanism import Array, SpatialMechanism
-from ...reference.rounding.spatial import allowed_bias, allowed_mass_matrix, allowed_residual
+from ...reference.rounding.bounds import EPSILON
+from ...reference.rounding.spatial import Magnitudes, magnitudes
 from ...reference.truth.spatial import SpatialTruth, spatial_truth
 from .states import probe_states, random_torques
 
@@ -38,21 +39,34 @@ class Measured:
 def measured(bound: BoundRobot, mechanism: SpatialMechanism, *, factorised: bool = True) -> list[Measured]:
     """Each quantity of an engine against the truth of ``mechanism``, which is what the engine holds.
 
-    ``factorised``: whether its accelerations come from a factorised mass matrix. Raises RuntimeError where an
-    answer has the wrong shape, NaN or infinity.
+    Without accelerations where a joint moves no mass. ``factorised``: whether its accelerations come from a factorised
+    mass matrix. Raises RuntimeError where an answer has the wrong shape, NaN or infinity.
     """
     if not mechanism.nv:
         return []
     q, v = probe_states(mechanism)
     truths = [spatial_truth(mechanism, q[k], v[k]) for k in range(len(q))]
-    rows = [*_terms(bound, mechanism, truths)]
+    units = magnitudes(mechanism, q, v)
+    rows = [*_terms(bound, mechanism, truths, units)]
     matrix, bias = (np.array([getattr(t, name).float for t in truths]) for name in ("mass_matrix", "bias"))
+    if weightless_freedom(mechanism, matrix):
+        return rows
     for quantity, torque in (
         ("accelerations", np.zeros_like(v)),
         ("driven accelerations", random_torques(matrix, bias)),
     ):
-        rows.append(_accelerations(quantity, bound, mechanism, truths, torque, factorised))
+        rows.append(_accelerations(quantity, bound, mechanism, truths, units, torque, factorised))
     return rows
+
+
+def weightless_freedom(mechanism: SpatialMechanism, matrices: Array) -> str:
+    """The first joint that moves no mass in one of the states, ``matrices`` (B, nv, nv), or nothing.
+
+    Its row of the mass matrix is zero, and no accelerations are determined there: they are not looked at.
+    """
+    zero = (np.abs(matrices).max(axis=2) == 0).any(axis=0)
+    freedoms = [placed.joint.name for placed in mechanism.joints for _ in range(placed.joint.freedoms)]
+    return next((name for name, none in zip(freedoms, zero, strict=True) if none), "")
 
 
 def worst(measurements: Sequence[Measured]) -> Measured | None:
@@ -61,15 +75,17 @@ def worst(measurements: Sequence[Measured]) -> Measured | None:
     return beyond[0] if beyond else None
 
 
-def _terms(bound: BoundRobot, mechanism: SpatialMechanism, truths: list[SpatialTruth]) -> Iterator[Measured]:
+def _terms(
+    bound: BoundRobot, mechanism: SpatialMechanism, truths: list[SpatialTruth], units: list[Magnitudes]
+) -> Iterator[Measured]:
     q, v = (np.array([getattr(t, name) for t in truths]) for name in "qv")
     nv = mechanism.nv
     matrix = _finite("mass matrix", bound.mass_matrix(q), (len(q), nv, nv))
     expected = np.array([truth.mass_matrix.float for truth in truths])
-    allowed = np.array([allowed_mass_matrix(mechanism, row) for row in q])
+    allowed = np.array([unit.roundings * EPSILON * unit.mass_matrix for unit in units])
     yield _worst("mass matrix", mechanism, matrix, expected, allowed)
     bias = _finite("bias", bound.bias(q, v), v.shape)
-    allowed = np.array([allowed_bias(mechanism, *state) for state in zip(q, v, strict=True)])
+    allowed = np.array([unit.roundings * EPSILON * unit.bias for unit in units])
     yield _worst("bias", mechanism, bias, np.array([truth.bias.float for truth in truths]), allowed)
 
 
@@ -78,6 +94,7 @@ def _accelerations(
     bound: BoundRobot,
     mechanism: SpatialMechanism,
     truths: list[SpatialTruth],
+    units: list[Magnitudes],
     torque: Array,
     factorised: bool,
 ) -> Measured:
@@ -86,8 +103,8 @@ def _accelerations(
     found = _finite(quantity, bound.accelerations(q, v, torque), v.shape)
     residual = np.array([_residual(*state) for state in zip(truths, found, torque, strict=True)])
     masses = [truth.mass_matrix.float for truth in truths]
-    states = zip(q, v, found, masses, torque, strict=True)
-    allowed = np.array([allowed_residual(mechanism, *state, factorised=factorised) for state in states])
+    states = zip(units, found, masses, torque, strict=True)
+    allowed = np.array([u.roundings * EPSILON * u.residual(*row, factorised=factorised) for u, *row in states])
     return _worst(f"force of {quantity}", mechanism, residual, np.zeros_like(residual), allowed)
 
 

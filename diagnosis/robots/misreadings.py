@@ -1,8 +1,8 @@
 """Which mistake in reading explains what an engine holds: each is made by furiko's own reader, and named if it fits.
 
-An engine's known mistakes are flags of :mod:`furiko.models.readers.rules`. The smallest set of them with which
-furiko reads exactly what the engine holds is the explanation; where no set does, the one that leaves the fewest
-differences is, and what it leaves is named number by number.
+An engine's known mistakes are flags of :mod:`furiko.models.readers.rules`, which its ``RobotReader`` names. The
+smallest set of them with which furiko reads exactly what the engine holds is the explanation; where no set does, the
+one that leaves the fewest differences is, and what it leaves is named number by number.
 """
 
 from __future__ import annotations
@@ -11,38 +11,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from ...models import InvalidInput
-from ...models.readers.rules import Rules, mistakes_in, with_mistakes
+from ...models.readers.rules import Rules, with_mistakes
 from ...models.spatial_mechanism import SpatialMechanism
 from .fields import FieldDifference, field_differences
 
 Read = Callable[[Rules], SpatialMechanism]  # the file, read with these mistakes
-
-DRAKE_ALONE = ("pos_of_last_joint_for_all", "armature_needs_actuator", "nested_class_inherits_nothing")
-# Pinocchio has no springs, and gravity is a number of its model that its users set: neither is a mistake in reading.
-NOT_HELD = ("gravity_not_read", "springs_not_held")
-DRAKE_ALSO = (
-    "frame_ignored",
-    "total_mass_ignored",
-    "inertia_group_ignored",
-    "balance_inertia_ignored",
-    "bound_ignored",
-)
-
-URDF = {
-    "mujoco": ("extension_honoured", "fixed_massless_inertia_dropped", "collision_weighs"),
-    "pinocchio": ("planar_axis_ignored", "damping_dropped_on_planar_and_floating"),
-    "drake": ("impossible_inertia_becomes_sphere", "drake_rotor_counted"),
-}
-
-
-def candidates_of(engine: str, language: str) -> tuple[str, ...]:
-    """The mistakes that an engine is known to make where it reads ``language``."""
-    known = tuple(mistakes_in(language))
-    if language == "mjcf":
-        if engine.startswith("pinocchio"):
-            return tuple(flag for flag in known if flag not in DRAKE_ALONE + NOT_HELD)
-        return DRAKE_ALONE + DRAKE_ALSO if engine.startswith("drake") else ()
-    return URDF.get(engine.split("-", maxsplit=1)[0], ())
 
 
 @dataclass(frozen=True)
@@ -56,21 +29,14 @@ class Explanation:
 def explain_reading(
     read: Read,
     language: str,
-    compiled: SpatialMechanism,
+    left: Callable[[SpatialMechanism], list[FieldDifference]],
     candidates: Sequence[str],
-    *,
-    ignored: Sequence[str] = (),
-    limits: bool = False,
 ) -> Explanation:
-    """Why ``compiled``, which an engine holds, is not what the file says.
+    """Why what an engine holds is not what the file says.
 
-    ``read``: furiko's reader; ``candidates``: flags of ``language``, the likelier ones first; ``ignored``: numbers of
-    joints that the engine is not held to; ``limits``: whether ranges of joints count.
+    ``read``: furiko's reader; ``left``: what a reading leaves different from what the engine holds; ``candidates``:
+    flags of ``language``, the likelier ones first.
     """
-
-    def left(reading: SpatialMechanism) -> list[FieldDifference]:
-        return field_differences(compiled, reading, limits=limits, ignored=ignored)
-
     return _Search(read, language, left).explained(candidates)
 
 
@@ -82,16 +48,20 @@ class _Search:
         self._known: dict[frozenset[str], SpatialMechanism | None] = {}
 
     def explained(self, candidates: Sequence[str]) -> Explanation:
-        effective = self._effective(candidates)
+        effective = [flag for flag in candidates if self._changes(flag, ())]
+        if not self._fits(effective):
+            effective = self._besides(effective, candidates)
         chosen = self._smallest(effective) if self._fits(effective) else self._greedy(effective)
         reading = self._reading(chosen)
         left = self._left_by(reading) if reading is not None else []
         named = ((flag, tuple(self._changes(flag, ()) or self._changes(flag, chosen))) for flag in chosen)
         return Explanation(tuple(named), tuple(left))
 
-    def _effective(self, candidates: Sequence[str]) -> list[str]:
-        """The mistakes that change the reading, alone or beside others that do."""
-        effective = [flag for flag in candidates if self._changes(flag, ())]
+    def _besides(self, effective: list[str], candidates: Sequence[str]) -> list[str]:
+        """The ``effective`` mistakes, and those that change a reading only where these are made."""
+        together, reading = self._reading(effective), self._reading(candidates)
+        if together is not None and reading is not None and not field_differences(reading, together):
+            return effective
         return [flag for flag in candidates if flag in effective or self._changes(flag, effective)]
 
     def _changes(self, flag: str, others: Sequence[str]) -> list[FieldDifference]:

@@ -33,7 +33,7 @@ class MovingLink:
 
     ``parent``: the index of its parent link, -1 for the world; ``turned``: its frame's axes in the world (3, 3);
     ``inertial``: that of all its bodies, in world axes, as seen from its reference point; ``bodies``: their names, its
-    own first.
+    own first; ``meshes`` [kg m²]: the largest moments of the meshes that they are weighed by, added up.
     """
 
     parent: int
@@ -41,6 +41,7 @@ class MovingLink:
     turned: Array
     inertial: Inertial = ZERO_INERTIAL
     bodies: list[str] = field(default_factory=list)
+    meshes: float = 0.0
 
     @property
     def name(self) -> str:
@@ -82,6 +83,7 @@ def moving_links(mechanism: SpatialMechanism, q: Array | None = None) -> tuple[M
             at_point = Pose(pose.rotation, pose.translation - points[link])
             links[link].inertial = links[link].inertial + body.inertial.transformed(at_point)
             links[link].bodies.append(body.name)
+            links[link].meshes += body.meshes
     return tuple(links)
 
 

@@ -8,11 +8,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from ...engines.model_files.robot_simulation import Simulation, simulate_file
 from ...models.spatial_mechanism import SpatialMechanism
 from ..finding import Finding
 from .states import probe_states
+
+if TYPE_CHECKING:
+    from ...engines.model_files.robot_simulation import Simulation
 
 # Of the kinetic energy, lost or won in a run that keeps its energy: a tenth of this is seen in no plot.
 COARSE = 0.01
@@ -25,6 +28,8 @@ def simulation_findings(path: Path, meshes: tuple[Path, ...], mechanism: Spatial
     The run starts at rest in a configuration inside the joints' ranges, without contacts, limits, dry friction,
     dampers and actuators. Empty where MuJoCo cannot run it.
     """
+    from ...engines.model_files.robot_simulation import simulate_file  # which imports MuJoCo
+
     q, _ = probe_states(mechanism, 2)
     try:
         run = simulate_file(path, meshes, q[1], 0.0 * mechanism.per_freedom("armature"))

@@ -29,6 +29,7 @@ INSTEAD: Mapping[str, str] = {
     "bare_bodies_lost": "give each body a name",
     "unnamed_sibling_twice": "give each body a name",
     "first_ref_ignored": "write ref='0' and the pose at zero into the body",
+    "springdamper_ignored": "write the joint's stiffness and damping",
     "damping_dropped_on_free_and_ball": "apply the damping in your own code",
     "pos_of_last_joint_for_all": "put each joint into a body of its own",
     "armature_needs_actuator": "add an actuator to the joint, or set the armature in the engine",

@@ -8,13 +8,54 @@ motion is M(q) a + bias(q, v) = passive(q, v) + torque.
 from __future__ import annotations
 
 import importlib
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
 
 from ...models.spatial_mechanism import SpatialMechanism
 from ..protocol import Array
+
+# MuJoCo 4.0 turns a mesh to principal axes until no product of inertia exceeds 1e-7 of the largest moment: of 400
+# random tetrahedra the worst leaves 9.99e-8, whatever their size. Other inertias are turned to rounding.
+MESH_AXES = 1e-7
+# Pinocchio has no springs, and gravity is a number of its model that its users set: neither is a mistake in reading.
+PINOCCHIO_MJCF = (
+    "first_root_only",
+    "geoms_without_contact_weigh_nothing",
+    "pose_of_first_fixed_body_dropped",
+    "mesh_weighs_one_kilogram",
+    "default_joint_pos_dropped",
+    "default_geom_mass_dropped",
+    "default_geom_pose_dropped",
+    "childclass_behind_class",
+    "total_mass_ignored",
+    "inertia_group_ignored",
+    "balance_inertia_ignored",
+    "bound_inertia_on_given_axes",
+    "bound_ignored",
+    "upper_euler_as_lower",
+    "include_not_followed",
+    "late_sections_ignored",
+    "later_sections_ignored",
+    "bare_bodies_lost",
+    "unnamed_sibling_twice",
+    "first_ref_ignored",
+    "gravity_flag_ignored",
+    "damping_dropped_on_free_and_ball",
+    "springdamper_ignored",
+    "frame_ignored",
+)
+DRAKE_MJCF = (
+    "pos_of_last_joint_for_all",
+    "armature_needs_actuator",
+    "nested_class_inherits_nothing",
+    "frame_ignored",
+    "total_mass_ignored",
+    "inertia_group_ignored",
+    "balance_inertia_ignored",
+    "bound_ignored",
+)
 
 
 class BoundRobot(Protocol):
@@ -77,7 +118,11 @@ class RobotReader:
     ``adapter``: its class, ``module:Class``; ``module``, ``package``: to import and to install; ``languages``: those
     that it reads. Of the numbers of joints (``damping``, ``stiffness``, ``friction``) and ``gravity``, ``not_held`` are
     those that it does not read, and ``leaves_to_caller`` those that its forward dynamics does not apply.
-    ``factorises``: whether its accelerations come from a factorised mass matrix.
+    ``factorises``: whether its accelerations come from a factorised mass matrix. ``mesh_axes``: of meshes, which it
+    keeps in their principal axes, the largest product of inertia that these leave, over the largest moment.
+    ``same_frame``: so near its body's frame, in m and as parts of a quaternion, an inertial is taken to be in it.
+    ``mistakes``: by language the flags of :mod:`furiko.models.readers.rules` that it is known to make, the likelier
+    ones first.
     """
 
     name: str
@@ -88,6 +133,9 @@ class RobotReader:
     not_held: tuple[str, ...] = ()
     leaves_to_caller: tuple[str, ...] = ()
     factorises: bool = False
+    mesh_axes: float = 0.0
+    same_frame: float = 0.0
+    mistakes: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def load(self, path: Path, language: str, folders: Sequence[Path] = ()) -> RobotEngine:
         """Import the engine and have it read the file. Exceptions of the engine are passed on."""
@@ -99,7 +147,16 @@ class RobotReader:
 ROBOT_READERS: dict[str, RobotReader] = {
     reader.name: reader
     for reader in (
-        RobotReader("mujoco", ".robot_mujoco:MujocoRobot", "mujoco", "mujoco", factorises=True),
+        RobotReader(
+            "mujoco",
+            ".robot_mujoco:MujocoRobot",
+            "mujoco",
+            "mujoco",
+            factorises=True,
+            mesh_axes=MESH_AXES,
+            same_frame=1e-6,
+            mistakes={"urdf": ("extension_honoured", "fixed_massless_inertia_dropped", "collision_weighs")},
+        ),
         RobotReader(
             "pinocchio-aba",
             ".robot_pinocchio:PinocchioRobot",
@@ -107,14 +164,19 @@ ROBOT_READERS: dict[str, RobotReader] = {
             "pin",
             not_held=("stiffness", "gravity"),
             leaves_to_caller=("damping", "stiffness"),
+            mistakes={
+                "mjcf": PINOCCHIO_MJCF,
+                "urdf": ("planar_axis_ignored", "damping_dropped_on_planar_and_floating"),
+            },
         ),
         RobotReader(
             "drake",
             ".robot_drake:DrakeRobot",
             "pydrake",
-            "furiko[drake]",
+            "drake",
             not_held=("stiffness", "friction"),
             leaves_to_caller=("stiffness",),
+            mistakes={"mjcf": DRAKE_MJCF, "urdf": ("impossible_inertia_becomes_sphere", "drake_rotor_counted")},
         ),
     )
 }

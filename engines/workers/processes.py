@@ -14,6 +14,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ...models.errors import LibraryMissing
 from .channel import SEND_TIMEOUT, Channel
 from .messages import Setup
 
@@ -81,6 +82,8 @@ def worker_processes(ahead: int = 0, modules: Sequence[str] = ()) -> Iterator[Wo
 
 def remove_left_behind() -> None:
     """Remove the folders of runs that were killed: their process is gone."""
+    if sys.platform == "win32":
+        return  # asking there whether a process lives would end it
     for path in Path(tempfile.gettempdir()).glob(f"{PREFIX}*-*"):
         owner = path.name.removeprefix(PREFIX).partition("-")[0]
         if owner.isdigit() and not _alive(int(owner)):
@@ -99,6 +102,8 @@ def _alive(process: int) -> bool:
 
 def spawn(folder: str, modules: Sequence[str] = ()) -> WorkerProcess:
     """A fresh worker process that runs in ``folder``."""
+    if sys.platform == "win32":
+        raise LibraryMissing("engines run in processes of their own, which needs Linux or macOS; on Windows use WSL")
     ours, theirs = socket.socketpair()
     try:
         process = subprocess.Popen(

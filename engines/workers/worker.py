@@ -70,10 +70,10 @@ def die_with_parent(parent: int) -> None:
 
 def one_line(error: BaseException) -> str:
     """An exception in one line: its own words where the user can act on them, its type as well for the rest."""
-    from ...models.errors import EngineMissing
+    from ...models.errors import LibraryMissing
 
     words = " ".join(str(error).split())[:500]
-    return words if isinstance(error, EngineMissing) else f"{type(error).__name__}: {words}"
+    return words if isinstance(error, LibraryMissing) else f"{type(error).__name__}: {words}"
 
 
 if __name__ == "__main__":

@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 @json_option
 def engines(as_json: bool) -> int:
     """List the engines, their versions, and what they cannot compute."""
-    from ..engines import engine_info, engine_names, engine_version
+    from ..engines import engine_info, engine_names, engine_version, untested
+    from ..models.errors import installing
 
     infos = [engine_info(name) for name in engine_names()]
     if as_json:
@@ -28,7 +29,8 @@ def engines(as_json: bool) -> int:
         rows = [
             (
                 info.name,
-                engine_version(info.name) or f"not installed: pip install {info.package}",
+                engine_version(info.name) + (" (not tested)" if untested(info) else "")
+                or f"not installed: {installing(info.package)}",
                 info.formulation,
                 ", ".join(i.name for i in info.integrators) or "-",
                 ", ".join(info.missing) or "-",

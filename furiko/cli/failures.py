@@ -31,7 +31,7 @@ _HELP = {
     errno.ENOSPC: "free space on the disk, or set TMPDIR to a folder with space",
     errno.EDQUOT: "free space on the disk, or set TMPDIR to a folder with space",
 }
-_SENTENCE = re.compile(r"(cannot|not|no|internal|got|missing|unknown)\b", re.IGNORECASE)  # how no place begins
+_SENTENCE = re.compile(r"(cannot|not|no|internal|got|missing|unknown|this)\b", re.IGNORECASE)  # how no place begins
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Failure:
     def parts(self) -> tuple[str, str, str]:
         """What, where and help, each as far as the message has it."""
         where, what = _split_place(self.message)
-        hint = re.search(r" ?\((did you mean [^()]*\?)\)|; ", what, re.IGNORECASE)
+        hint = re.search(r" ?\((did you mean [^()]*\?)\)|; |: (?=pip install )", what, re.IGNORECASE)
         if hint is None:
             return what, where, ""
         rest = what[hint.end() :].removeprefix("; ")
@@ -69,11 +69,11 @@ def failure_of(error: BaseException) -> Failure:
 def _expected(error: BaseException) -> Failure | None:  # noqa: PLR0911 -- one for each kind
     """Failures that are the user's or the machine's to mend; None for a mistake in furiko."""
     # Imported here, not above: a check starts its workers before it imports numpy.
-    from ..models.errors import EngineMissing, InvalidInput
+    from ..models.errors import InvalidInput, LibraryMissing
 
     if isinstance(error, InvalidInput):
         return Failure(_line(str(error)), BAD_INPUT)
-    if isinstance(error, EngineMissing):
+    if isinstance(error, LibraryMissing):
         return Failure(_line(str(error)), INCOMPLETE)
     if isinstance(error, MemoryError):
         return Failure("out of memory; free memory, or use fewer --jobs or smaller scenes", INCOMPLETE)

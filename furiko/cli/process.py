@@ -44,7 +44,7 @@ class _Signals:
         before, self.last = self.last, time.monotonic()
         if self.last - before >= QUIET:
             self.stopped = Stopped(number)
-            signal.setitimer(signal.ITIMER_REAL, AGAIN, AGAIN)
+            _alarm(AGAIN)
             raise self.stopped
 
     def stop_again(self, number: int, frame: FrameType | None) -> None:
@@ -58,10 +58,19 @@ _signals = _Signals()
 
 def catch_signals() -> None:
     """Raise :class:`Stopped` at SIGINT, SIGTERM and SIGHUP. A signal that this process was told to ignore stays so."""
-    signal.signal(signal.SIGALRM, _signals.stop_again)
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    numbers = [signal.SIGINT, signal.SIGTERM]
+    if sys.platform != "win32":
+        signal.signal(signal.SIGALRM, _signals.stop_again)
+        numbers.append(signal.SIGHUP)
+    for number in numbers:
         if signal.getsignal(number) in (signal.SIG_DFL, signal.default_int_handler):
             signal.signal(number, _signals.stop)
+
+
+def _alarm(seconds: float) -> None:
+    """Have SIGALRM sent every so many seconds from now on; 0: no more. Windows has no such signal."""
+    if sys.platform != "win32":
+        signal.setitimer(signal.ITIMER_REAL, seconds, seconds)
 
 
 def stopped() -> Stopped | None:
@@ -70,7 +79,7 @@ def stopped() -> Stopped | None:
     An engine's own code may have made another exception of it.
     """
     if _signals.stopped is not None:
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        _alarm(0.0)
     return _signals.stopped
 
 

@@ -13,13 +13,16 @@ from typing import BinaryIO
 
 from ..errors import InvalidInput
 
+# Flags with which os.open gives the bytes themselves, as far as a system has them: no translation of line ends (on
+# Windows), no waiting for the other end of a pipe, and nothing that a started process inherits.
+RAW = getattr(os, "O_BINARY", 0) | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0)
 LONGEST_SHOWN = 200  # characters of a path in a message
 
 
 def open_regular(path: str | Path) -> BinaryIO:
     """Open a file for reading bytes. Raises :class:`InvalidInput` where it is missing or no regular file."""
     try:
-        descriptor = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK)  # a pipe without a writer would wait
+        descriptor = os.open(path, os.O_RDONLY | RAW)
     except (OSError, ValueError) as error:  # ValueError: a null byte in the name
         raise _unreadable(path, error) from None
     try:

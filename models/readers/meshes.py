@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import InvalidInput
+from ..errors import InvalidInput, library
 from ..spatial import Inertial, from_quaternion
 from .bounded_file import read_bytes, shown
 
@@ -147,11 +147,11 @@ def _moments(corners: Array, weights: Array, centre: Array, divisor: float) -> I
 
 def _hull(name: str, vertices: Array) -> Faces:
     """The triangles of the convex hull, counter-clockwise from outside."""
-    from scipy.spatial import ConvexHull, QhullError  # 0.2 s, and few files need it
+    spatial = library("scipy.spatial")  # 0.2 s, and few files need it
 
     try:
-        hull = ConvexHull(vertices, qhull_options="Qt")
-    except (QhullError, ValueError) as error:
+        hull = spatial.ConvexHull(vertices, qhull_options="Qt")
+    except (spatial.QhullError, ValueError) as error:
         raise InvalidInput(f"{name}: no convex hull: {str(error).splitlines()[0][:120]}") from None
     corners = vertices[hull.simplices]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from html import escape  # that of xml.sax imports an HTTP client
 from pathlib import Path
 from xml.parsers import expat
-from xml.sax.saxutils import quoteattr
 
 from ..errors import InvalidInput
 from .bounded_file import read_bytes, shown
@@ -79,7 +79,7 @@ def write_xml(root: Element) -> str:
         if isinstance(item, str):
             parts.append(item)
             continue
-        attributes = "".join(f" {name}={quoteattr(value)}" for name, value in item.attributes.items())
+        attributes = "".join(f' {name}="{_quoted(value)}"' for name, value in item.attributes.items())
         if not item.children:
             parts.append(f"<{item.tag}{attributes}/>\n")
             continue
@@ -142,3 +142,8 @@ class _Builder:
             f"{self._file}, line {self._parser.CurrentLineNumber}: a document type declaration: models need none, and "
             "its entities can grow without end; remove it"
         )
+
+
+def _quoted(value: str) -> str:
+    """An attribute's text between double quotes; a reader would make spaces of its ends of lines and tabs."""
+    return escape(value).replace("\n", "&#10;").replace("\r", "&#13;").replace("\t", "&#9;")

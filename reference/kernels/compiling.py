@@ -11,11 +11,17 @@ from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
 
-import numba
 import numpy as np
-from llvmlite import ir
-from numba import types
-from numba.extending import intrinsic as numba_intrinsic
+
+from ...models.errors import missing
+
+try:
+    import numba
+    from llvmlite import ir
+    from numba import types
+    from numba.extending import intrinsic as numba_intrinsic
+except ImportError as error:  # whatever else needs numba imports this module first
+    raise missing("numba", error) from error
 
 LINE = 8  # numbers in a line of the cache
 F = TypeVar("F", bound=Callable[..., Any])

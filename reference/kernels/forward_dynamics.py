@@ -3,8 +3,9 @@
 The formulas and their derivation are in :mod:`.elimination`: for rods an articulated-body algorithm (ABA). Plain numpy
 runs them in any float type and needs no start-up; compiled code (:mod:`.forward_dynamics_compiled`) is 20 to 200 times
 faster once numba is imported (0.3 s) and the kernels are loaded from numba's cache (0.1 s) or, once in the life of an
-installation, compiled (some seconds). Both are deterministic and a state's result does not depend on the other states
-of the call; between plain, single and batch form it may differ by rounding, 1e-15 of the largest acceleration.
+installation, compiled (some seconds). Without numba (``furiko[fast]``) it is plain numpy always. Both are
+deterministic and a state's result does not depend on the other states of the call; between plain, single and batch form
+it may differ by rounding, 1e-15 of the largest acceleration.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import weakref
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
+from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
@@ -84,7 +86,7 @@ def accelerations(
     if out is not None and not (out.shape == angles.shape and out.dtype == _FLOAT64 and out.flags.carray):
         raise InvalidInput(f"out: a contiguous float64 array of shape {angles.shape} is needed")
     out = np.empty(angles.shape) if out is None else out
-    if kernel is None and not _worth_compiling(angles.size):
+    if kernel is None and not (_worth_compiling(angles.size) and _can_compile()):
         refuse_outside(angles, rates)
         out[...] = plain_accelerations(system, angles, rates)
         return out
@@ -204,6 +206,12 @@ def _worth_compiling(angles: int) -> bool:
     return _COMPILED in sys.modules or angles >= MANY_ANGLES or _calls > MANY_CALLS
 
 
+@cache
+def _can_compile() -> bool:
+    """Whether numba is installed: without it plain numpy answers all calls, to the same accuracy."""
+    return find_spec("numba") is not None
+
+
 def processors(threads: int | None) -> int:
     """The number of threads that may run: at most those asked for and the processors of this process.
 
@@ -213,7 +221,7 @@ def processors(threads: int | None) -> int:
         raise InvalidInput(f"threads: at least 1 is needed, got {threads}")
     if threads == 1:
         return 1
-    available = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    available = len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count() or 1
     return min(threads or available, available)
 
 
@@ -223,7 +231,7 @@ def thread_pool() -> ThreadPoolExecutor:
     return ThreadPoolExecutor(processors(None), thread_name_prefix="furiko")
 
 
-if hasattr(os, "register_at_fork"):
+if sys.platform != "win32":
     os.register_at_fork(after_in_child=thread_pool.cache_clear)  # a child has the pool, but none of its threads
 
 

@@ -15,6 +15,7 @@ from ...models.units import units_of
 from .. import mass_matrix
 from .bounds import Amplitudes
 from .maximal_elimination import equations
+from .norms import norm
 
 Array = NDArray[np.float64]
 
@@ -27,9 +28,8 @@ def left_in_accelerations(
     first = (np.abs(amplitude.own_matrix(mass)) @ np.abs(amplitude.own(alpha))[..., None])[..., 0]
     units = units_of(system.tree())
     torque = np.array([system.n * units.fitting(system.gravity, rates).energy for rates in omega])
-    norm = np.linalg.norm(first, axis=-1)
-    left = tolerance * np.maximum(norm, torque)
-    return np.asarray(left[:, None] * np.linalg.norm(amplitude.solution(mass), axis=-1))
+    left = tolerance * np.maximum(norm(first), torque)
+    return np.asarray(left[:, None] * norm(amplitude.solution(mass)))
 
 
 def left_in_maximal_coordinates(
@@ -42,10 +42,10 @@ def left_in_maximal_coordinates(
         inverse = np.linalg.inv(state.matrix)
         solution = np.abs(inverse @ state.right)
         first = np.abs(state.matrix) @ solution
-        left = tolerance * max(float(np.linalg.norm(first[: 3 * n])), float(n))
+        left = tolerance * max(float(norm(first[: 3 * n])), float(n))
         by_angle = inverse[2 : 3 * n : 3]
-        accelerations = left * np.linalg.norm(by_angle, axis=1) / state.units.time**2
-        speeds = left * np.linalg.norm(by_angle[:, 3 * n :], axis=1) / state.units.time
+        accelerations = state.units.in_seconds(left * norm(by_angle), 2)
+        speeds = left * norm(by_angle[:, 3 * n :]) / state.units.time
         pairs.append((accelerations, speeds))
     accelerations, speeds = (np.array(values) for values in zip(*pairs, strict=True))
     return accelerations, speeds

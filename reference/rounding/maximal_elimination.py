@@ -16,12 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...models import DocumentSystem
+from ...models.errors import library
 from ...models.tree import SUPPORT
 from ...models.units import Units, in_units, units_of
 from .. import mass_matrix
 from ..maximal_coordinates import MaximalCoordinates
 from .bounds import interchanged
 from .monte_carlo import ONE_ROUNDING
+from .norms import norm, vector_product
 
 Array = NDArray[np.float64]
 
@@ -119,10 +121,10 @@ def maximal_spread(
 
 def _spread(n: int, state: Equations, met: Array) -> tuple[Array, Array]:
     inverse, units = np.linalg.inv(state.matrix), state.units
-    rows = (met**2 + state.levers**2) @ (inverse @ state.right) ** 2 + state.rounded**2
-    found = ONE_ROUNDING * np.sqrt(inverse**2 @ rows)
-    forces = np.linalg.norm(found[3 * n :].reshape(n, 2), axis=-1)
-    return found[2 : 3 * n : 3] / units.time**2, forces * units.force
+    rows = np.hypot(vector_product(np.hypot(met, state.levers), inverse @ state.right), state.rounded)
+    found = ONE_ROUNDING * vector_product(inverse, rows)
+    forces = norm(found[3 * n :].reshape(n, 2))
+    return units.in_seconds(found[2 : 3 * n : 3], 2), forces * units.force
 
 
 def joint_spread(system: DocumentSystem, theta: Array, omega: Array) -> tuple[Array, Array]:
@@ -133,12 +135,12 @@ def joint_spread(system: DocumentSystem, theta: Array, omega: Array) -> tuple[Ar
     n, pairs = system.n, []
     for angles, rates in zip(theta, omega, strict=True):
         state = equations(system, angles, rates)
-        answer = np.linalg.inv(state.matrix)[2 : 3 * n : 3, 3 * n :] ** 2
-        jacobian, lever = state.matrix[3 * n :, : 3 * n] ** 2, state.levers[3 * n :, 2 : 3 * n : 3] ** 2
-        squared = [values.astype(np.float64) ** 2 for values in (state.position, state.velocity)]
-        apart = jacobian @ squared[0] + lever.sum(axis=-1)
-        parting = jacobian @ squared[1] + lever @ squared[1][2::3]
-        pairs.append((np.sqrt(answer @ apart), np.sqrt(answer @ parting) / state.units.time))
+        answer = np.linalg.inv(state.matrix)[2 : 3 * n : 3, 3 * n :]
+        jacobian, lever = state.matrix[3 * n :, : 3 * n], state.levers[3 * n :, 2 : 3 * n : 3]
+        position, velocity = (values.astype(np.float64) for values in (state.position, state.velocity))
+        apart = np.hypot(vector_product(jacobian, position), norm(lever))
+        parting = np.hypot(vector_product(jacobian, velocity), vector_product(lever, velocity[2::3]))
+        pairs.append((vector_product(answer, apart), vector_product(answer, parting) / state.units.time))
     by_angle, by_rate = (ONE_ROUNDING * np.array(values) for values in zip(*pairs, strict=True))
     return by_angle, by_rate
 
@@ -176,10 +178,8 @@ def _met(matrices: Array, orders: NDArray[np.intp]) -> Array:
 
 def _met_by_superlu(matrix: Array) -> Array:
     """|L||U| of SuperLU's own factors, rows and columns where they were, (5n, 5n)."""
-    from scipy.sparse import csc_array
-    from scipy.sparse.linalg import splu
-
-    found = splu(csc_array(matrix), permc_spec="COLAMD", diag_pivot_thresh=1.0)
+    superlu, sparse = library("scipy.sparse.linalg"), library("scipy.sparse")
+    found = superlu.splu(sparse.csc_array(matrix), permc_spec="COLAMD", diag_pivot_thresh=1.0)
     product = (abs(found.L) @ abs(found.U)).toarray()
     return np.asarray(product[np.ix_(found.perm_r, found.perm_c)])
 

@@ -11,6 +11,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from .norms import root_mean_square
+
 Array = NDArray[np.float64]
 
 EPSILON = 2.0**-52
@@ -110,4 +112,4 @@ def _value(number: Noisy | float) -> Array | float:
 
 def spread(samples: Array, exact: Array) -> Array:
     """Root mean square of the samples' distance from the exact values: (…) from (samples, …)."""
-    return np.asarray(np.sqrt(np.mean((samples - exact) ** 2, axis=0)) / MAGNIFIED)
+    return np.asarray(root_mean_square(samples - exact) / MAGNIFIED)

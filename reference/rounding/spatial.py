@@ -58,10 +58,20 @@ class Magnitudes:
     The lengths then are those of either way of computing, whichever is larger; otherwise those along the joints.
     """
 
-    def __init__(self, mechanism: SpatialMechanism, q: Array, v: Array | None = None, *, world: bool = True) -> None:
+    def __init__(
+        self,
+        mechanism: SpatialMechanism,
+        q: Array,
+        v: Array | None = None,
+        *,
+        world: bool = True,
+        moved: spatial_kinematics.Motion | None = None,
+    ) -> None:
+        """``moved``: where all bodies are in this state, if that is known already."""
         self.mechanism, self.q = mechanism, np.asarray(q, dtype=np.float64)
         self.v = np.zeros(mechanism.nv) if v is None else np.asarray(v, dtype=np.float64)
         self.world = world
+        self._known = moved
         self._mass = np.array([body.inertial.mass for body in mechanism.bodies])
         self._tensor = np.array([np.linalg.norm(body.inertial.tensor, 2) for body in mechanism.bodies])
 
@@ -224,6 +234,8 @@ class Magnitudes:
 
     @cached_property
     def _moved(self) -> spatial_kinematics.Motion:
+        if self._known is not None:
+            return self._known
         return spatial_kinematics.motion(self.mechanism, self.q[None], self.v[None])
 
     @cached_property
@@ -317,6 +329,12 @@ class Magnitudes:
             middle[these] = np.average(places[these], axis=0, weights=weights)
             far[these] = self._ways[2][these].max()
         return middle, far, places, moved.pivot[0]
+
+
+def magnitudes(mechanism: SpatialMechanism, q: Array, v: Array) -> list[Magnitudes]:
+    """Those of each state, ``q`` (B, nq), ``v`` (B, nv): the bodies are placed in all of them at once."""
+    moved = spatial_kinematics.motion(mechanism, q, v)
+    return [Magnitudes(mechanism, q[k], v[k], moved=moved.of_state(k)) for k in range(len(q))]
 
 
 def allowed_mass_matrix(mechanism: SpatialMechanism, q: Array, *, world: bool = True) -> Array:

@@ -35,6 +35,7 @@ from .entries import entries, reach, speeds
 from .lever_arms import from_support
 from .maximal_elimination import maximal_spread
 from .monte_carlo import ONE_ROUNDING
+from .norms import product, vector_product
 from .sampled import aba_accelerations, crba_matrix, energies, rnea
 
 Array = NDArray[np.float64]
@@ -72,11 +73,11 @@ def accelerations(
         found = aba_accelerations(system.tree(), theta, omega, alpha, accuracy=how.accuracy, placed=how.placed)
     else:
         met = entries(how, system, amplitude, theta, mass)
-        rows = _squared(met, amplitude.own(alpha)) + bias(how, system, amplitude, theta, omega) ** 2
-        found = np.sqrt(_squared(amplitude.solution(mass), np.sqrt(rows))) * ONE_ROUNDING * _coarser(how)
+        rows = np.hypot(vector_product(met, amplitude.own(alpha)), bias(how, system, amplitude, theta, omega))
+        found = vector_product(amplitude.solution(mass), rows) * ONE_ROUNDING * _coarser(how)
     summed = ONE_ROUNDING * _coarser(how) * amplitude.path_sums(alpha)
     lost = amplitude.acceleration_errors(mass, EPSILON * amplitude.solution_underflow(omega, alpha) + 0 * theta)
-    return np.sqrt(found**2 + summed**2) * turns(theta)[:, None] + lost
+    return np.hypot(found, summed) * turns(theta)[:, None] + lost
 
 
 def bias(how: Formulation, system: DocumentSystem, amplitude: Amplitudes, theta: Array, omega: Array) -> Array:
@@ -107,7 +108,8 @@ def terms(how: Formulation, system: DocumentSystem, amplitude: Amplitudes, theta
     """The effect of rounding on each entry of the terms in states (B, n), each row asked for by itself.
 
     Added to what the algorithm does: two roundings of each entry with every sine and cosine one. An angle is known
-    to ε, so that a cosine near zero is not known better.
+    to ε, so that a cosine near zero is not known better. Squares of slow rates lose digits below the smallest normal
+    number, twice in a row of absolute angles, which is the difference of two of joints'.
     """
     known = 2 * ONE_ROUNDING * _coarser(how) * np.abs(mass_matrix(system, np.zeros_like(theta[:1])))
     weights = ONE_ROUNDING * _coarser(how) * _weights(system, theta)
@@ -122,7 +124,7 @@ def terms(how: Formulation, system: DocumentSystem, amplitude: Amplitudes, theta
         np.hypot(found.mass, last.mass) * more[:, None, None],
         np.hypot(found.coriolis, last.coriolis) * more[:, None, None],
         np.hypot(found.gravity, last.gravity) * more[:, None],
-        np.hypot(found.velocity, last.velocity) * more[:, None],
+        np.hypot(found.velocity, last.velocity) * more[:, None] + 2 * EPSILON * amplitude.underflow(omega),
     )
 
 
@@ -155,7 +157,7 @@ def _terms_unknown(
     """Where it is not known how they are computed: magnitudes in rows of the engine's coordinates, put together."""
     n = system.n
     met = np.abs(amplitude.own_matrix(mass_matrix(system, theta)))
-    mass = np.sqrt(met**2 @ amplitude.from_absolute**2)  # of each row, for each unit acceleration
+    mass = product(met, amplitude.from_absolute)  # of each row, for each unit acceleration
     units = np.broadcast_to(np.eye(n), (len(theta), n, n))
     coriolis = np.stack([velocity_bias(how, system, amplitude, theta, units[:, k]) for k in range(n)], axis=-1)
     gravity = reach(how, system, amplitude, theta) @ (amplitude.mass * system.gravity)
@@ -220,13 +222,8 @@ def _columns(responses: Array, count: int) -> Array:
 
 def _rows(how: Formulation, amplitude: Amplitudes, own: Array) -> Array:
     """Spreads of rows of absolute angles, (B, n, m), from magnitudes in rows of the engine's coordinates, (B, n, m)."""
-    found = np.sqrt(amplitude.from_absolute.T**2 @ own**2)
+    found = product(amplitude.from_absolute.T, own)
     return np.asarray(ONE_ROUNDING * _coarser(how) * found)
-
-
-def _squared(matrix: Array, vector: Array) -> Array:
-    """Σ_j matrix_ij² vector_j², (B, n)."""
-    return np.asarray((matrix**2 @ (vector**2)[..., None])[..., 0])
 
 
 def _weights(system: DocumentSystem, theta: Array) -> Array:

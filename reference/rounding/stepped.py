@@ -19,6 +19,7 @@ from ..integration.schemes import Scheme, run
 from ..kernels.forward_dynamics import plain_accelerations
 from .bounds import Amplitudes
 from .monte_carlo import ONE_ROUNDING
+from .norms import root_mean_square
 
 Array = NDArray[np.float64]
 
@@ -87,6 +88,6 @@ def stepped(
     if not np.isfinite(ends).all():
         raise ArithmeticError("a run does not come to its end")
     errors = (ends[:, 1:] - ends[:, :1]).astype(np.float64) / MAGNIFIED
-    spread = np.sqrt(np.mean(errors[:, :SAMPLES] ** 2, axis=1))
-    kept = np.sqrt(np.mean(errors[:, SAMPLES:] ** 2, axis=1)) if left.any() else np.zeros_like(spread)
+    spread = root_mean_square(errors[:, :SAMPLES], 1)
+    kept = root_mean_square(errors[:, SAMPLES:], 1) if left.any() else np.zeros_like(spread)
     return Ends(ends[:, 0], spread, kept)

@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...models import RodChain
+from ...models.errors import library
 from .enclosures import MOST_BITS, precision
 
 Floats = NDArray[np.float64]
@@ -77,9 +78,7 @@ def hanging_chain_rates(length: float, gravity: float, count: int) -> Floats:
 
     The limit of many short rods of total length L (Bernoulli 1732); j₀ᵢ are the zeros of Bessel's J₀.
     """
-    from scipy.special import jn_zeros
-
-    return np.asarray(jn_zeros(0, count) / 2 * math.sqrt(gravity / length))
+    return np.asarray(library("scipy.special").jn_zeros(0, count) / 2 * math.sqrt(gravity / length))
 
 
 def _precisely(evaluate: Callable[[], list[list[Any]]]) -> list[list[float]]:

@@ -29,7 +29,7 @@ def lookup(
 ) -> QuadrupleTrajectory:
     """States in quadruple precision at 1/8, 1/4, 1/2 and all of ``duration`` [s], shape (4, n): kept or computed now.
 
-    Computing needs heyoka: raises EngineMissing without it.
+    Computing needs heyoka: raises LibraryMissing without it.
     """
     entry = _kept().get(_key(system, theta, omega, _times(duration)))
     if entry is None:
@@ -38,7 +38,7 @@ def lookup(
 
 
 def entries(scenes: Sequence[Scene]) -> dict[str, dict[str, Any]]:
-    """The entries of these scenes, computed anew. Raises EngineMissing without heyoka."""
+    """The entries of these scenes, computed anew. Raises LibraryMissing without heyoka."""
     return dict(_entry(scene) for scene in scenes if scene.theta is not None and scene.duration > 0)
 
 

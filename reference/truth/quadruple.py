@@ -16,7 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...models import DocumentSystem, EngineMissing, RodChain
+from ...models import DocumentSystem, RodChain
+from ...models.errors import library
 from ..arithmetic import Arithmetic, Array, heyoka_arithmetic
 from ..documents import equations_of_motion as motion
 from .block_tridiagonal import chain_accelerations
@@ -52,7 +53,7 @@ def quadruple_trajectory(
 ) -> QuadrupleTrajectory:
     """The trajectory of the literal equations from a state (n,) at ``times[0]`` [s]; times may run backwards.
 
-    Its error is estimated by a second run. Raises EngineMissing without heyoka.
+    Its error is estimated by a second run. Raises LibraryMissing without heyoka.
     """
     digits, error = decimal_states(system, [*map(float, theta)], [*map(float, omega)], [*map(float, times)])
     return from_decimals(digits, error, system.n)
@@ -120,8 +121,4 @@ def accelerations(xp: Arithmetic, system: DocumentSystem, theta: Array, omega: A
 
 
 def _heyoka() -> Any:
-    try:
-        import heyoka
-    except ImportError as error:
-        raise EngineMissing(f"heyoka cannot be imported ({error}); pip install heyoka") from None
-    return heyoka
+    return library("heyoka")

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...models.errors import library
 from ...models.spatial_mechanism import SpatialMechanism
 from .spatial import spatial_truth
 
@@ -38,15 +39,15 @@ def tree_motion(mechanism: SpatialMechanism, q: Floats, v: Floats, times: Sequen
 
 
 def _run(mechanism: SpatialMechanism, q: Floats, v: Floats, times: Sequence[float], tolerance: float) -> Floats:
-    from scipy.integrate import solve_ivp
-
     n = mechanism.nv
 
     def rates(_time: float, state: Floats) -> Floats:
         return np.concatenate([state[n:], spatial_truth(mechanism, state[:n], state[n:]).accelerations.float])
 
     begin = np.concatenate([q, v])
-    solved = solve_ivp(rates, (0.0, times[-1]), begin, "DOP853", rtol=tolerance, atol=tolerance, t_eval=times)
+    solved = library("scipy.integrate").solve_ivp(
+        rates, (0.0, times[-1]), begin, "DOP853", rtol=tolerance, atol=tolerance, t_eval=times
+    )
     if not solved.success or solved.y.shape[1] != len(times):
         raise ArithmeticError(f"the motion does not come to its end: {solved.message}")
     return np.asarray(solved.y.T, dtype=np.float64)

@@ -47,6 +47,8 @@ def print_report(
     for sentence in report.outliers:
         console.line(sentence)
     console.line()
+    for sentence in dict.fromkeys(engine.untested for engine in report.header.engines if engine.untested):
+        console.line(one_line(sentence))
     for flaw in report.flaws:
         console.line(flaw, "bold reverse")
     style = {AGREES: STYLES["agrees"], DIFFERS: STYLES["differs"]}.get(report.exit_status, STYLES["error"])

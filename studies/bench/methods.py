@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ...engines import AnyShape, EngineInfo, Integrator, Native, cannot, engine_info, engine_version, load_engine
 from ...models import InvalidInput, Scene
+from ...models.errors import installing, library
 from ...reference.truth.end_points import lookup
 from ...reference.truth.quadruple import QuadrupleTrajectory
 
@@ -72,7 +73,7 @@ def methods(scene: Scene, engines: Sequence[str]) -> tuple[list[Method], list[st
 def why_not(info: EngineInfo, scene: Scene) -> str:
     """The reason why an engine is left out; empty where it is not."""
     if info.package and not engine_version(info.name):
-        return f"not installed: pip install {info.package}"
+        return f"not installed: {installing(info.package)}"
     return cannot(info, scene.system) or ""
 
 
@@ -123,8 +124,6 @@ def _adaptive(engine: AnyShape, scene: Scene, scheme: str, tolerance: float, par
 
 def dop853(native: Native, scene: Scene, tolerance: float, part: float = 1.0) -> End:
     """The end by scipy's DOP853 in the engine's own coordinates, without conversions in between."""
-    from scipy.integrate import solve_ivp
-
     theta, omega = (native.from_absolute(x[None])[0] for x in start(scene))
     n = len(theta)
     accelerate = native.accelerate
@@ -132,7 +131,7 @@ def dop853(native: Native, scene: Scene, tolerance: float, part: float = 1.0) ->
     def motion(_time: float, state: Array) -> Array:
         return np.concatenate((state[n:], accelerate(state[:n], state[n:])))
 
-    solved = solve_ivp(
+    solved = library("scipy.integrate").solve_ivp(
         motion, (0.0, part * scene.duration), np.concatenate((theta, omega)), "DOP853", rtol=tolerance, atol=tolerance
     )
     end = solved.y[:, -1] if solved.success else np.full(2 * n, np.nan)

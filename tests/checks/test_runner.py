@@ -115,7 +115,7 @@ def test_a_missing_engine_is_skipped_unless_it_was_asked_for(monkeypatch):
     monkeypatch.setattr(plan, "engine_version", lambda name: "" if name == "mujoco" else "1.0")
     skipped = plan.make_plan(["rods-1"], None, "smoke").settled
     assert [(r.engine, r.outcome) for r in skipped] == [("mujoco", "skipped")]
-    assert "pip install mujoco" in skipped[0].reason
+    assert "pip install 'furiko[mujoco]'" in skipped[0].reason
     asked = plan.make_plan(["rods-1"], ["mujoco"], "smoke").settled
     assert [r.outcome for r in asked] == ["error"]
 

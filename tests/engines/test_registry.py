@@ -38,13 +38,13 @@ def test_an_unknown_engine(asked, meant):
 def test_an_engine_that_is_not_installed(name, monkeypatch):
     info = engine_info(name)
     monkeypatch.setitem(sys.modules, info.module, None)
-    with pytest.raises(EngineMissing, match=f"pip install {info.package}"):
+    with pytest.raises(EngineMissing, match=rf"pip install 'furiko\[{info.package}\]'"):
         load_engine(name, RodChain((1.0,)))
 
 
 def test_the_unrelated_package_called_pinocchio(monkeypatch):
     monkeypatch.setitem(sys.modules, "pinocchio", types.ModuleType("pinocchio"))
-    with pytest.raises(EngineMissing, match=r"pip install pin \(.*unrelated.*pip uninstall pinocchio"):
+    with pytest.raises(EngineMissing, match=r"pip install 'furiko\[pin\]' \(.*unrelated.*pip uninstall pinocchio"):
         load_engine("pinocchio-aba", RodChain((1.0,)))
 
 

@@ -55,7 +55,7 @@ ROOMS = {
     ),
     "derivations": (
         {"models", "reference"},
-        [(".",), ("algebra",), ("steps",), ("reading",), ("mistakes",), ("grading",), ("audit", "lesson")],
+        [(".",), ("algebra",), ("steps",), ("reading",), ("mistakes",), ("grading",), ("audit", "lesson", "classroom")],
     ),
     "reports": ({"models", "records"}, [(".",), ("pages", "terminal")]),
     "furiko": ({"*"}, [(".",), ("cli",)]),

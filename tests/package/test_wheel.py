@@ -25,8 +25,12 @@ def source(tmp_path):
     copy.mkdir()
     for name in ("furiko", *links()):
         shutil.copytree(ROOT / name, copy / name, symlinks=True, ignore=shutil.ignore_patterns("__pycache__"))
-    for name in ("pyproject.toml", "README.md", "LICENSE"):
+    for name in ("pyproject.toml", "README.md", "LICENSE", "MANIFEST.in", "Makefile", "constraints.txt"):
         shutil.copy(ROOT / name, copy / name)
+    for name in ("CHANGELOG.md", "CONTRIBUTING.md"):
+        shutil.copy(ROOT / name, copy / name)
+    for name in ("tests", "docs", "benchmarks", ".ci"):
+        shutil.copytree(ROOT / name, copy / name, ignore=shutil.ignore_patterns("__pycache__"))
     return copy
 
 
@@ -39,6 +43,12 @@ def test_wheel_sdist_and_checkout_hold_the_same_files(source, tmp_path):
     through_archive = build(unpacked, tmp_path / "through", "--wheel")
     assert direct == set(expected())
     assert through_archive == direct
+    for name in ("tests", "docs", "benchmarks"):
+        there = {path.relative_to(ROOT / name) for path in (ROOT / name).rglob("*") if path.is_file()}
+        there = {path for path in there if "__pycache__" not in path.parts and ".asv" not in path.parts}
+        assert there <= {path.relative_to(unpacked / name) for path in (unpacked / name).rglob("*")}
+    for name in ("CHANGELOG.md", "CONTRIBUTING.md", "Makefile", "constraints.txt", ".ci/run"):
+        assert (unpacked / name).is_file()
 
 
 def build(source, out, *kinds):

@@ -105,3 +105,39 @@ def test_the_ratio_stands_beside_what_grew(make):
     text = compare(make.report(make.result(measured=3.0)), make.report(make.result(measured=30.0))).text()
     assert "  + rods-2 × mujoco, accelerations: agrees 3 ε → agrees 30 ε (10 ×)" in text
     assert text.endswith("1 error grew; 0 comparisons unchanged.")
+
+
+def test_an_error_that_grew_beyond_the_factor_fails(make):
+    runs = [make.report(make.result(measured=m)) for m in (3.0, 9.0)]
+    assert compare(*runs).exit_status == 1
+    assert compare(*runs, factor=4.0).exit_status == 0
+    assert compare(*reversed(runs)).exit_status == 0
+
+
+def test_other_versions_and_machines_are_told(make):
+    engines = [[make.engine(version=version)] for version in ("4.0.0", "4.1.0.dev0")]
+    machines = [{"system": "Linux", "processor": name} for name in ("one", "another")]
+    before, after = (make.report(make.result(), engines=e, machine=m) for e, m in zip(engines, machines, strict=True))
+    text = compare(before, after).text()
+    assert text.splitlines()[:2] == [
+        "other mujoco (mujoco): 4.0.0 → 4.1.0.dev0",
+        "other processor: one → another",
+    ]
+    assert "other" not in compare(before, before).text()
+
+
+def test_a_narrower_run_is_one_line_and_what_disappeared_within_it_is_not(make):
+    scenes = [make.scene("rods-2"), make.scene("rods-3")]
+    both = [
+        make.result(scene=scene, check=check, comparison=check)
+        for scene in ("rods-2", "rods-3")
+        for check in ("terms", "energy")
+    ]
+    wide = make.report(*both, scenes=scenes)
+    narrow = make.report(both[0], scenes=scenes[:1], profile="smoke")
+    text = compare(wide, narrow).text()
+    assert text.startswith("other profile: full → smoke\n3 comparisons not looked at in the second run: rods-2, rods-3")
+    assert text.endswith("\n\n1 comparison unchanged.")
+    lost = make.report(both[0], both[3], scenes=scenes)
+    assert "disappeared (2)" in compare(wide, lost).text()
+    assert "not looked at" not in compare(wide, lost).text()

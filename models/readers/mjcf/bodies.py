@@ -185,10 +185,9 @@ class Bodies:
         if rules.pos_of_last_joint_for_all and len(joints) > 1:
             self.bodies.append(RigidBody(f"{name} before its last joint", parent, joints=tuple(joints[:-1])))
             parent, joints = len(self.bodies) - 1, joints[-1:]
-        where = str(element)
-        self.bodies.append(
-            RigidBody(name, parent, placement.position, placement.quaternion, tuple(joints), inertial, where)
-        )
+        at_parent = (parent, placement.position, placement.quaternion)
+        meshes = self.inertials.meshes.get(name, 0.0)
+        self.bodies.append(RigidBody(name, *at_parent, tuple(joints), inertial, str(element), meshes))
         return len(self.bodies) - 1
 
     def _read_again(self, first: int, index: int) -> None:

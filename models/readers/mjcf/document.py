@@ -134,7 +134,7 @@ def _with_springs(
     read: tuple[RigidBody, ...], bodies: Bodies, root: Element, rules: MjcfRules
 ) -> tuple[RigidBody, ...]:
     """The bodies with the springs that ``springdamper`` gives them."""
-    if not bodies.springs or rules.springs_not_held:
+    if not bodies.springs or rules.springs_not_held or rules.springdamper_ignored:
         return read
     tendon = next((t for section in root.all("tendon") for t in section.children if "armature" in t.attributes), None)
     if tendon is not None:

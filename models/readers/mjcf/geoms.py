@@ -50,7 +50,7 @@ def geom_inertial(element: Element, compiler: Compiler, assets: Assets) -> Inert
     if mass <= LEAST_MASS:
         return None
     share = mass / unit.mass
-    return Inertial(mass, unit.centre, unit.tensor * share).transformed(placement.pose)
+    return Inertial(float(mass), unit.centre, unit.tensor * share).transformed(placement.pose)
 
 
 def collides(element: Element) -> bool:

@@ -47,7 +47,8 @@ class Inertials:
     """Reads the inertials of a document's bodies, and keeps how each came about, by the body's name.
 
     ``from_geoms``: bodies whose inertial is that of their geoms; ``geoms``: the inertial that each body's geoms have
-    together; ``tensors``: a given inertial before its rotation, and that rotation (3, 3).
+    together; ``tensors``: a given inertial before its rotation, and that rotation (3, 3); ``meshes``: the largest
+    moments [kg m²] of the meshes that it is weighed by, added up.
     """
 
     compiler: Compiler
@@ -56,6 +57,7 @@ class Inertials:
     from_geoms: list[str] = field(default_factory=list)
     geoms: dict[str, Inertial] = field(default_factory=dict)
     tensors: dict[str, tuple[Inertial, Array]] = field(default_factory=dict)
+    meshes: dict[str, float] = field(default_factory=dict)
 
     def of_body(
         self,
@@ -67,7 +69,7 @@ class Inertials:
         """The inertial of the body ``name`` at ``position`` in its own frame. Raises :class:`InvalidInput`."""
         compiler = self.compiler
         from_geoms = compiler.from_geoms == "true" or (compiler.from_geoms == "auto" and given is None)
-        of_geoms = self._of_geoms(geoms, from_geoms)
+        of_geoms = self._of_geoms(name, geoms, from_geoms)
         if of_geoms is not None:
             self.geoms[name] = of_geoms
         if from_geoms:
@@ -121,7 +123,7 @@ class Inertials:
         self.tensors[name] = (Inertial(mass, pose.translation, tensor), pose.rotation)
         return Inertial(mass, np.zeros(3), tensor).transformed(pose).transformed(frame.pose)
 
-    def _of_geoms(self, geoms: Sequence[PlacedGeom], needed: bool) -> Inertial | None:
+    def _of_geoms(self, name: str, geoms: Sequence[PlacedGeom], needed: bool) -> Inertial | None:
         """The inertial of all the body's geoms together; None where they have no mass.
 
         Shapes in other files are loaded only where the inertial is ``needed``.
@@ -136,6 +138,8 @@ class Inertials:
                 if part is not None:
                     part = part.transformed(geom.frame.pose)
                     total = part if total is None else total + part
+                    if geom.full.get("mesh"):
+                        self.meshes[name] = self.meshes.get(name, 0.0) + float(np.linalg.norm(part.tensor, 2))
         return total
 
     def _of_geom(self, geom: PlacedGeom, needed: bool) -> Inertial | None:
@@ -157,7 +161,11 @@ def scaled_to_total_mass(bodies: Sequence[RigidBody], compiler: Compiler) -> tup
         return tuple(bodies)
     scale = compiler.total_mass / total
     return tuple(
-        replace(b, inertial=Inertial(b.inertial.mass * scale, b.inertial.centre, b.inertial.tensor * scale))
+        replace(
+            b,
+            inertial=Inertial(b.inertial.mass * scale, b.inertial.centre, b.inertial.tensor * scale),
+            meshes=b.meshes * scale,
+        )
         for b in bodies
     )
 

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+import numpy as np
+
 from ...errors import InvalidInput
 from ...spatial import Inertial
 from ...spatial_mechanism import WORLD, Joint, RigidBody
@@ -15,7 +17,7 @@ from ..rules import UrdfRules
 from ..xml_file import Element
 from .extension import Extension, gravity_of, read_extension, tell
 from .folders import MeshFolders
-from .inertials import Inertials
+from .inertials import Inertials, weighed_by_meshes
 from .joints import placement, read_joints, rotor_inertias
 from .notes import Notes
 from .tree import Place, read_tree
@@ -89,11 +91,12 @@ def read_urdf(root: Element, path: Path, rules: UrdfRules | None = None, meshes:
 
 def _body(place: Place, inertial: Inertial, rules: UrdfRules, notes: Notes, rotors: dict[str, float]) -> RigidBody:
     joint, name, where = place.joint, place.link.get("name"), str(place.link)
+    meshes = float(np.linalg.norm(inertial.tensor, 2)) if weighed_by_meshes(place.link, rules) else 0.0
     if joint is None:
-        return RigidBody(name, WORLD, inertial=inertial, where=where)
+        return RigidBody(name, WORLD, inertial=inertial, where=where, meshes=meshes)
     at = placement(joint)
     joints = read_joints(joint, rules, notes, rotors.get(joint.get("name"), 0.0))
-    return RigidBody(name, place.parent, at.position, at.quaternion, joints, inertial, where)
+    return RigidBody(name, place.parent, at.position, at.quaternion, joints, inertial, where, meshes)
 
 
 def _freed(body: RigidBody, above: Placement | None) -> RigidBody:

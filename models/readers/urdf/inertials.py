@@ -116,3 +116,9 @@ def _sphere(inertial: Inertial) -> Inertial:
     mass = inertial.mass if inertial.mass > 0 else 1.0
     radius = (3 * mass / (4 * math.pi * DENSITY)) ** (1 / 3)
     return Inertial(mass, inertial.centre, np.eye(3) * (2 / 5 * mass * radius * radius))
+
+
+def weighed_by_meshes(link: Element, rules: UrdfRules) -> bool:
+    """Whether an engine with these ``rules`` may weigh the link by a mesh."""
+    geometries = (geometry for collision in link.all("collision") for geometry in collision.all("geometry"))
+    return (rules.collision_weighs or rules.extension_honoured) and any(g.first("mesh") for g in geometries)

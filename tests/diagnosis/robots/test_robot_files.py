@@ -13,6 +13,7 @@ import pytest
 from furiko import diagnose
 from furiko.diagnosis.finding import CAUSES
 from furiko.diagnosis.model_files.fix import write_fixed
+from furiko.diagnosis.robots.fields import field_differences
 from furiko.diagnosis.robots.misreadings import explain_reading
 from furiko.models import InvalidInput
 from furiko.models.readers.model_file import read_model
@@ -190,7 +191,11 @@ def test_a_range_that_an_engine_does_not_hold_is_left_where_ranges_count(tmp_pat
     holds = read_model(saved(tmp_path, "a.xml", SOUND["free.xml"])).spatial
     hip = replace(holds.bodies[1].joints[0], limits=(-0.5, 0.5))
     said = replace(holds, bodies=(holds.bodies[0], replace(holds.bodies[1], joints=(hip,))))
-    explanation = explain_reading(lambda rules: said, "mjcf", holds, ("first_root_only",), limits=limits)
+
+    def left(reading):
+        return field_differences(holds, reading, limits=limits)
+
+    explanation = explain_reading(lambda rules: said, "mjcf", left, ("first_root_only",))
     assert [difference.cause for difference in explanation.left] == causes
 
 

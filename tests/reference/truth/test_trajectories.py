@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from furiko.models import EngineMissing, NLegPendulum, RodChain, Scene, document_scenes, find_scene
+from furiko.models import LibraryMissing, NLegPendulum, RodChain, Scene, document_scenes, find_scene
 from furiko.reference import literal_accelerations
 from furiko.reference.arithmetic import balls, floats
 from furiko.reference.truth import end_points as endpoints
@@ -113,7 +113,7 @@ def test_without_heyoka_a_clear_line(monkeypatch):
     import sys
 
     monkeypatch.setitem(sys.modules, "heyoka", None)
-    with pytest.raises(EngineMissing, match="pip install heyoka"):
+    with pytest.raises(LibraryMissing, match=r"^this needs heyoka: pip install 'furiko\[truth\]'$"):
         quadruple_trajectory(DOUBLE, START, REST, [0.0, 1.0])
 
 

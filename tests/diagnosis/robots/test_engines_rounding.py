@@ -1,0 +1,83 @@
+"""What an engine's compiler rounds, and a robot that cannot be simulated, are no misreadings of a file."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+from furiko import diagnose
+from furiko.models.readers.model_file import read_model
+
+INERTIAL = '<inertial pos="0.1 0 -0.4" mass="1.5" diaginertia="0.1 0.2 0.25"/>'
+BODY = '<mujoco>{}<worldbody><body name="a"><joint name="j" axis="1 2 3"/>{}</body></worldbody></mujoco>'
+
+
+def engine(tmp_path, text, name="mujoco", ending="xml"):
+    file = tmp_path / f"robot.{ending}"
+    file.write_text(text)
+    found = diagnose(file, engines=[name])
+    return found, found.engines[name]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_mesh_turned_to_principal_axes_is_not_accused(tmp_path, seed):
+    """The products of inertia that are left are below 1e-7 of the largest moment: more than 1e-11."""
+    vertices = np.random.default_rng(seed).normal(size=(4, 3)).astype(np.float32)
+    mesh = f'<mesh name="m" vertex="{" ".join(repr(float(x)) for x in vertices.ravel())}"/>'
+    file = tmp_path / "robot.xml"
+    file.write_text(BODY.format(f"<asset>{mesh}</asset>", '<geom type="mesh" mesh="m"/>'))
+    assert diagnose(file, engines=["mujoco"]).engines["mujoco"]["status"] == "agrees"
+    assert read_model(file).spatial.bodies[0].meshes > 0
+
+
+def test_a_centre_of_mass_that_is_nearly_at_the_origin(tmp_path):
+    """MuJoCo takes 8e-7 m for nothing; 2e-6 m it does not."""
+    arm = '<body name="b"><joint name="k"/>' + INERTIAL + "</body>"
+    near = BODY.format("", '<inertial pos="8e-7 0 0" mass="1" diaginertia="1 2 2.5"/>' + arm)
+    found, answer = engine(tmp_path, near)
+    assert answer["status"] == "agrees"
+    assert any("within 1e-06 of the body's frame" in note for note in found.notes)
+    found, answer = engine(tmp_path, near.replace("8e-7", "2e-6"))
+    assert (answer["status"], any("within" in note for note in found.notes)) == ("agrees", False)
+
+
+def test_a_spring_by_time_constant_that_pinocchio_does_not_know(tmp_path):
+    text = BODY.format("", INERTIAL).replace('axis="1 2 3"', 'axis="0 1 0" springdamper="0.1 1" damping="0.25"')
+    arm = '<body name="b"><joint name="k"/>' + INERTIAL + "</body></body>"
+    found, _ = engine(tmp_path, text.replace("</body>", arm), "pinocchio-aba")
+    assert [finding.cause for finding in found.findings] == ["springdamper-ignored"]
+    assert "0.25 N m s/rad" in found.findings[0].says
+
+
+def test_accelerations_that_are_not_finite_have_the_cause_of_it(tmp_path):
+    """Pinocchio gives these geoms no mass, and its accelerations are not finite."""
+    found, answer = engine(tmp_path, BODY.format("", '<geom size="0.1" contype="0" conaffinity="0"/>'), "pinocchio-aba")
+    assert answer["status"] == "differs"
+    assert found.findings[0].cause == "geoms-without-contact-weigh-nothing"
+
+
+def test_a_joint_that_moves_no_mass_has_no_accelerations(tmp_path):
+    link = '<link name="{}"/>'
+    text = f"""<robot name="r"><link name="w"/>{link.format("a")}<joint name="j" type="continuous"><parent link="w"/>
+        <child link="a"/><axis xyz="0 0 1"/></joint></robot>"""
+    found, answer = engine(tmp_path, text, "pinocchio-aba", "urdf")
+    assert answer["status"] == "agrees"
+    assert any("moves no mass" in note for note in found.notes)
+
+
+def test_an_inertial_that_is_not_understood_is_no_impossible_inertia(tmp_path):
+    text = BODY.format("", '<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/><geom size="1" nonsense="1"/>')
+    found, _ = engine(tmp_path, text)
+    assert [finding.cause for finding in found.findings] == ["file-refused"]
+
+
+def test_json_of_a_geom_fitted_to_its_ends(tmp_path):
+    """A capsule's volume must not reach the document as a number of numpy's."""
+    text = BODY.format("", '<geom type="capsule" fromto="0 0 0 0 0 1" size="0.1"/>').replace("1 2 3", "0 1 0")
+    file = tmp_path / "robot.xml"
+    file.write_text(text)
+    for link in diagnose(file).to_json()["mechanism"]["links"]:
+        assert {type(value) for value in (link["mass"], link["inertia"])} == {float}
+    json.dumps(diagnose(file).to_json())
