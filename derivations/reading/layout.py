@@ -87,8 +87,8 @@ def _matlab(line: str) -> str:
 
 
 def _entries(matrix: str) -> str:
-    """Commas for blanks, where products have a star and so a blank is none."""
-    if "*" not in matrix or "," in matrix:
+    """Commas for blanks, where products have a star, in every row, and so a blank is none."""
+    if "," in matrix or not all("*" in row for row in matrix[1:-1].split(";")):
         return matrix
     depth, out = 0, list(matrix)
     blanks = {found.start("blank") for found in ENTRY_ENDS.finditer(matrix)}
