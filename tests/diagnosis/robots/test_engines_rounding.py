@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 
 import numpy as np
@@ -13,6 +12,7 @@ from furiko.diagnosis.finding import Finding
 from furiko.diagnosis.model_files import engine_result
 from furiko.diagnosis.model_files.engine_answers import EngineAnswer
 from furiko.diagnosis.model_files.engine_result import EngineResult
+from furiko.diagnosis.model_files.result import mechanism_to_json
 from furiko.diagnosis.robots.answer import RobotAnswer
 from furiko.engines.model_files.robot import ROBOT_READERS
 from furiko.models.readers.model_file import read_model
@@ -82,14 +82,18 @@ def test_an_inertial_that_is_not_understood_is_no_impossible_inertia(tmp_path):
     assert [finding.cause for finding in found.findings] == ["file-refused"]
 
 
-def test_json_of_a_geom_fitted_to_its_ends(tmp_path):
-    """A capsule's volume must not reach the document as a number of numpy's."""
-    text = BODY.format("", '<geom type="capsule" fromto="0 0 0 0 0 1" size="0.1"/>').replace("1 2 3", "0 1 0")
-    file = tmp_path / "robot.xml"
-    file.write_text(text)
-    for link in diagnose(file).to_json()["mechanism"]["links"]:
-        assert {type(value) for value in (link["mass"], link["inertia"])} == {float}
-    json.dumps(diagnose(file).to_json())
+def test_json_of_masses_that_are_numbers_of_numpy(tmp_path):
+    """As a volume is where numpy has made it: it must not reach the document as one."""
+    planar = planar_arm_file(tmp_path)
+    links = tuple(replace(k, mass=np.float64(k.mass), inertia=np.float64(k.inertia)) for k in planar.links)
+    for link in mechanism_to_json(replace(planar, links=links))["links"]:
+        assert {type(link["mass"]), type(link["inertia"])} == {float}
+
+
+def planar_arm_file(tmp_path):
+    file = tmp_path / "arm.xml"
+    file.write_text(PLANE.format(joint="", z="-0.4", moments="0.1 0.2 0.25", b=INERTIAL))
+    return read_model(file).planar
 
 
 PLANE = """<mujoco><worldbody><body name="a"><joint name="j" axis="0 1 0" {joint}/><inertial pos="0 0 {z}" mass="1.5"
