@@ -6,6 +6,8 @@ Known to pytest by its entry point. Without ``--furiko`` it adds options, a mark
 from __future__ import annotations
 
 import contextlib
+import os
+import sys
 from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
@@ -205,6 +207,8 @@ def _runs(config: pytest.Config) -> Runs:
 
     profile = config.getoption("furiko_profile")
     engines = config.getoption("furiko_engine") or [name for name in engine_names() if engine_version(name)]
+    if any(":" in name for name in engines) and os.getcwd() not in sys.path:
+        sys.path.append(os.getcwd())  # as the command line does
     if not engines:
         raise pytest.UsageError("--furiko: no engine is installed: pip install 'furiko[mujoco]'")
     given = config.getoption("furiko_scene")
