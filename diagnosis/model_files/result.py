@@ -88,7 +88,7 @@ class Diagnosis:
     def text(self) -> str:
         """The text that ``furiko diagnose`` prints."""
         lines = [f"{self.model}: {self.verdict}" + (f" (against {self.against})" if self.against else "")]
-        lines += [f"  {self.headline}", f"  {self._described()}"]
+        lines += [f"  {self.headline}", f"  {self.described()}"]
         for name, engine in self.engines.items():
             says = engine.get("says", "")
             lines.append(f"  {name:16} {engine['status']}" + (f": {says}" if says else ""))
@@ -105,7 +105,8 @@ class Diagnosis:
         lines += [f"  note: {note}" for note in self.notes]
         return "\n".join(lines)
 
-    def _described(self) -> str:
+    def described(self) -> str:
+        """The mechanism that was read, in a few words."""
         if self.mechanism is not None:
             links = len(self.mechanism["links"])
             return f"a planar tree of {links} link{'s' * (links != 1)}"

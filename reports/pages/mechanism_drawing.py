@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ...records.check import SceneEntry
@@ -11,6 +12,7 @@ MOST_LINKS = 200  # drawn of a longer mechanism; more cannot be told apart in a 
 MARGIN = 12.0
 
 Point = tuple[float, float]
+Line = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True)
@@ -47,6 +49,23 @@ def draw_mechanism(scene: SceneEntry, size: float = 150.0) -> MechanismDrawing:
         lines=tuple((*placed(start), *placed(end)) for start, end in links),
         bobs=tuple(bobs) if scene.system == "n-leg" else (),
         left_out=len(scene.lengths) - len(lengths),
+    )
+
+
+def draw_lines(lines: Sequence[Line], size: float = 300.0) -> MechanismDrawing:
+    """Lines (x, z, x, z) [m], z upwards, to scale in a box at most ``size`` wide and high."""
+    shown = lines[:MOST_LINKS]
+    across = [0.0, *(x for line in shown for x in line[::2])]
+    down = [0.0, *(-z for line in shown for z in line[1::2])]
+    scale = (size - 2 * MARGIN) / (max(max(across) - min(across), max(down) - min(down)) or 1.0)
+    left, top = MARGIN - scale * min(across), MARGIN - scale * min(down)
+    return MechanismDrawing(
+        width=2 * MARGIN + scale * (max(across) - min(across)),
+        height=2 * MARGIN + scale * (max(down) - min(down)),
+        support=(left, top),
+        lines=tuple((left + scale * x, top - scale * z, left + scale * u, top - scale * w) for x, z, u, w in shown),
+        bobs=(),
+        left_out=len(lines) - len(shown),
     )
 
 

@@ -10,7 +10,7 @@ from furiko.checks import sharp
 from furiko.checks.comparisons import accelerations, energy, joint_forces, terms
 from furiko.checks.registry import CHECKS as REGISTERED
 from furiko.engines import ENGINES as ENGINE_INFO
-from furiko.models import RodChain, Scene
+from furiko.models import NLegPendulum, RodChain, Scene
 from furiko.models.states import States
 from furiko.reference.rounding import spread
 
@@ -173,3 +173,15 @@ def test_a_wrong_engine_in_maximal_coordinates_differs_within_seconds(make_cell)
     assert result.outcome == "differs"
     assert "states not judged" in result.details
     assert time.process_time() - started < 15
+
+
+@pytest.mark.parametrize("engine", ["mujoco", "pinocchio-crba", "exudyn-tree"])
+def test_what_squares_of_slow_rates_lose_is_rounding(make_cell, engine):
+    """ω² is about 1e-315, which double precision holds to eight digits; terms are 1e92 times that."""
+    system = NLegPendulum((2.7e36, 3.8e36, 3.2e36), (4.6e19, 3.1e18, 1.9e19), gravity=0.0)
+    omega = (-3.460992552978651e-158, 8.88768517331926e-158, -3.0158355787265936e-157)
+    cell = make_cell(engine, Scene("slow", system, (-0.03, 2.17, -1.3), omega))
+    found = {result.check: result for result in terms.compare(cell) if result.outcome != "skipped"}
+    assert "terms velocity" in found
+    for result in found.values():
+        assert (result.outcome, result.loose) == ("agrees", False), result
