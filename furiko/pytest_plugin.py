@@ -205,13 +205,13 @@ def _runs(config: pytest.Config) -> Runs:
     from .engines import engine_names, engine_version
     from .reports import read_known
 
-    profile = config.getoption("furiko_profile")
+    profile: str = config.getoption("furiko_profile") or "quick"
     engines = config.getoption("furiko_engine") or [name for name in engine_names() if engine_version(name)]
     if any(":" in name for name in engines) and os.getcwd() not in sys.path:
         sys.path.append(os.getcwd())  # as the command line does
     if not engines:
         raise pytest.UsageError("--furiko: no engine is installed: pip install 'furiko[mujoco]'")
-    given = config.getoption("furiko_scene")
+    given: list[str] = config.getoption("furiko_scene") or []
     plan = make_plan(_chosen(given) if given else None, engines, profile)
     known = config.getoption("furiko_known")
     files = {Path(name).stem: str(Path(name).absolute()) for name in given if name.endswith(".toml")}
