@@ -13,23 +13,26 @@ a body on a hinge (a point mass at its end) and 0 on a slide, everything else no
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import Any
 
 from ...models.errors import InvalidInput, nearest
 from ..algebra.trig import NOTHING, Formula, Space
 from ..steps.declared import Declared, Joined, pivot_to_centre
 from .evaluation import Evaluation
+from .layout import laid_out
 from .meaning import Meaning
+from .names import GREEK, WRITTEN, base_and_index, is_joined, plain_name, spelling, splits
 from .parser import parse_expression
+from .tokens import LONGEST_LINE
 from .vocabulary import ANGLES, FUNCTIONS, LETTERS, Vocabulary
 
 MOST_BODIES = 8
 QUANTITIES = ("mass", "length", "centre", "inertia", "at", "spring", "rest", "damping", "drive")
 FIELDS = ("name", "on", "coordinate", "joint", "along", "about", *QUANTITIES)
-NAME = re.compile(r"[A-Za-z][A-Za-z0-9]{0,15}")
-PARAMETER = re.compile(r"(?<![A-Za-z0-9\\])[A-Za-z][A-Za-z0-9]*")
-COORDINATE = re.compile(r"(?P<base>[A-Za-z]+?)(?P<index>[0-9]{0,2})")
-BASES = ("theta", "phi", "psi", "alpha", "beta", "gamma", "q", "x", "y", "z", "r", "s", "u")
+FRACTION = re.compile(r"\\(?:[dt]?frac|cdot|times|left|right|over|pi)(?![A-Za-z])|[0-9.]+(?:[eE][+-]?[0-9]+)?")
+GLYPHS_APART = {"vartheta": "theta", "th": "theta", "varphi": "phi"}  # one letter, unless both are used
+TAKEN = ("g", "t", "pi", *FUNCTIONS)
 
 _CART = {"name": "cart", "coordinate": "x", "joint": "slide", "along": "right", "mass": "M"}
 PRESETS: dict[str, list[dict[str, str]]] = {
@@ -54,7 +57,7 @@ def declared(data: dict[str, Any]) -> tuple[Declared, dict[str, Formula], Vocabu
     """The mechanism that a file declares, its symbols, and the words of its coordinates; None where it names one."""
     system = data.get("system")
     if isinstance(system, str) and system in PRESETS and "bodies" not in data:
-        bodies: object = PRESETS[system]
+        bodies: object = [_with_rest(body, data) for body in PRESETS[system]]
     elif system == "mechanism":
         bodies = data.get("bodies")
     else:
@@ -71,31 +74,88 @@ def declared(data: dict[str, Any]) -> tuple[Declared, dict[str, Formula], Vocabu
                 raise InvalidInput(f"bodies {place}: {name!r:.40} is not known{nearest(name, FIELDS)}")
             if not isinstance(value, str) or len(value) > 200:
                 raise InvalidInput(f"bodies {place}: {name}: a text in quotes is needed, got {value!r:.40}")
-    names = sorted({x for b in bodies for q in QUANTITIES for x in PARAMETER.findall(b.get(q, ""))} - {"g"})
-    for name in names:
-        if not NAME.fullmatch(name) or name in FUNCTIONS:
-            raise InvalidInput(f"bodies: {name!r:.40} is no name of a quantity; letters, then figures")
+    names, apart = _names(bodies)
     space = Space.general(len(bodies), tuple(names))
     symbols = {name: space.own(name) for name in names}
     coordinates = tuple(_coordinate(b, place) for place, b in enumerate(bodies, 1))
-    if len(set(coordinates)) < len(coordinates) or set(coordinates) & set(names):
+    plain = [base + index for base, index in coordinates]
+    if len(set(plain)) < len(plain) or set(plain) & set(names):
         raise InvalidInput("bodies: every coordinate needs a name of its own")
-    made = tuple(_body(b, place, bodies, symbols, space) for place, b in enumerate(bodies))
-    return Declared(space, made, coordinates), symbols, _words(coordinates)
+    words = _words(coordinates, frozenset(names), apart)
+    made = tuple(_body(b, place, bodies, symbols, space, words) for place, b in enumerate(bodies))
+    return Declared(space, made, tuple(plain)), symbols, words
 
 
-def _coordinate(body: dict[str, str], place: int) -> str:
-    name = body.get("coordinate", "")
-    match = COORDINATE.fullmatch(name)
-    if match is None or match["base"] not in BASES:
-        raise InvalidInput(f"bodies {place}: coordinate: {name!r:.40} is not known; one of {', '.join(BASES)}, "
-                           "with a number if you like")  # fmt: skip
-    return name
+RESTS = ("l0", "L0", "r0", "R0", "l", "L", "a")
+
+
+def _with_rest(body: dict[str, str], data: dict[str, Any]) -> dict[str, str]:
+    """A usual mechanism's spring, whose length at rest has the name that the author gives it."""
+    if "rest" not in body:
+        return body
+    tables = [data.get("define"), data.get("equations")]
+    lines = [line for table in tables if isinstance(table, dict) for line in table.values()]
+    lines += [data.get("lagrangian"), *(data["equations"] if isinstance(data.get("equations"), list) else [])]
+    text = " ".join(laid_out(line) for line in lines if isinstance(line, str) and len(line) <= LONGEST_LINE)
+    text = re.sub(r"\\(?!ell)[A-Za-z]+|cos|sin|tan|theta", " ", text)
+    there = [name for name in RESTS if re.search(rf"(?<![A-Za-z_]){spelling(name).pattern}", text)]
+    return {**body, "rest": there[0]} if len(there) == 1 else body
+
+
+def _names(bodies: list[dict[str, str]]) -> tuple[list[str], frozenset[str]]:
+    """The names of all quantities, plain; and those that as one word are two of them side by side."""
+    texts = [b[q] for b in bodies for q in QUANTITIES if q in b]
+    alone = {plain: text for text in texts if (plain := plain_name(text)) is not None}
+    known, joined = set(alone), {plain for plain, text in alone.items() if is_joined(text)}
+    for text in texts:
+        if plain_name(text) is None:
+            for written in _written(text):
+                plain = plain_name(written)
+                if plain is None:
+                    raise InvalidInput(f"bodies: {written!r:.40} is no name of a quantity")
+                if is_joined(written) and (plain not in joined) and splits(plain, frozenset(known | {"g"})):
+                    continue  # mL is m times L where these are names
+                known.add(plain)
+                joined |= {plain} if is_joined(written) else set()
+    names = sorted(known - {"g"})
+    for name in names:
+        if name in TAKEN or not name.isalnum():
+            raise InvalidInput(f"bodies: {name!r:.40} is no name of a quantity; letters, then figures")
+    return names, frozenset(n for n in names if n not in joined and splits(n, frozenset({*names, "g"})))
+
+
+def _written(text: str) -> list[str]:
+    """The names in an expression, as they are written."""
+    at, found = 0, []
+    while at < len(text):
+        skipped = FRACTION.match(text, at)
+        if skipped:
+            at = skipped.end()
+            continue
+        name = WRITTEN.match(text, at)
+        if name:
+            found.append(name[0])
+        at = name.end() if name else at + 1
+    return found
+
+
+def _coordinate(body: dict[str, str], place: int) -> tuple[str, str]:
+    """The letter or word of a coordinate and its index, "" for none."""
+    written = body.get("coordinate", "")
+    found = base_and_index(written)
+    if found is None or found[0] in TAKEN or not found[1].isalnum() * len(found[1]) == len(found[1]):
+        raise InvalidInput(f"bodies {place}: coordinate: {written!r:.40} is not known; a letter or a Greek one, "
+                           "with an index if you like")  # fmt: skip
+    base, index = found
+    if not index and (figures := re.search(r"[0-9]+$", base)):
+        base, index = base[: figures.start()], figures[0]
+    return base, index
 
 
 def _body(
-    body: dict[str, str], place: int, bodies: list[dict[str, str]], symbols: dict[str, Formula], space: Space
-) -> Joined:
+    body: dict[str, str], place: int, bodies: list[dict[str, str]], symbols: dict[str, Formula], space: Space,
+    words: Vocabulary,
+) -> Joined:  # fmt: skip
     names = [b.get("name", f"body {k}") for k, b in enumerate(bodies, 1)]
     on = body.get("on", names[place - 1] if place else "support")
     if on != "support" and on not in names[:place]:
@@ -106,12 +166,14 @@ def _body(
     if body.get("about", "centre") not in ("centre", "pivot"):
         raise InvalidInput(f"bodies {place + 1}: about is 'centre' or 'pivot'")
 
+    quantities = replace(words, fixed={}, numbers={}, letters={"g": "g", "pi": "p", "\\pi": "p", "π": "p"})
+
     def value(field: str, otherwise: Formula = NOTHING) -> Formula:
         if field not in body:
             return otherwise
         evaluation = Evaluation(Meaning("mechanism", space, symbols))
         try:
-            found = evaluation.scalar(parse_expression(body[field], frozenset(symbols)))
+            found = evaluation.scalar(parse_expression(body[field], frozenset(symbols), quantities))
         except InvalidInput as error:
             raise InvalidInput(f"bodies {place + 1}: {field}: {error}") from None
         if found.denominator:
@@ -131,24 +193,29 @@ def _body(
     )  # fmt: skip
 
 
-def _words(coordinates: tuple[str, ...]) -> Vocabulary:
+def _words(coordinates: tuple[tuple[str, str], ...], names: frozenset[str], apart: frozenset[str]) -> Vocabulary:
     """The words of the coordinates, in Greek, LaTeX and ASCII; dots and primes make their rates."""
-    letters = {word: kind for word, kind in LETTERS.items() if kind not in "twarI" and kind not in "lm"}
+    letters = {word: kind for word, kind in LETTERS.items() if kind in "gp"}
     fixed: dict[str, tuple[str, int]] = {}
-    numbers: dict[str, dict[int, int]] = {}
-    for k, name in enumerate(coordinates, 1):
-        match = COORDINATE.fullmatch(name)
-        assert match is not None
-        for word in _spellings(match["base"]):
-            if match["index"]:
+    numbers: dict[str, dict[str, int]] = {}
+    used = {base for base, _ in coordinates} | names
+    for k, (base, index) in enumerate(coordinates, 1):
+        for word in _spellings(base, used):
+            if index:
                 letters[word] = "t"
-                numbers.setdefault(word, {})[int(match["index"])] = k
+                numbers.setdefault(word, {})[index] = k
             else:
                 fixed[word] = ("t", k)
     for word in fixed.keys() & letters.keys():
         raise InvalidInput(f"bodies: the coordinate {word} stands with a number and without one")
-    return Vocabulary(letters, fixed, numbers=numbers, declared=True)
+    return Vocabulary(letters, fixed, numbers=numbers, declared=True, apart=apart)
 
 
-def _spellings(base: str) -> tuple[str, ...]:
-    return next((words for words in ANGLES.values() if base in words), (base,))
+def _spellings(base: str, used: set[str]) -> tuple[str, ...]:
+    """Every way to write a letter; ϑ and θ are one where only one of the two is used."""
+    letter = GLYPHS_APART.get(base, base)
+    twins = {letter, *(glyph for glyph, of in GLYPHS_APART.items() if of == letter)}
+    shared = [letter] if used & twins == {base} else []
+    family = next((words for words in ANGLES.values() if letter in words), ()) if shared else ()
+    own = (base, *GREEK.get(base, ()), *((f"\\{base}",) if base in GREEK else ()))
+    return tuple(dict.fromkeys((*own, *family, *(("th",) if shared == ["theta"] else ()))))

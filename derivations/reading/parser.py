@@ -195,7 +195,11 @@ class _Parser:
         parts: list[tuple[bool, Node]] = [(True, self.factor(depth))]
         while True:
             token = self.next
-            if token.kind == "operator" and token.text in ("*", "/"):
+            if token.kind == "operator" and token.text == "left":  # MATLAB's A \\ b
+                self.advance()
+                before = parts[0][1] if len(parts) == 1 else Product(tuple(parts), at)
+                parts = [(True, Inverse(before, token.at)), (True, self.factor(depth))]
+            elif token.kind == "operator" and token.text in ("*", "/"):
                 self.advance()
                 parts.append((token.text == "*", self.factor(depth)))
                 if token.text == "/":

@@ -13,9 +13,13 @@ ANGLE = (
     r"(?:\\(?:var)?(?:theta|phi)(?![A-Za-z])|\\(?:psi|alpha|beta|gamma)(?![A-Za-z])|theta|phi|psi|alpha|beta|gamma"
     r"|th(?![a-z])|[θϑφϕψαβγ𝜃]|(?<![A-Za-z\\])[qxyrst](?![A-Za-z]))"
 )
-INDEX = r"(?:\s*_\s*\{\s*[0-9A-Za-z]{1,3}\s*\}|_[0-9A-Za-z]|[0-9]{1,2}|[A-Z](?![A-Za-z])|[₀-₉]{1,2})?"
+INDEX = (
+    r"(?:\s*_\s*\{\s*[0-9A-Za-z]{1,3}\s*\}|_(?!dd?(?:ot)?(?![A-Za-z])|acc|vel)[0-9A-Za-z]|[0-9]{1,2}"
+    r"|[A-Z](?![A-Za-z])|[₀-₉]{1,2})?"
+)
 OF_TIME = r"(?:\(\s*t\s*\)|\{\s*\\left\s*\(\s*t\s*\\right\s*\)\s*\}|\\left\s*\(\s*t\s*\\right\s*\))"
 X = rf"(?P<x>{ANGLE}{INDEX})\s*{OF_TIME}?"
+BEHIND_D = rf"(?P<x>(?:{ANGLE}|[qxyrsz](?![A-Za-z])){INDEX})\s*{OF_TIME}?"
 D = r"(?:\\mathrm\s*\{\s*d\s*\}|\{\s*\\rm\s+d\s*\}|\\mathrm\s*d|\\partial|d|ｄ)"
 TWO = r"(?:\^\s*\{\s*2\s*\}|\^\s*2|\*\*\s*2|²)"
 
@@ -25,10 +29,12 @@ RULES = [
     rf"{X}\.diff\(\s*t\s*(?P<two>,\s*(?:2|t)\s*)?\)(?:\.diff\(\s*t\s*\))?",
     rf"\\[dt]?frac\s*\{{\s*{D}\s*(?P<two>{TWO})?\s*{X}\s*\}}\s*\{{\s*{D}\s*t\s*{TWO}?\s*\}}",
     rf"\\[dt]?frac\s*\{{\s*{D}\s*(?P<two>{TWO})?\s*\}}\s*\{{\s*{D}\s*t\s*{TWO}?\s*\}}\s*{X}",
-    rf"(?<![A-Za-z]){D}\s*(?P<two>{TWO})?\s*{X}\s*/\s*{D}\s*t\s*{TWO}?(?![A-Za-z])",
+    rf"(?<![A-Za-z]){D}\s*(?P<two>{TWO})?\s*{BEHIND_D}\s*/\s*{D}\s*t\s*{TWO}?(?![A-Za-z])",
     rf"(?<![A-Za-z\\])(?:d(?P<two>d|2)?)(?P<x>(?:theta|phi|psi|th(?![a-z])|[θϑφϕψ]|q(?![a-z])|\\theta|\\phi){INDEX})",
     rf"(?P<x>(?:theta|phi|psi|th|[θφϕψ]|(?<![A-Za-z])[qx]){INDEX})_?d(?P<two>d)?(?:ot)?(?![A-Za-z0-9])",
     r"(?P<x>theta|phi|psi|th)_?d(?P<two>d)?ot_?(?P<index>[0-9]{1,2})?(?![A-Za-z])",
+    rf"(?P<x>{ANGLE}{INDEX})_?d(?P<two>d)?ot(?![A-Za-z0-9])",
+    rf"(?P<x>(?:theta|phi|psi|th|[θφϕψ]|(?<![A-Za-z])[a-z]){INDEX})_?(?:vel|(?P<two>acc))(?![A-Za-z0-9])",
 ]
 PATTERNS = [re.compile(rule) for rule in RULES]
 FUNCTION_OF_TIME = re.compile(
@@ -42,14 +48,14 @@ DOTTED_OPERATOR = re.compile(r"\.(?=[*/^])")
 EQUATION = re.compile(r"^\s*(?:Eq|Equation)\((?P<body>.*)\)\s*$", re.DOTALL)
 
 
-def plain(line: str) -> str:
-    """The line with one spelling for derivatives, of the same length."""
+def plain(line: str, names: frozenset[str] = frozenset()) -> str:
+    """The line with one spelling for derivatives, of the same length. ``names``: the author's own, which stay."""
     if "Eq" in line:
         line = _equation(line)
     for pattern in (MODULES, CONTAINERS, DOTTED_OPERATOR):
         line = pattern.sub(lambda found: " " * len(found[0]), line)
     for pattern in PATTERNS:
-        line = pattern.sub(_primed, line)
+        line = pattern.sub(lambda found: found[0] if found[0].strip() in names else _primed(found), line)
     line = FUNCTION_OF_TIME.sub(lambda found: found["x"].ljust(len(found[0])), line)
     return POWER_FIRST.sub(lambda found: found["index"] + found["power"], line)
 

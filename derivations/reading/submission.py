@@ -20,12 +20,14 @@ from ..steps.declared import Declared
 from ..steps.mechanism import Origin
 from .declaration import PRESETS, declared
 from .evaluation import Evaluation
+from .layout import equations_of, laid_out
 from .matrices import Grid, added
 from .meaning import Meaning, own_symbols
+from .names import base_and_index, plain_name
 from .parser import Slashes, parse_equation, parse_expression
-from .tokens import FULL_WIDTH
+from .tokens import FULL_WIDTH, LONGEST_LINE
 from .typeset import Typesetter
-from .vocabulary import FUNCTIONS, LETTERS, Vocabulary, vocabulary
+from .vocabulary import FUNCTIONS, Vocabulary, vocabulary
 
 LARGEST_FILE = 200_000  # characters; a chain of twenty rods, every sum multiplied out, has 150 000
 MOST_LINKS = 20
@@ -248,15 +250,26 @@ class Reader:
     def define(self, table: dict[str, Any]) -> None:
         """Read the file's own names."""
         for name, line in table.items():
-            if not re.fullmatch(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)?", name) or name in LETTERS or name in FUNCTIONS:
-                raise InvalidInput(
-                    f"define.{name!s:.40}: a name is a letter, then letters and digits, and not one in use"
-                )
-            if re.fullmatch(r"(t|th|w|a|l|m|I|theta|omega|alpha)_?[0-9]+", name):
-                raise InvalidInput(f"define.{name!s:.40}: already has a meaning")
+            self._check_name(name)
             node = _located(f"define.{name}", self._expression, line)
             self.evaluation.definitions[name] = node
             self.defined.append((name, self.typesetter.equation((node,))))
+
+    def _check_name(self, name: str) -> None:
+        """Raises InvalidInput where a name is none, or means something already."""
+        short, n = plain_name(name), self.evaluation.space.n
+        if short is None or short in FUNCTIONS or self.words.kind(name) or self.words.kind(short):
+            raise InvalidInput(f"define.{name!s:.40}: a name is a letter, then letters and digits, and not one in use")
+        own = {plain_name(other) for other in self.names}
+        base, index = base_and_index(name) or ("", "")
+        figures = re.search(r"[0-9]+$", base)
+        if not index and figures:
+            base, index = base[: figures.start()], figures[0]
+        counted = self.words.kind(base) is not None and base not in self.words.fixed and base != "g"
+        numbers = self.words.numbers.get(base)
+        taken = index in numbers if numbers else index.isdigit() and int(index[:6]) <= n
+        if short in own or (counted and taken):
+            raise InvalidInput(f"define.{name!s:.40}: already has a meaning")
 
     def _expression(self, line: object) -> Any:
         written = _line(line)
@@ -273,6 +286,10 @@ class Reader:
         n = self.evaluation.space.n
         if isinstance(table, list):
             table = {str(i): line for i, line in enumerate(table, 1)}
+        if isinstance(table, dict) and len(table) == 1 and n > 1:  # all rows in one text
+            ((label, line),) = table.items()
+            several = equations_of(_line(line)) if isinstance(line, str) and len(line) <= LONGEST_LINE else []
+            table = {str(i): row for i, row in enumerate(several, 1)} if len(several) > 1 else table
         if not isinstance(table, dict) or not table:
             raise InvalidInput('equations: a table of rows is needed, as in 1 = "m1*l1^2*a1 = -m1*g*l1*sin(t1)"')
         if len(table) > n:
@@ -319,7 +336,7 @@ class Reader:
 def _line(line: object) -> str:
     if not isinstance(line, str):
         raise InvalidInput(f"column 1: a text in quotes is needed, got {line!r:.40}")
-    return re.sub(r"[.,;、。，．]$", "", line.rstrip())
+    return laid_out(line)
 
 
 def _located(where: str, read: Callable[..., T], *arguments: Any) -> T:

@@ -14,6 +14,7 @@ from unicodedata import normalize
 from flint import fmpq
 
 from ...models.errors import InvalidInput, nearest
+from .names import GLYPHS, HIGH, LOWS, is_joined, plain_name, spelling, splits
 from .spellings import plain
 from .vocabulary import FUNCTIONS, Vocabulary
 
@@ -55,18 +56,15 @@ INDEXED = "twalmIc"
 FASTER = {"t": "w", "w": "a"}  # what a dot makes of a letter
 
 _SPACE = (
-    r"\s|\\[,;:!> ]|\\(?:left|right|[bB]igg?[lrm]?|quad|qquad|displaystyle|mathrm|rm|nonumber|limits)(?![A-Za-z])"
+    r"\s|\\[,;:!>\s]|\\(?:left|right|[bB]igg?[lrm]?|quad|qquad|displaystyle|mathrm|rm|nonumber|limits)(?![A-Za-z])"
     r"|\\(?:tag|label)\{[^{}]{0,40}\}|\{\}|[~$]"
 )
 SPACING = re.compile(rf"(?:{_SPACE}|\\(?:begin|end)\{{(?!\w*matrix|array)[A-Za-z]{{1,20}}\*?\}}|\\\\|&)+")
 IN_MATRIX = re.compile(rf"(?:{_SPACE})+")
 MATRIX = re.compile(r"\\(?P<which>begin|end)\{(?P<name>[pbB]?(?:small)?matrix|array)\}(?:\{[clr| ]{0,20}\})?")
 NUMBER = re.compile(r"(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
-ANGLE = (
-    r"(?:\\(?:var)?(?:theta|phi)|\\(?:psi|alpha|beta|gamma|omega)|theta|omega|phi|psi|alpha|beta|gamma"
-    r"|[θϑφϕψαβγω𝜃]|[A-Za-z])"
-)
-INDEX = r"(?:_?[0-9]+|_\s*\{\s*[0-9A-Za-z]+\s*\}|\{\s*[0-9]+\s*\}|_?[₀-₉]+|_[A-Za-z])"
+ANGLE = rf"(?:\\[A-Za-z]+|(?:var)?theta|omega|(?:var)?phi|psi|alpha|beta|gamma|th|[{''.join(GLYPHS)}]|[A-Za-z])"
+INDEX = rf"(?:_?[0-9]+|_\s*\{{\s*[0-9A-Za-z]+\s*\}}|\{{\s*[0-9]+\s*\}}|_?[{LOWS}]+|_[A-Za-z])"
 DOTTED = re.compile(
     rf"\\(?P<dots>d?dot)\s*(?:\{{\s*(?P<braced>{ANGLE})\s*(?P<inner>{INDEX})?\s*\}}|(?P<bare>{ANGLE}))"
     rf"\s*(?P<outer>{INDEX})?"
@@ -82,22 +80,24 @@ NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(?:_[A-Za-z0-9]+)?")
 FRACTIONS = {"½": (1, 2), "⅓": (1, 3), "⅔": (2, 3), "¼": (1, 4), "¾": (3, 4), "⅙": (1, 6), "⅚": (5, 6), "⅛": (1, 8)}
 SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 SUPERSCRIPT = re.compile("⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+")
-SUBSCRIPTS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
+SUBSCRIPTS = str.maketrans(HIGH)
+WITH_INDEX = re.compile(rf"\s*_|[0-9{LOWS}]")
 OPERATORS = {
     "+": "+", "-": "-", "−": "-", "–": "-", "*": "*", "×": "*", "·": "*", "⋅": "*", "∙": "*", "/": "/", "÷": "/",
-    "^": "^", "=": "=", "@": "*",
+    "^": "^", "=": "=", "@": "*", "⧵": "left",
 }  # fmt: skip
 COMMAND_OPERATORS = {"\\cdot": "*", "\\times": "*", "\\div": "/", "\\over": "over"}
 OPENING, CLOSING = {"(": ")", "[": "]", "{": "}"}, ")]}"
-# Full-width characters, as a Japanese keyboard types them, stand for their ASCII twins, one for one.
-FULL_WIDTH = {0xFF01 + i: 0x21 + i for i in range(94)} | {0x3000: 0x20}
+# Full-width characters, as a Japanese keyboard types them, stand for their ASCII twins; the dots ¨ ˙ for
+# those that combine.
+FULL_WIDTH = {0xFF01 + i: 0x21 + i for i in range(94)} | {0x3000: 0x20, 0xA8: 0x308, 0x2D9: 0x307}
 
 
 def tokenize(line: str, names: frozenset[str] = frozenset(), words: Vocabulary | None = None) -> list[Token]:
     """All tokens of a line, ending in one of kind ``end``. ``names`` are those that the file itself defines."""
     if len(line) > LONGEST_LINE:
         fail(LONGEST_LINE, f"the line is longer than {LONGEST_LINE} characters")
-    return _Tokenizer(plain(_decomposed(line.translate(FULL_WIDTH))), names, words or Vocabulary()).all()
+    return _Tokenizer(plain(_decomposed(line.translate(FULL_WIDTH)), names), names, words or Vocabulary()).all()
 
 
 def _decomposed(line: str) -> str:
@@ -105,27 +105,13 @@ def _decomposed(line: str) -> str:
     return re.sub("[ẋẍẏÿṙṡż]", lambda found: normalize("NFD", found[0]), line)
 
 
-GREEK = {"tau": "τ", "mu": "μ", "kappa": "κ", "lambda": "λ", "rho": "ρ", "sigma": "σ", "delta": "δ", "eta": "η"}
-
-
-def _spelling(name: str) -> re.Pattern[str]:
-    """How a declared name may be written: lc1, l_c1, l_{c1}, l_{c_1}; tau1, τ₁, \\tau_1."""
-    base = next((word for word in GREEK if name.startswith(word)), name[0])
-    rest = name[len(base) :]
-    first = rf"(?:{base}|{GREEK[base]}|\\{base}(?![A-Za-z]))" if base in GREEK else base
-    if not rest:
-        return re.compile(first)
-    low = rest.translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
-    inner = r"[\s,_]*".join(rest)
-    return re.compile(rf"{first}(?:{rest}|{low}|\s*_\s*(?:\{{\s*{inner}\s*\}}|{rest}))")
-
-
 class _Tokenizer:
     def __init__(self, line: str, names: frozenset[str], words: Vocabulary) -> None:
         self.line, self.names, self.words = line, names, words
         self.matrices: list[str] = []  # the environments that are open
-        declared = sorted(names, key=len, reverse=True) if words.declared else ()
-        self.own = [(name, _spelling(name)) for name in declared]
+        plain_names = frozenset(plain_name(name) or name for name in names)
+        self.apart = words.apart | {n for n in names if not is_joined(n) and splits(plain_name(n) or n, plain_names)}
+        self.own = [(name, spelling(plain_name(name) or name, name not in self.apart)) for name in sorted(names)]
 
     def all(self) -> list[Token]:
         line, tokens, at = self.line, [], 0
@@ -182,19 +168,19 @@ class _Tokenizer:
         if match is None:
             fail(at, "a backslash that starts no LaTeX command")
         command = match[0]
+        own = self.declared(at)
+        if own:
+            return own
         if command in COMMAND_OPERATORS:
             return Token("operator", COMMAND_OPERATORS[command], at), match.end()
         if command in FUNCTIONS:
             return Token("function", FUNCTIONS[command], at), match.end()
         if command in ("\\frac", "\\tfrac", "\\dfrac"):
             return Token("fraction", command, at), match.end()
-        if command == "\\ell" and CENTRE.match(line, at):
+        if command == "\\ell" and not self.words.declared and CENTRE.match(line, at):
             return self.word(at)
         if self.words.kind(command):
             return self.symbol(at, match.end(), command)
-        own = self.declared(at)
-        if own:
-            return own
         known = [*COMMAND_OPERATORS, *FUNCTIONS, "\\frac", "\\dot", "\\ddot", "\\begin{bmatrix}"]
         known += [k for k in self.words.letters if k[0] == "\\"]
         return fail(at, f"the LaTeX command {command[:30]} is not known here{nearest(command, known)}")
@@ -221,20 +207,22 @@ class _Tokenizer:
         if match["inner"] and match["outer"]:
             fail(at, "two indices on one symbol")
         end = match.end()
-        index, less = self.index(written, at)
-        if not written and word in self.words.fixed:
+        index, less = self.numbered(word, written, at)
+        if word in self.words.fixed:
+            if written:
+                fail(at, f"{word} has no index where the mechanism is declared")
             index = self.words.fixed[word][1]
-        index = self.numbered(word, index, at)
         return Token("symbol", letter, at, index=index, less=less), end
 
-    def numbered(self, word: str, index: int, at: int) -> int:
-        """The place of the coordinate that a declared word with this index is."""
+    def numbered(self, word: str, written: str | None, at: int) -> tuple[int, int]:
+        """The place of the coordinate that a word with this index is, and of the one subtracted, or 0."""
         numbers = self.words.numbers.get(word)
         if numbers is None:
-            return index
-        if index not in numbers:
-            fail(at, f"{word}{index or ''} is no coordinate here")
-        return numbers[index]
+            return self.index(written, at)
+        figures = re.sub(r"[_{},\s]", "", written or "").translate(SUBSCRIPTS)
+        if figures not in numbers:
+            fail(at, f"{word}{figures[:12]} is no coordinate here")
+        return numbers[figures], 0
 
     def index(self, text: str | None, at: int) -> tuple[int, int]:
         """A link's number, and that of the link whose symbol is subtracted (θ_AB), or 0."""
@@ -263,6 +251,8 @@ class _Tokenizer:
                 letter = _faster(letter, at)
             end += 1
         index, less = (self.words.fixed[word][1], 0) if word in self.words.fixed else (0, 0)
+        if index and self.words.declared and WITH_INDEX.match(line, end):
+            fail(at, f"{word} has no index where the mechanism is declared")
         if letter in INDEXED and not index:
             match = SYMBOL_INDEX.match(line, end)
             if match is None and self.words.indices and (word[0] == "\\" or not word.isascii() or len(word) > 1):
@@ -270,44 +260,45 @@ class _Tokenizer:
             elif match is None and self.words.indices and letter in "lmI":
                 match = LETTER_INDEX.match(line, end)
                 match = match if match and match["index"] in self.words.indices else None
-            if match:
-                (index, less), end = self.index(match["index"], at), match.end()
-        if letter in FASTER or letter == "a":
-            index = self.numbered(word, index, at)
+            if match or word in self.words.numbers:
+                index, less = self.numbered(word, match["index"] if match else "", at)
+                end = match.end() if match else end
         while end < len(line) and line[end] in "'′″":
             for _ in range(2 if line[end] == "″" else 1):
                 letter = _faster(letter, at)
             end += 1
         return Token("symbol", letter, at, index=index, less=less), end
 
-    def declared(self, at: int) -> tuple[Token, int] | None:
-        """A symbol that the mechanism is declared with, also with its index written low."""
+    def declared(self, at: int, longer: int = 0) -> tuple[Token, int] | None:
+        """The longest of the author's own names that stands here, if it is longer than ``longer``."""
+        best, end = "", at + longer
         for name, pattern in self.own:
             found = pattern.match(self.line, at)
-            if found:
-                return Token("name", name, at), found.end()
-        return None
+            if found and found.end() > end:
+                best, end = name, found.end()
+        return (Token("name", best, at), end) if best else None
 
     def word(self, at: int) -> tuple[Token, int]:
         line, names = self.line, self.names
         name = NAME.match(line, at)
-        if name and name[0] in names:
+        if name and name[0] in names and name[0] not in self.apart:
             return Token("name", name[0], at), name.end()
-        own = self.declared(at)  # names of the mechanism may stand side by side: mgl
+        word = next((w for w in self.words.words if line.startswith(w, at)), "")
+        # names of the author may stand side by side, mgl, and before functions: the longest that fits is cut off
+        own = self.declared(at, len(word) if word in FUNCTIONS or len(word) > 1 else 0)
         if own:
             return own
-        centre = CENTRE.match(line, at)
+        centre = None if self.words.declared else CENTRE.match(line, at)
         if centre:
             index, _ = self.index(centre["braced"] or centre["bare"], at)
             return Token("symbol", "c", at, index=index), centre.end()
         # letters may stand side by side (m1gl1): the longest known word that the rest starts with is cut off
-        for word in self.words.words:
-            if line.startswith(word, at):
-                if word in self.words.doubtful:
-                    fail(at, self.words.doubtful[word])
-                if word in FUNCTIONS:
-                    return Token("function", FUNCTIONS[word], at), at + len(word)
-                return self.symbol(at, at + len(word), word)
+        if word:
+            if word in self.words.doubtful:
+                fail(at, self.words.doubtful[word])
+            if word in FUNCTIONS:
+                return Token("function", FUNCTIONS[word], at), at + len(word)
+            return self.symbol(at, at + len(word), word)
         shown = WORD.match(line, at)
         what = shown[0][:30] if shown else line[at]
         known = [*self.words.words, *names]

@@ -21,7 +21,7 @@ class Typesetter:
             if word in words.fixed:
                 self.single[words.fixed[word][1]] = (word, "")
             else:
-                self.single |= {k: (word, str(i).translate(SUBSCRIPTS)) for i, k in words.numbers[word].items()}
+                self.single |= {k: (word, _low(i)) for i, k in words.numbers[word].items()}
         self.counted = {number: letter for letter, number in words.indices.items()}
         for written, meant in words.said:
             if meant == "angle":
@@ -87,6 +87,10 @@ class Typesetter:
         counted = self.counted if node.letter in "twa" else {}
         written = "".join(counted.get(k, str(k).translate(SUBSCRIPTS)) for k in (node.index, node.less) if k)
         return self.letters[node.letter] + written
+
+
+def _low(index: str) -> str:
+    return index.translate(SUBSCRIPTS) if index.isdigit() else f"_{index}"
 
 
 def _side_by_side(parts: list[tuple[str, Node]]) -> str:

@@ -11,10 +11,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 
+from .names import plain_name, spelling
+
 # Letters of the symbols: t angle, w rate, a acceleration, l, m, g, r density, I a link's own inertia, c its centre.
 LETTERS = {
     "theta": "t", "th": "t", "t": "t", "θ": "t", "ϑ": "t", "\\theta": "t", "\\vartheta": "t", "𝜃": "t",
-    "omega": "w", "w": "w", "ω": "w", "\\omega": "w",
+    "omega": "w", "om": "w", "w": "w", "ω": "w", "\\omega": "w",
     "alpha": "a", "a": "a", "α": "a", "\\alpha": "a",
     "l": "l", "ℓ": "l", "\\ell": "l", "m": "m", "g": "g",
     "rho": "r", "ρ": "r", "\\rho": "r", "I": "I", "pi": "p", "π": "p", "\\pi": "p",
@@ -51,8 +53,9 @@ class Vocabulary:
     indices: dict[str, int] = field(default_factory=dict)
     said: tuple[tuple[str, str], ...] = ()
     doubtful: dict[str, str] = field(default_factory=dict)  # word: why it is not read
-    numbers: dict[str, dict[int, int]] = field(default_factory=dict)  # word: which coordinate each index is
+    numbers: dict[str, dict[str, int]] = field(default_factory=dict)  # word: which coordinate each index is
     declared: bool = False  # the mechanism is declared body by body, with names of its own
+    apart: frozenset[str] = frozenset()  # names that as one word, ml for m_l, are two side by side
 
     @cached_property
     def words(self) -> tuple[str, ...]:
@@ -69,7 +72,8 @@ def vocabulary(lines: Iterable[str], links: int, names: frozenset[str] = frozens
     """What the letters of these lines stand for. ``names``: those that the file itself defines."""
     text = "\n".join(lines)
     for name in sorted(names, key=len, reverse=True):
-        text = re.sub(rf"(?<![A-Za-z0-9_]){re.escape(name)}(?![A-Za-z0-9_])", " ", text)
+        pattern = spelling(plain_name(name) or name).pattern
+        text = re.sub(rf"(?<![A-Za-z0-9_\\])(?:{pattern})(?![A-Za-z0-9_])", " ", text)
     letters, said, doubtful = dict(LETTERS), [], {}
     bare = set(WORDS.sub(" ", text))
     for capital, small, twins in (("L", "l", "lℓ"), ("M", "m", "m"), ("J", "I", "I"), ("G", "g", "g")):

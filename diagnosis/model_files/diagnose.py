@@ -3,7 +3,7 @@
 Three questions, each with its own findings. *Does each engine do what the file says?* The theory is the planar tree
 that furiko reads in the file, with its damping, armature, springs and so on. *Which one differs from all others?* Where
 all engines differ from furiko's reading in the same way, the reading is wrong, not the engines. *Is the file what is
-wanted?* Compared with a scene, another model or a mechanism; without one, with the file's own links on ideal hinges.
+wanted?* Compared with a scene, another model or a mechanism, if one is given.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from ...models.mechanism import Mechanism, mechanism_of
 from ...models.readers.model_file import ModelFile, read_model
 from ...models.spatial_mechanism import SpatialMechanism
 from ..finding import Finding
-from ..robots.answer import Question, places_in
+from ..robots.answer import Question, listed, places_in
 from ..robots.answer import mechanism_to_json as spatial_to_json
 from ..robots.fields import field_differences
 from ..robots.simulation import servo_findings
@@ -35,6 +35,7 @@ from .result import Diagnosis, mechanism_to_json
 from .voting import vote
 
 REPORTED_TILT = 1e-13  # a larger tilt is mentioned in a note
+PASSIVE = {"armature": "armature", "damping": "damping", "friction": "dry friction", "stiffness": "a spring"}
 MODEL_ENDINGS = (".xml", ".urdf", ".mjcf")
 
 
@@ -49,8 +50,8 @@ def diagnose(
 ) -> Diagnosis:
     """Diagnose an MJCF or URDF file: any open mechanism, in every engine that reads it.
 
-    ``against``: None, then a planar tree of hinges is compared with its own links on ideal hinges; the name of a scene
-    or the path of its TOML file; the path of another model file; or a system, planar tree or mechanism. ``engines``:
+    ``against``: None; the name of a scene or the path of its TOML file; the path of another model file; or a system,
+    planar tree or mechanism. ``engines``:
     those to ask, and no others; where they are named, one that refuses the file leaves the answer incomplete.
     ``meshes``: folders besides the file's own in which meshes may lie. ``limits``: whether joints' ranges count.
     ``isolated``: ask each engine in a worker process of its own, so that a file that crashes one engine does not affect
@@ -68,7 +69,8 @@ def diagnose(
         results = ask_engines(question, readers, named=engines is not None, isolated=isolated)
     of_file = _of_file(file, wanted, limits)
     findings = [*of_file, *vote(file, results)]
-    notes = [*file.notes, *_tilt_notes(file.planar), *(note for result in results for note in result.notes)]
+    notes = [*file.notes, *_tilt_notes(file.planar), *_not_ideal_notes(file.planar, wanted)]
+    notes += [note for result in results for note in result.notes]
     return Diagnosis(
         model=file.path,
         verdict=verdict(findings, results, named=engines is not None),
@@ -120,7 +122,18 @@ def _of_planar_file(file: ModelFile, wanted: Expected, limits: bool) -> list[Fin
         return found + _in_space(file, wanted.spatial, limits)
     assert file.planar is not None
     ideal = compare_with_ideal(file.planar)
-    return found + [finding for finding in ideal if limits or finding.cause != "joint-limit"]
+    return found + [finding for finding in ideal if limits and finding.cause == "joint-limit"]
+
+
+def _not_ideal_notes(planar: Mechanism | None, wanted: Expected) -> list[str]:
+    """What the hinges have besides turning, in one sentence a kind: nobody said that they should not have it."""
+    if planar is None or wanted.name:
+        return []
+    joints: dict[str, list[str]] = {}
+    for hinge in planar.hinges:
+        for name in (name for name in PASSIVE if getattr(hinge, name)):
+            joints.setdefault(PASSIVE[name], []).append(hinge.name)
+    return [f"the file gives {name} to {listed(names)}" for name, names in joints.items()]
 
 
 def chosen_readers(engines: Mapping[str, Reader] | Sequence[str] | None) -> dict[str, Reader | None]:

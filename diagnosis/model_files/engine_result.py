@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 from ...engines.model_files.adapter import Reader
 from ...engines.model_files.robot import ROBOT_READERS
 from ...engines.quiet import silenced
 from ...engines.workers.isolated import Call, NotReturned, call_isolated
+from ...models.projection import planar_mechanism
+from ...models.readers.hinged import hinged
+from ...models.readers.model_file import ModelFile
 from ..finding import Finding
 from ..robots.answer import Question, RobotAnswer, ask_robot
 
@@ -18,6 +22,7 @@ if TYPE_CHECKING:
 
 # What is found in the equations of motion, or in their surroundings, whatever the engine holds of the file.
 BESIDE_READING = ("damping-ignored", "friction-ignored", "stiffness-ignored", "colliding-geoms", "float32")
+REFUSALS = ("inertia-rejected", "file-refused")
 OPTIONAL = ("drake",)
 TIMEOUT = 60.0  # [s] for one engine; ten links take less than one
 
@@ -60,11 +65,13 @@ class EngineResult:
             return planar
         if not self.own.findings:
             return planar if self.planar is not None and self.planar.status == "differs" else []
-        if self.own.status == "differs" and self.own.unexplained and planar:
-            return planar
         if self.own.status == "refused":
-            return [*planar, *self.own.findings]
-        return [*self.own.findings, *(found for found in planar if found.cause in BESIDE_READING)]
+            return [*(found for found in planar if found.cause not in REFUSALS), *self.own.findings]
+        named = [found for found in self.own.findings if found.cause != "unexplained"]
+        beside = [found for found in planar if found.cause in BESIDE_READING or not named]
+        if self.own.status == "differs" and self.own.unexplained and beside:
+            return [*named, *beside]
+        return [*self.own.findings, *(found for found in beside if found.cause in BESIDE_READING)]
 
     @property
     def compared(self) -> bool:
@@ -110,31 +117,44 @@ def ask_engines(
     """
     planar = question.file.planar is not None
     asked = {name: reader for name, reader in readers.items() if name in ROBOT_READERS or planar}
-    calls = [Call(ask_both, (name, reader, question)) for name, reader in asked.items()]
-    if isolated:
-        answers = call_isolated(calls, TIMEOUT)
-    else:
-        with silenced():
-            answers = [ask_both(*call.arguments) for call in calls]
+    calls = {name: Call(ask_both, (name, reader, question)) for name, reader in asked.items()}
+    there = [name for name, reader in asked.items() if isolated and _installed(name, reader)]
+    answers = dict(zip(there, call_isolated([calls[name] for name in there], TIMEOUT), strict=True)) if there else {}
+    with silenced():
+        answers |= {name: ask_both(*call.arguments) for name, call in calls.items() if name not in answers}
     results = [
-        _failed(name, answer.reason) if isinstance(answer, NotReturned) else answer
-        for name, answer in zip(asked, answers, strict=True)
+        _failed(name, answers[name].reason) if isinstance(answers[name], NotReturned) else answers[name]
+        for name in asked
     ]
     return [result for result in results if named or result.name not in OPTIONAL or result.status != "missing"]
 
 
+def _installed(name: str, planar: Reader | None) -> bool:
+    """Whether the engine can be there: nothing of it is imported."""
+    readers = (ROBOT_READERS.get(name), planar)
+    modules = [reader.module.partition(".")[0] for reader in readers if reader is not None and reader.module]
+    return not modules or any(find_spec(module) is not None for module in modules)
+
+
 def ask_both(name: str, planar: Reader | None, question: Question) -> EngineResult:
     """One engine, asked about the user's own bytes where it reads the format, and about furiko's text of the file."""
-    own, answer = ROBOT_READERS.get(name), None
+    reader, own, answer = ROBOT_READERS.get(name), None, None
+    if reader is not None and question.file.language in reader.languages:
+        own = ask_robot(reader, question)
     if planar is not None and question.file.planar is not None:
         from .engine_answers import ask  # and all hypotheses of the plane, which robots do not need
 
-        answer = ask(planar, question.file)
-    return EngineResult(
-        name,
-        ask_robot(own, question) if own is not None and question.file.language in own.languages else None,
-        answer,
-    )
+        answer = ask(planar, _as_rounded(question.file, own))
+    return EngineResult(name, own, answer)
+
+
+def _as_rounded(file: ModelFile, own: RobotAnswer | None) -> ModelFile:
+    """The file, whose planar mechanism is as the engine rounds it where that is known, so that rounding is no cause."""
+    if own is None or own.rounded is None or file.planar is None:
+        return file
+    planar = planar_mechanism(hinged(own.rounded.bodies), own.rounded.gravity)
+    old = file.planar  # whose gravity may be a scene's, for a URDF
+    return replace(file, planar=replace(planar, gravity=old.gravity, gravity_vector=old.gravity_vector))
 
 
 def _failed(name: str, reason: str) -> EngineResult:

@@ -11,13 +11,12 @@ from ...models.readers.model_file import ModelFile
 from ...models.spatial_mechanism import SpatialMechanism
 from ..finding import Finding
 from ..robots.fields import field_differences
-from .engine_result import EngineResult
+from .engine_result import REFUSALS, EngineResult
 
 if TYPE_CHECKING:
     from ..measurement import Array
     from .engine_answers import EngineAnswer
 
-REFUSALS = ("inertia-rejected", "file-refused")
 ALIKE = 1e-7  # engines agree with one another within this, relative to each state's largest acceleration
 
 

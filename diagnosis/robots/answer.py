@@ -21,7 +21,7 @@ from .fields import FieldDifference, field_differences
 from .free_armature import armature_finding, armature_in_body_axes
 from .measures import Measured, measured, worst
 from .misreadings import explain_reading
-from .same_frame import frames_kept, moved_back
+from .same_frame import frames_kept, moved_back, rounded
 from .simulation import simulation_findings
 from .wording import MOST_PLACES, Places, field_findings, mistake_finding
 
@@ -53,7 +53,8 @@ class RobotAnswer:
 
     ``status``: ``agrees``, ``differs``, ``missing``, ``refused`` or ``failed``; ``measured``: the engine's mass matrix,
     bias and accelerations against the truth of what it holds; ``left``: how many numbers differ that no known mistake
-    explains; ``without``: what it leaves out by design; ``simulation``: what a simulation adds to the dynamics.
+    explains; ``rounded``: the file's mechanism as the engine rounds it, if it does; ``without``: what it leaves out by
+    design; ``simulation``: what a simulation adds to the dynamics.
     """
 
     name: str
@@ -63,6 +64,7 @@ class RobotAnswer:
     holds: SpatialMechanism | None = None
     measured: tuple[Measured, ...] = ()
     left: int = 0
+    rounded: SpatialMechanism | None = None
     without: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     simulation: list[Finding] = field(default_factory=list)
@@ -122,6 +124,7 @@ def _compared(reader: RobotReader, engine: RobotEngine, question: Question) -> R
         return _failed(answer, error)
     kept = frames_kept(answer.holds, question.file.spatial, reader.same_frame)
     if kept:
+        answer.rounded = rounded(answer.holds, question.file.spatial, reader.same_frame)
         answer.notes += (NEARLY_IN_FRAME.format(engine=reader.name, bodies=listed(kept), reach=reader.same_frame),)
     if reader.name == "mujoco" and question.file.language == "mjcf":
         answer.simulation = simulation_findings(question.path, question.meshes, question.file.spatial)

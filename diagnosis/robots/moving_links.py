@@ -100,7 +100,7 @@ def _moved(pose: Pose, point: Array, joint: Joint, q: Array) -> tuple[Pose, Arra
     axis = pose.rotation @ (joint.axis / np.linalg.norm(joint.axis))
     moved = float(q[0]) - joint.ref
     if joint.kind == "slide":
-        return Pose(pose.rotation, pose.translation + moved * axis), point + moved * axis, SeenJoint(joint, axis, none)
+        return Pose(pose.rotation, pose.translation + moved * axis), point, SeenJoint(joint, axis, none)
     arm = anchor - point
     arm = arm - (arm @ axis) * axis
     turned = from_axis_angle(axis, moved) @ pose.rotation if moved else pose.rotation

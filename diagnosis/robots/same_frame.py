@@ -29,6 +29,14 @@ def frames_kept(found: SpatialMechanism, expected: SpatialMechanism, reach: floa
     return [before.name for before, after in pairs if before is not after]
 
 
+def rounded(found: SpatialMechanism, expected: SpatialMechanism, reach: float) -> SpatialMechanism:
+    """``expected`` with those inertials of ``found`` that are moved back: what an engine has that only rounds so."""
+    kept = set(frames_kept(found, expected, reach))
+    held = {body.name: body.inertial for body in found.bodies if body.name in kept}
+    bodies = (replace(body, inertial=held.get(body.name, body.inertial)) for body in expected.bodies)
+    return replace(expected, bodies=tuple(bodies))
+
+
 def _moved_back(body: RigidBody, said: Inertial | None, reach: float) -> RigidBody:
     held = body.inertial
     if said is None:

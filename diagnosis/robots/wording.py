@@ -15,6 +15,8 @@ INSTEAD: Mapping[str, str] = {
     "geoms_without_contact_weigh_nothing": "give the body an <inertial>",
     "pose_of_first_fixed_body_dropped": "leave the body out and place what it carries in the world",
     "mesh_weighs_one_kilogram": "give the body an <inertial>",
+    "inertial_without_inertia_is_unit": "write diaginertia or fullinertia",
+    "first_worldbody_again": "put all bodies into one <worldbody>",
     "default_joint_pos_dropped": "write pos on the joint itself",
     "default_geom_mass_dropped": "write mass on the geom itself, or give the body an <inertial>",
     "total_mass_ignored": "write the scaled masses and inertias into <inertial> elements and leave settotalmass out",

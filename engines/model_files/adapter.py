@@ -104,7 +104,14 @@ READERS: dict[str, Reader] = {
             native=True,
             features=("contact", "limit", "frictionloss", "spring", "damper"),
         ),
-        Reader("pinocchio-aba", ".pinocchio:PinocchioFile", "pinocchio", "pin", native=True),
+        Reader(
+            "pinocchio-aba",
+            ".pinocchio:PinocchioFile",
+            "pinocchio",
+            "pin",
+            native=True,
+            without=("damping", "friction", "stiffness"),  # its forward dynamics leaves them to the caller
+        ),
         Reader(
             "exudyn-tree",
             ".exudyn:ExudynFile",

@@ -25,6 +25,8 @@ PINOCCHIO_MJCF = (
     "geoms_without_contact_weigh_nothing",
     "pose_of_first_fixed_body_dropped",
     "mesh_weighs_one_kilogram",
+    "inertial_without_inertia_is_unit",
+    "first_worldbody_again",
     "default_joint_pos_dropped",
     "default_geom_mass_dropped",
     "default_geom_pose_dropped",

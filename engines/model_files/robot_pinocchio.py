@@ -233,6 +233,7 @@ def _held(kind: str, name: str, shown: str, body: str) -> tuple[HeldJoint, ...]:
     """What a joint is for a mechanism. Pinocchio makes the names ``bodyJoint_k``, ``body_free``, ``parentBis``."""
     made = re.search(r"Joint_\d+$|_free$", name) is not None
     kinds = KINDS.get(kind, ("slide" if kind == "Prismatic" else "hinge",))
+    name = name if made or not name else shown  # a second joint of one name is another one
     return joints_of(kinds, HeldJoint(name, kinds[0], "" if body.endswith("Bis") else body, shown, made))
 
 

@@ -26,6 +26,8 @@ class MjcfRules:
     mesh_weighs_one_kilogram: bool = _mistake(
         "gives each geom of type mesh, plane or hfield 1 kg and the inertia diag(1, 1, 1) kg m² at its pos"
     )
+    inertial_without_inertia_is_unit: bool = _mistake("gives an <inertial> without inertia diag(1, 1, 1) kg m²")
+    first_worldbody_again: bool = _mistake("reads the first <worldbody> again in place of each later one")
     default_joint_pos_dropped: bool = _mistake("ignores the pos of a joint that comes from a default class")
     default_geom_mass_dropped: bool = _mistake("ignores the mass of a geom that comes from a default class")
     default_geom_pose_dropped: bool = _mistake("ignores the pose of a geom that comes from a default class")

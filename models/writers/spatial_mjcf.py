@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from xml.etree import ElementTree
 
 import numpy as np
 
 from ..errors import InvalidInput
-from ..spatial import Inertial, to_quaternion
+from ..spatial import Inertial, Pose, from_axis_angle, from_quaternion, to_quaternion
 from ..spatial_mechanism import WORLD, Joint, RigidBody, SpatialMechanism
 from .explicit import placed_inertials, positive, row, unique_names
 from .mjcf import DEEPEST, LEAST_INERTIA
@@ -20,7 +21,8 @@ def spatial_mjcf(mechanism: SpatialMechanism, model: str = "mechanism") -> str:
 
     Radians, no default classes, an explicit inertial for every body that has one, a name for everything, no geoms, so
     that nothing touches. Bodies without joints and with a pose are put in one without a pose where Pinocchio would drop
-    it; a body with several joints stands in one that has its pose, which Drake would apply at the last joint; a joint
+    it; a body with several joints stands in one that has its pose, which Drake would apply at the last joint, and the
+    first of them has no ref, which Pinocchio would ignore; a joint
     with armature has a motor, without which Drake would drop it. Raises :class:`InvalidInput` for inertials on which
     engines do not agree, and for more than 450 bodies one in the other.
     """
@@ -69,7 +71,29 @@ def _unturned(body: RigidBody) -> bool:
     return not body.quaternion[1:].any() and bool(body.quaternion[0] > 0)
 
 
+def _without_first_ref(body: RigidBody) -> RigidBody:
+    """The body posed where it is at zero of its first joint, which then needs no ref; the others keep theirs."""
+    first = body.joints[0]
+    if not first.ref:
+        return body
+    axis = first.axis / np.linalg.norm(first.axis)
+    if first.kind == "slide":
+        back = Pose(np.eye(3), -first.ref * axis)
+    else:
+        turn = from_axis_angle(axis, -first.ref)
+        back = Pose(turn, first.anchor - turn @ first.anchor)
+    pose = Pose(from_quaternion(body.quaternion), body.position) @ back
+    return replace(
+        body,
+        position=pose.translation,
+        quaternion=to_quaternion(pose.rotation),
+        joints=(replace(first, ref=0.0), *body.joints[1:]),
+    )
+
+
 def _body(parent: ElementTree.Element, body: RigidBody, name: str, inertial: Inertial) -> ElementTree.Element:
+    if len(body.joints) > 1:
+        body = _without_first_ref(body)
     pose = {"pos": row(body.position)}
     if not _unturned(body):
         pose["quat"] = row(body.quaternion / np.linalg.norm(body.quaternion))

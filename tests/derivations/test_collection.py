@@ -13,7 +13,6 @@ from furiko.models.errors import InvalidInput
 HERE = Path(__file__).parent / "collection"
 # Nine of ten: what somebody may expect who pastes a derivation and has read no manual
 READ_AS_PRINTED = 0.9
-MEASURED = "38 of 84 are read as printed"
 
 
 @cache
@@ -66,7 +65,6 @@ def test_none_is_misjudged(name):
 
 
 @pytest.mark.slow
-@pytest.mark.xfail(strict=True, raises=AssertionError, reason=MEASURED)
 def test_nine_of_ten_are_read_as_printed():
     read = [name for name in INDEX if judged(name) is not None]
     assert len(read) >= READ_AS_PRINTED * len(INDEX), f"{len(read)} of {len(INDEX)} are read as printed"

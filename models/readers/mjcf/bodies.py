@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from itertools import count
 
 import numpy as np
 
@@ -88,7 +89,7 @@ class Bodies:
             elif place.element.tag == "body":
                 pending.append(Pending(place.element, WORLD, place.frame, place.childclass, ""))
         if self.compiler.rules.first_root_only:
-            pending = pending[-1:] if not self._roots else []
+            pending = pending[-1:] if not self._roots or self.compiler.rules.first_worldbody_again else []
         self._roots += len(pending)
         while pending:
             pending.extend(reversed(self._body(pending.pop())))
@@ -154,7 +155,7 @@ class Bodies:
             return [Pending(place.element, WORLD, place.frame, place.childclass, "") for place in children]
         called = element.get("name") or f"{at.above}Bis"
         index = first = self._add(at, inside, childclass)
-        if rules.unnamed_sibling_twice:
+        if rules.unnamed_sibling_twice or rules.first_worldbody_again:
             first = self._first.setdefault(called, index)
         if first == index:
             self._once[index] = self.bodies[index].inertial
@@ -229,6 +230,10 @@ class Bodies:
         """The element's name, given one where it has none, so that engines can be asked for it."""
         taken = self._names.setdefault(kind, set())
         name = element.get("name") or f"furiko_{kind}_{len(taken) + 1}"
+        if name in taken and self.compiler.rules.first_worldbody_again:
+            name = next(again for k in count(2) if (again := f"{name} ({k})") not in taken)  # as engines show it
+            taken.add(name)
+            return name
         if name in taken:
             raise element.wrong(f"a second {kind} called {name[:60]!r}; names must be unique")
         taken.add(name)
@@ -240,7 +245,7 @@ class Bodies:
         self.notes.unknown(given)
         full = given if given.tag == "freejoint" else self.defaults.applied(given, place.childclass)
         name = self._named(given, "joint")
-        joint = read_joint(full, given, place.frame, self.compiler, self.options)
+        joint = replace(read_joint(full, given, place.frame, self.compiler, self.options), name=name)
         if joint.kind == "free" and parent != WORLD:
             raise given.wrong("a free joint on a body that another one carries")
         self.elements[name] = given

@@ -75,9 +75,11 @@ def read_mjcf(root: Element, path: Path, rules: MjcfRules | None = None, others:
     assets.read(root.all("asset"))
     inertials = Inertials(compiler, assets, notes)
     bodies = Bodies(compiler, defaults, options, inertials, notes)
-    for world in root.all("worldbody"):
+    worlds = list(root.all("worldbody"))
+    for world in worlds:
         write_out_copies(world, compiler)
-        bodies.read(world)
+    for world in worlds:
+        bodies.read(worlds[0] if rules.first_worldbody_again else world)
     bodies.finish()
     actuators = Actuators(defaults)
     actuators.read(root.all("actuator"))

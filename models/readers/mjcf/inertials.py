@@ -113,7 +113,8 @@ class Inertials:
             if np.linalg.eigvalsh(tensor)[0] < -1e-12 * abs(np.trace(tensor)) and not self.compiler.least_inertia:
                 raise given.wrong("fullinertia: no body has an inertia with a negative principal moment")
         else:
-            moments = numbers(given, "diaginertia", 3, (0.0, 0.0, 0.0))
+            unit = self.compiler.rules.inertial_without_inertia_is_unit
+            moments = numbers(given, "diaginertia", 3, (1.0, 1.0, 1.0) if unit else (0.0, 0.0, 0.0))
             if (moments < 0).any():
                 raise given.wrong(f"diaginertia={given.get('diaginertia')!r}: must not be negative")
             tensor = np.diag(moments)

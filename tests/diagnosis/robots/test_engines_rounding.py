@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from furiko import diagnose
+from furiko.diagnosis.finding import Finding
+from furiko.diagnosis.model_files import engine_result
+from furiko.diagnosis.model_files.engine_answers import EngineAnswer
+from furiko.diagnosis.model_files.engine_result import EngineResult
+from furiko.diagnosis.robots.answer import RobotAnswer
+from furiko.engines.model_files.robot import ROBOT_READERS
 from furiko.models.readers.model_file import read_model
 
 INERTIAL = '<inertial pos="0.1 0 -0.4" mass="1.5" diaginertia="0.1 0.2 0.25"/>'
@@ -68,8 +75,10 @@ def test_a_joint_that_moves_no_mass_has_no_accelerations(tmp_path):
 
 
 def test_an_inertial_that_is_not_understood_is_no_impossible_inertia(tmp_path):
-    text = BODY.format("", '<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/><geom size="1" nonsense="1"/>')
-    found, _ = engine(tmp_path, text)
+    """MuJoCo's message names the attribute, which here begins with "mass"."""
+    text = BODY.format("", '<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/><geom size="1" massive="1"/>')
+    found, answer = engine(tmp_path, text)
+    assert "massive" in answer["says"]
     assert [finding.cause for finding in found.findings] == ["file-refused"]
 
 
@@ -81,3 +90,61 @@ def test_json_of_a_geom_fitted_to_its_ends(tmp_path):
     for link in diagnose(file).to_json()["mechanism"]["links"]:
         assert {type(value) for value in (link["mass"], link["inertia"])} == {float}
     json.dumps(diagnose(file).to_json())
+
+
+PLANE = """<mujoco><worldbody><body name="a"><joint name="j" axis="0 1 0" {joint}/><inertial pos="0 0 {z}" mass="1.5"
+    diaginertia="{moments}"/><body name="b" pos="0 0 -1"><joint name="k" axis="0 1 0"/>{b}</body></body></worldbody>
+    </mujoco>"""
+
+
+def planar_arm(tmp_path, joint="", z="-0.4", moments="0.1 0.2 0.25"):
+    file = tmp_path / "arm.xml"
+    file.write_text(PLANE.format(joint=joint, z=z, moments=moments, b=INERTIAL))
+    return diagnose(file)
+
+
+@pytest.mark.parametrize("z", ["8e-7", "-3e-8"])
+def test_in_the_plane_too_a_centre_of_mass_nearly_at_the_origin_is_a_note(tmp_path, z):
+    found = planar_arm(tmp_path, z=z)
+    assert (found.verdict, found.findings, found.mechanism is not None) == ("agrees", (), True), found.text()
+    assert any("within 1e-06 of the body's frame" in note for note in found.notes)
+    assert found.mechanism["links"][0]["centre of mass"][0] == -float(z)  # what the file says is what is shown
+
+
+def test_a_damped_planar_arm_that_all_read_alike_agrees(tmp_path):
+    found = planar_arm(tmp_path, joint='damping="0.3" frictionloss="0.1" stiffness="2"')
+    assert (found.verdict, found.findings) == ("agrees", ()), found.text()
+    said = [note for note in found.notes if note.startswith("the file gives")]
+    assert said == [f"the file gives {what} to 'j'" for what in ("damping", "dry friction", "a spring")]
+
+
+def test_an_inertia_that_no_body_has_is_refused_once(tmp_path):
+    found = planar_arm(tmp_path, moments="1 0.2 0.25")  # 0.2 + 0.25 < 1
+    assert [finding.cause for finding in found.findings] == ["inertia-rejected"], found.text()
+
+
+def test_a_misreading_is_kept_where_the_engines_own_numbers_are_not_understood():
+    def found(cause):
+        return Finding(cause, "x", None, None, cause)
+
+    own = RobotAnswer("e", "differs", findings=[found("first-root-only"), found("unexplained")])
+    planar = EngineAnswer("e", "differs", findings=[found("com-displaced"), found("float32")])
+    assert causes(EngineResult("e", own, planar)) == ["first-root-only", "float32"]
+    assert causes(EngineResult("e", own, EngineAnswer("e", "agrees"))) == ["first-root-only", "unexplained"]
+    own.findings = own.findings[1:]
+    assert causes(EngineResult("e", own, planar)) == ["com-displaced", "float32"]
+
+
+def causes(result):
+    return [finding.cause for finding in result.findings]
+
+
+def test_no_worker_is_started_for_an_engine_that_is_not_installed(tmp_path, monkeypatch):
+    started = []
+    monkeypatch.setattr(engine_result, "call_isolated", lambda calls, timeout: started.extend(calls) or [])
+    absent = replace(ROBOT_READERS["drake"], module="no_such_engine_x", adapter=".no_such_adapter:X")
+    monkeypatch.setitem(engine_result.ROBOT_READERS, "drake", absent)
+    file = tmp_path / "robot.xml"
+    file.write_text(BODY.format("", INERTIAL))
+    found = diagnose(file, engines=["drake"], isolated=True)
+    assert (found.engines["drake"]["status"], started) == ("missing", [])

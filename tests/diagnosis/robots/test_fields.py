@@ -159,3 +159,20 @@ def test_a_reference_turned_about_its_hinge_is_seen_in_what_hangs_on_it():
     joint = replace(body.joints[-1], ref=body.joints[-1].ref + 0.3)
     found = changed(mechanism, b, joints=(*body.joints[:-1], joint))
     assert field_differences(found, mechanism)
+
+
+def test_a_slides_reference_is_seen_and_no_other_pose_of_the_same_motion(tmp_path):
+    """At the coordinate 0.2 a slide with ref 0.2 is where its body is posed; without ref 0.2 m further along."""
+
+    def read(pos, ref):
+        file = tmp_path / "slide.xml"
+        file.write_text(
+            f"""<mujoco><worldbody><body name="a" pos="{pos} 0 0"><joint name="j" type="slide" axis="1 0 0"
+            ref="{ref}"/><inertial pos="0 0 1" mass="2" diaginertia="1 1 1"/></body></worldbody></mujoco>"""
+        )
+        return read_model(file).spatial
+
+    said = read(0.5, 0.2)
+    assert not field_differences(read(0.3, 0.0), said)  # the same place at each coordinate
+    (found,) = field_differences(read(0.5, 0.0), said)
+    assert (found.cause, found.size > 0.1) == ("com-displaced", True)

@@ -91,6 +91,31 @@ MISREAD = {
         "free-armature-in-body-axes",
         "0.1",
     ),
+    "no-inertia.xml": (  # MuJoCo takes the least that it is told to; Pinocchio 1 kg m² about each axis
+        f"""<mujoco><compiler boundinertia="1e-3"/><worldbody><body name="a"><joint name="j1" axis="0 1 0"/>
+        <inertial pos="0.1 0 -0.4" mass="1.5"/><body name="b"><joint name="j2" axis="0 1 1"/>{INERTIAL}</body></body>
+        </worldbody></mujoco>""",
+        "pinocchio-aba",
+        "inertial-without-inertia-is-unit",
+        "inertia (1, 1, 1, 0, 0, 0) kg m², the file says (0.001, 0.001, 0.001, 0, 0, 0) kg m²",
+    ),
+    "worlds.xml": (
+        f"""<mujoco><worldbody><body name="a"><joint name="j1" axis="0 1 0"/>{INERTIAL}</body></worldbody><worldbody>
+        <body name="b" pos="1 0 0"><joint name="j2" axis="1 1 0"/>{INERTIAL}</body></worldbody></mujoco>""",
+        "pinocchio-aba",
+        "first-worldbody-again",
+        "'j2'",
+    ),
+    "ref.xml": (
+        f"""<mujoco><worldbody><body name="a" pos="0 0 1" euler="0 40 0">
+        <joint name="j1" axis="1 2 0" pos="0.1 0 0.2" ref="30" stiffness="2" springref="10"/>
+        <joint name="j2" axis="0 0 3" type="slide" ref="0.2"/>{INERTIAL}
+        <body name="b"><joint name="j3" type="slide" axis="0 2 0" ref="0.3"/><joint name="j4" ref="5"/>{INERTIAL}
+        </body></body></worldbody></mujoco>""",
+        "pinocchio-aba",
+        "first-ref-ignored",
+        "joint 'j2': axis",
+    ),
 }
 
 
@@ -131,7 +156,7 @@ def test_two_misreadings_at_once_are_both_named(tmp_path):
     }
 
 
-@pytest.mark.parametrize("name", ["bare.xml", "class.xml", "shown.xml"])
+@pytest.mark.parametrize("name", ["bare.xml", "class.xml", "shown.xml", "ref.xml", "worlds.xml"])
 def test_the_fixed_file_is_read_alike(tmp_path, name):
     path, out = saved(tmp_path, name, MISREAD[name][0]), tmp_path / "fixed.xml"
     write_fixed(path, out)
