@@ -33,7 +33,8 @@ out, nothing else. ``adaptive`` is needed only where ``info.adaptive`` names sch
 one's coordinates, which are MuJoCo's: ``q`` and ``v`` by joint, in the mechanism's order, not absolute angles. In the
 example below, ``tree=TreeInfo("my_adapter:MyTree", missing={"energy": "…"}, cannot_hold={"ball": "…"})`` would name it.
 
-A complete adapter; ``furiko check -e my_adapter:MyMujoco`` runs it, ``my_adapter.py`` being on Python's path::
+A complete adapter; ``furiko check -e my_adapter:MyMujoco`` runs it, ``my_adapter.py`` in the current folder
+or on Python's path::
 
     import mujoco
     import numpy as np

@@ -241,7 +241,9 @@ def _adapter(path: str) -> Any:
     try:
         return getattr(importlib.import_module(module), attribute)
     except ImportError as error:
-        raise InvalidInput(f"engine: {path}: cannot import {module!r}: {error}") from None
+        own = isinstance(error, ModuleNotFoundError) and error.name in (module, module.partition(".")[0])
+        where = "; it is looked for in the current folder by the command line, and on PYTHONPATH" if own else ""
+        raise InvalidInput(f"engine: {path}: cannot import {module!r}: {error}{where}") from None
     except (AttributeError, ValueError, TypeError):
         raise InvalidInput(f"engine: {path}: the module {module!r} has no class {attribute!r}") from None
 

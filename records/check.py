@@ -124,6 +124,28 @@ class Footer(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag="f
 Record = Header | Result | Diagnosis | Footer
 
 
+KnownState = Literal["differs", "agrees", "another-cause", "failed", "stale"]
+
+
+class KnownDifference(msgspec.Struct, frozen=True, kw_only=True):
+    """An entry of a file of known differences, and what this run says of it.
+
+    ``scene``, ``engine``, ``check``: patterns (``*``, ``?``, ``[abc]``); ``cause``: the cause's code, empty for any.
+    ``state``: some results differ as it says (``differs``); all that ran agree (``agrees``); some differ, but for
+    another cause; none could be compared (``failed``); nothing that was run is meant by it (``stale``).
+    ``results``: scene, engine and check of each difference that it accounts for.
+    """
+
+    scene: str
+    engine: str
+    check: str
+    cause: str
+    reason: str
+    link: str
+    state: KnownState
+    results: list[tuple[str, str, str]] = []
+
+
 class CheckReport(msgspec.Struct, frozen=True, kw_only=True):
     """One run of ``furiko check``: what ``--json`` prints."""
 
@@ -131,3 +153,4 @@ class CheckReport(msgspec.Struct, frozen=True, kw_only=True):
     results: list[Result]
     footer: Footer | None  # None: the run was cut off
     diagnoses: list[Diagnosis] = []
+    known: list[KnownDifference] = []  # one an entry of the file of known differences

@@ -19,6 +19,8 @@ from .progress import check_progress
 @click.option("--profile", default="quick", show_default=True, metavar="smoke|quick|full", help="How much is checked.")
 @report_folder_option
 @click.option("--baseline", type=click.Path(path_type=Path), help="Compare with this earlier report.jsonl.")
+@click.option("--known", type=click.Path(path_type=Path), help="A TOML file of known differences, which do not fail.")
+@click.option("--known-strict", is_flag=True, help="Exit 1 as well where a known difference is none any more.")
 @jobs_option
 @click.option(
     "--timeout", type=click.FloatRange(0.1), default=60.0, show_default=True, help="Time limit of one check [s]."
@@ -37,6 +39,8 @@ def check(
     profile: str,
     out: Path,
     baseline: Path | None,
+    known: Path | None,
+    known_strict: bool,
     jobs: int | None,
     timeout: float,
     sharp: bool | None,
@@ -52,10 +56,13 @@ def check(
     from ..engines.workers.processes import worker_processes
 
     with worker_processes(jobs or os.cpu_count() or 1, MODULES) as source:
-        from ..reports import compare, read_stream
+        from ..reports import compare, known_in, read_known, read_stream
         from ..run import ReportNotWritten
         from ..run import check as run_check
 
+        if known_strict and known is None:
+            raise click.UsageError("--known-strict needs --known FILE")
+        entries = read_known(known) if known else ()
         before = read_stream(baseline) if baseline else None
         unwritten = ""
         with check_progress() as watch:
@@ -73,7 +80,8 @@ def check(
                 )
             except ReportNotWritten as error:
                 report, unwritten = error.report, str(error)
-    statuses = [report.exit_status_of(before is not None if sharp is None else sharp)]
+    accounted = known_in(report, entries)  # without a file nothing is known
+    statuses = [accounted.exit_status_of(before is not None if sharp is None else sharp, known_strict)]
     if unwritten:
         print_failure(unwritten)
         statuses.append(INCOMPLETE)
@@ -91,12 +99,15 @@ def check(
                 results=list(report.results),
                 footer=report.footer,
                 diagnoses=list(report.diagnoses),
+                known=list(accounted.differences),
             )
         )
     else:
         from ..reports.terminal.check import print_report
 
         print_report(report, path=None if unwritten else out / "report.html")
+        if known is not None:
+            print_text(accounted.text())
         if comparison is not None:
             print_text(comparison.text())
     return DIFFERS if DIFFERS in statuses else max(statuses)

@@ -2,15 +2,32 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from pathlib import Path
 
 import click
 
 REPORT_FOLDER = Path("furiko-report")
 
+
+def _found_here(_context: click.Context, _parameter: click.Parameter, names: tuple[str, ...]) -> tuple[str, ...]:
+    """The names; for an adapter from elsewhere the current folder is on Python's path, after all else."""
+    if any(":" in name for name in names) and os.getcwd() not in sys.path:
+        sys.path.append(os.getcwd())
+    return names
+
+
 json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON document and nothing else.")
 engine_option = click.option(
-    "--engine", "-e", "engines", multiple=True, metavar="NAME", help="Run only this engine; may be repeated."
+    "--engine",
+    "-e",
+    "engines",
+    multiple=True,
+    metavar="NAME|module:Class",
+    callback=_found_here,
+    help="Run only this engine, or a class of your own, looked for in the current folder too "
+    "(an example is in furiko.engines.protocol); may be repeated.",
 )
 report_folder_option = click.option(
     "--out",

@@ -1,5 +1,7 @@
 """The example in the protocol's docstring is a working adapter."""
 
+import subprocess
+import sys
 import textwrap
 
 import numpy as np
@@ -28,3 +30,30 @@ def test_its_missing_questions_are_refused_with_its_reason(example):
     engine = load_engine(example, RodChain((1.0, 1.0)))
     with pytest.raises(InvalidInput, match="this adapter computes accelerations only"):
         engine.energy([0.0, 0.0], [0.0, 0.0])
+
+
+def test_it_is_checked_from_the_folder_where_it_is_and_what_it_lacks_is_skipped(tmp_path):
+    _, _, code = protocol.__doc__.partition("::\n\n")
+    (tmp_path / "my_adapter.py").write_text(textwrap.dedent(code), encoding="utf-8")
+    command = ["furiko", "check", "rods-2"]
+    done = run([*command, "-e", "my_adapter:MyMujoco"], tmp_path)
+    assert done.returncode == 0, done
+    assert "this adapter computes accelerations only" in done.stdout
+    assert "Failed" not in done.stdout
+    missing = run([*command, "-e", "my_adaptor:MyMujoco"], tmp_path)
+    assert missing.returncode == 2
+    assert "cannot import 'my_adaptor'" in missing.stderr
+    assert "looked for in the current folder" in missing.stderr
+
+
+def run(command, folder):
+    # As the installed command: the current folder is not on Python's path.
+    start = "import sys; sys.path.remove(''); from furiko.cli import main; sys.exit(main())"
+    return subprocess.run(
+        [sys.executable, "-c", start, *command[1:]],
+        capture_output=True,
+        text=True,
+        cwd=folder,
+        check=False,
+        timeout=120,
+    )

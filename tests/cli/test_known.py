@@ -1,0 +1,60 @@
+"""``furiko check --known``, as a user meets it."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+FAKES = Path(__file__).parent.parent
+ENVIRONMENT = os.environ | {"PYTHONPATH": os.pathsep.join([str(FAKES), *filter(None, [os.environ.get("PYTHONPATH")])])}
+
+KNOWN = '[[known]]\nscene = "{}"\nengine = "fake_engines:*"\ncheck = "accelerations"\nreason = "it is a fake"\n'
+
+
+@pytest.fixture
+def check(tmp_path):
+    def run(engine, known, *more):
+        (tmp_path / "known.toml").write_text(known)
+        command = [sys.executable, "-m", "furiko", "check", "rods-2", "-e", f"fake_engines:{engine}"]
+        return subprocess.run(
+            [*command, "--profile", "smoke", "--known", "known.toml", *more],
+            capture_output=True, text=True, cwd=tmp_path, env=ENVIRONMENT, check=False, timeout=120,
+        )  # fmt: skip
+
+    return run
+
+
+def test_a_known_difference_passes_and_is_shown_apart(check):
+    done = check("SignFlipped", KNOWN.format("rods-*") + KNOWN.format("gone"))
+    assert done.returncode == 0, done
+    assert "Known differences: 1 of 1 difference; 0 not known\n" in done.stdout
+    assert "gone × fake_engines:*, accelerations: stale" in done.stdout
+
+
+def test_another_difference_fails(check):
+    assert check("SignFlipped", KNOWN.format("n-leg-*")).returncode == 1
+
+
+@pytest.mark.parametrize(("more", "status"), [((), 0), (("--known-strict",), 1)])
+def test_one_that_agrees_is_told(check, more, status):
+    done = check("Right", KNOWN.format("rods-2"), *more)
+    assert done.returncode == status, done
+    assert "agrees now; take the entry out" in done.stdout
+
+
+def test_json_has_it(check):
+    done = check("SignFlipped", KNOWN.format("rods-*"), "--json")
+    assert done.returncode == 0, done
+    (known,) = json.loads(done.stdout)["known"]
+    assert known["state"] == "differs"
+    assert known["results"] == [["rods-2", "fake_engines:SignFlipped", "accelerations"]]
+    assert known["reason"] == "it is a fake"
+
+
+def test_a_bad_file_is_one_line_before_anything_runs(check):
+    done = check("Right", "[[known]]\n")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert len(done.stderr.splitlines()) == 1
