@@ -22,6 +22,7 @@ exactly zero (at rest, stretched out straight) has a spread unless the engine ad
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -189,14 +190,25 @@ def energy(how: Formulation, system: DocumentSystem, amplitude: Amplitudes, thet
     """Spread of kinetic and potential energy, (B, 2) [J].
 
     As sampled, and the last digits of the whole weight times its greatest depth: what is zero at the height of the
-    support may be counted from elsewhere.
+    support may be counted from elsewhere. And what the sum of equal legs' weights loses, which sampling does not see.
     """
     tree = system.tree()
     facts: dict[str, Any] = {"accuracy": how.accuracy, "placed": how.placed, "moments": how.moments}
     found = energies(tree, theta, omega, matrix=how.inverse == "crba", **facts)
-    depth = float(from_support(tree)[1] @ amplitude.mass) * system.gravity
-    last = np.array([0.0, depth]) * ONE_ROUNDING * _coarser(how)
+    moments = from_support(tree)[1] * amplitude.mass
+    last = np.array([0.0, math.hypot(moments.sum(), added_alike(moments)) * system.gravity])
+    last *= ONE_ROUNDING * _coarser(how)
     return np.asarray(np.hypot(found, last) * turns(theta)[:, None] + EPSILON * amplitude.underflow(omega))
+
+
+def added_alike(terms: Array) -> float:
+    """Root mean square of what a running sum of ``terms`` (n,) loses for some being equal, over that of one rounding.
+
+    Adding the same number again rounds to the same side for as long as the sum keeps its exponent: c equal terms w lose
+    as much as w Σ k = w c²/2 would in one rounding, not the root of a sum of squares, as independent ones do.
+    """
+    values, counts = np.unique(np.abs(terms), return_counts=True)
+    return float(np.max(np.where(counts > 1, values * counts**2 / 2, 0.0), initial=0.0))
 
 
 def velocity_bias(how: Formulation, system: DocumentSystem, amplitude: Amplitudes, theta: Array, omega: Array) -> Array:
