@@ -13,6 +13,8 @@ import numpy as np
 from ...models.spatial import Inertial
 from ...models.spatial_mechanism import RigidBody, SpatialMechanism
 
+ROUNDING = 1e-14  # of the largest moment: two dozen operations make a tensor; a turn by less than that is none
+
 
 def moved_back(found: SpatialMechanism, expected: SpatialMechanism, reach: float) -> SpatialMechanism:
     """``found`` with the inertials that ``expected`` has within ``reach`` [m, and as parts of a quaternion] of where
@@ -51,6 +53,7 @@ def _moved_back(body: RigidBody, said: Inertial | None, reach: float) -> RigidBo
     gap = float(np.ptp(np.diag(held.tensor)))
     if not off_diagonal.any() and np.abs(said.tensor - held.tensor).max() <= 4 * reach * gap:
         tensor = said.tensor
-    if np.array_equal(centre, held.centre) and np.array_equal(tensor, held.tensor):
+    turned = np.abs(tensor - held.tensor).max() > ROUNDING * np.abs(held.tensor).max()
+    if np.array_equal(centre, held.centre) and not turned:
         return body
     return replace(body, inertial=Inertial(held.mass, centre, tensor))

@@ -50,6 +50,15 @@ def test_a_centre_of_mass_that_is_nearly_at_the_origin(tmp_path):
     assert (answer["status"], any("within" in note for note in found.notes)) == ("agrees", False)
 
 
+def test_an_inertial_that_is_in_its_frame_is_not_told(tmp_path):
+    """A box about its own centre: rounding of its moments is no turn."""
+    text = BODY.format("", '<geom type="box" size=".1 .2 .3"/>').replace(
+        '<joint name="j" axis="1 2 3"/>', "<freejoint/>"
+    )
+    found, answer = engine(tmp_path, text)
+    assert (answer["status"], [note for note in found.notes if "within" in note]) == ("agrees", [])
+
+
 def test_a_spring_by_time_constant_that_pinocchio_does_not_know(tmp_path):
     text = BODY.format("", INERTIAL).replace('axis="1 2 3"', 'axis="0 1 0" springdamper="0.1 1" damping="0.25"')
     arm = '<body name="b"><joint name="k"/>' + INERTIAL + "</body></body>"
