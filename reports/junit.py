@@ -6,6 +6,7 @@ from xml.etree import ElementTree as XML
 
 from ..records.check import Outcome, Result
 from .causes import Explanation
+from .known import Entry, Known
 from .report import Report, against, against_line
 from .words import last_line, one_line, printable, word
 
@@ -13,8 +14,12 @@ from .words import last_line, one_line, printable, word
 ELEMENTS: dict[Outcome, str] = {"differs": "failure", "error": "error", "skipped": "skipped"}
 
 
-def to_junit(report: Report) -> str:
-    """The XML document. A run that is not whole gets a failing suite of its own, so that no CI reports success."""
+def to_junit(report: Report, known: Known | None = None) -> str:
+    """The XML document. A run that is not whole gets a failing suite of its own, so that no CI reports success.
+
+    A difference that ``known`` accounts for is a skipped test with its reason: it does not fail a run.
+    """
+    accepted = known.by_result if known else {}
     suites = XML.Element("testsuites", {"name": "furiko"})
     by_scene: dict[str, list[Result]] = {scene: [] for scene in report.scenes}
     for result in report.results:
@@ -23,7 +28,8 @@ def to_junit(report: Report) -> str:
         if results:
             suite = _suite(suites, scene, report)
             for result in results:
-                _case(suite, result, report.causes.explanation_of(result))
+                entry = accepted.get((result.scene, result.engine, result.check))
+                _case(suite, result, report.causes.explanation_of(result), entry)
             _count(suite)
     if report.flaws:
         suite = _suite(suites, "furiko", report)
@@ -45,12 +51,16 @@ def _suite(suites: XML.Element, name: str, report: Report) -> XML.Element:
     return XML.SubElement(suites, "testsuite", {"name": printable(name), "timestamp": printable(started)})
 
 
-def _case(suite: XML.Element, result: Result, explanation: Explanation | None) -> None:
+def _case(suite: XML.Element, result: Result, explanation: Explanation | None, known: Entry | None) -> None:
     where = {"classname": printable(f"{result.scene}.{result.engine}"), "name": printable(result.check)}
     case = XML.SubElement(suite, "testcase", where | {"time": _seconds(result.seconds)})
     if word(result) == "loose":
         loose = one_line(f"loose: {against_line(result)}: {last_line(result.reason)}".rstrip(": "))
         XML.SubElement(case, "system-out").text = loose
+    if known is not None and result.outcome == "differs":
+        message = one_line(f"known difference: {known.reason} {known.link}".rstrip())
+        XML.SubElement(case, "skipped", {"message": message})
+        return
     element = ELEMENTS.get(result.outcome)
     if element is None:
         return

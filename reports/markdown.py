@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 
 from ..records.check import Result
 from .causes import Explanation
+from .known import Known
 from .report import Report, TableCell, group_line
 from .words import GLYPHS, LEGEND, figure, last_line, listed, one_line
 
@@ -14,10 +15,11 @@ LONGEST_REASON = 2000  # characters; none of furiko's own sentences is as long
 _SAFE = frozenset(" .,;'()/+=-%–…·×≤≥²³√°✓✗≈") | frozenset("\n")
 
 
-def to_markdown(report: Report) -> str:
-    """GitHub-flavoured Markdown; text from the stream never acts as markup."""
+def to_markdown(report: Report, known: Known | None = None) -> str:
+    """GitHub-flavoured Markdown; text from the stream never acts as markup. ``known``: its known differences."""
     sections = [
         _top(report),
+        _known(known),
         _causes(report),
         _unexplained(report),
         _findings(report.having("error"), "Failures"),
@@ -43,6 +45,14 @@ def _top(report: Report) -> str:
     flaws = [f"> [!WARNING]\n> {escape(flaw)}" for flaw in report.flaws]
     outliers = [escape(sentence) for sentence in report.outliers]
     return "\n\n".join([f"## furiko {mark} {escape(report.verdict)}", *flaws, *outliers])
+
+
+def _known(known: Known | None) -> str:
+    """How many differences are no news, and each entry of the file."""
+    if known is None:
+        return ""
+    first, *entries = known.text().splitlines()
+    return _section(escape(first), [f"- {escape(line.strip())}" for line in entries], 0) or f"### {escape(first)}"
 
 
 def _causes(report: Report) -> str:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 from ..models.errors import InvalidInput
 from ..models.writers.whole_file import make_folder, write_whole
 from ..records.check import Header
+from .known import Known
 from .report import Report
 from .stream import STREAM, StreamWriter
 
@@ -36,9 +38,10 @@ def prepare_reports() -> None:
     load_templates()
 
 
-def write_reports(directory: str | Path, report: Report) -> tuple[Path, ...]:
+def write_reports(directory: str | Path, report: Report, known: Known | None = None) -> tuple[Path, ...]:
     """Write the page, the summary and the JUnit file of a run into its folder; returns their paths.
 
+    With ``known`` the summary has its known differences apart, and in the JUnit file they are skipped, not failed.
     Each is written completely or not at all. Raises :class:`InvalidInput` with the paths of those that cannot be
     written, after the others have been.
     """
@@ -48,9 +51,14 @@ def write_reports(directory: str | Path, report: Report) -> tuple[Path, ...]:
 
     folder = Path(directory)
     paths, failures = [], []
-    for name, render in ((PAGE, to_html), (SUMMARY, to_markdown), (JUNIT, to_junit)):
+    renderings: dict[str, Callable[[], str]] = {
+        PAGE: lambda: to_html(report),
+        SUMMARY: lambda: to_markdown(report, known),
+        JUNIT: lambda: to_junit(report, known),
+    }
+    for name, render in renderings.items():
         try:
-            paths.append(write_whole(folder / name, render(report)))
+            paths.append(write_whole(folder / name, render()))
         except InvalidInput as error:
             failures.append(str(error))
     if failures:

@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 
@@ -32,6 +33,18 @@ def test_a_known_difference_passes_and_is_shown_apart(check):
     assert done.returncode == 0, done
     assert "Known differences: 1 of 1 difference; 0 not known\n" in done.stdout
     assert "gone × fake_engines:*, accelerations: stale" in done.stdout
+
+
+@pytest.mark.parametrize(("scene", "failures", "skipped"), [("rods-*", "0", "1"), ("n-leg-*", "1", "0")])
+def test_what_a_ci_reads_has_it_too(check, tmp_path, scene, failures, skipped):
+    """A known difference is a skipped test with its reason, one that is not known a failed one."""
+    check("SignFlipped", KNOWN.format(scene))
+    suites = ElementTree.parse(tmp_path / "furiko-report" / "junit.xml").getroot()
+    assert (suites.get("failures"), suites.get("skipped")) == (failures, skipped)
+    messages = [element.get("message") for element in suites.iter("skipped")]
+    assert messages == ["known difference: it is a fake"] * int(skipped)
+    summary = (tmp_path / "furiko-report" / "report.md").read_text()
+    assert f"### Known differences&#58; {skipped} of 1 difference; {failures} not known\n" in summary
 
 
 def test_another_difference_fails(check):
