@@ -25,6 +25,7 @@ from .matrices import Grid, added
 from .meaning import Meaning, own_symbols
 from .names import base_and_index, plain_name
 from .parser import Slashes, parse_equation, parse_expression
+from .srepr import from_srepr
 from .tokens import FULL_WIDTH, LONGEST_LINE
 from .typeset import Typesetter
 from .vocabulary import FUNCTIONS, Vocabulary, vocabulary
@@ -336,7 +337,7 @@ class Reader:
 def _line(line: object) -> str:
     if not isinstance(line, str):
         raise InvalidInput(f"column 1: a text in quotes is needed, got {line!r:.40}")
-    return laid_out(line)
+    return laid_out(from_srepr(line))
 
 
 def _located(where: str, read: Callable[..., T], *arguments: Any) -> T:

@@ -52,13 +52,17 @@ def test_diagnose_agrees_with_a_model_that_furiko_wrote(tmp_path):
 
 
 def test_diagnose_names_an_armature(tmp_path):
-    model = furiko.to_mjcf(furiko.RodChain([1.0, 0.5])).replace('name="hinge2"', 'name="hinge2" armature="0.01"')
-    (tmp_path / "model.xml").write_text(model)
-    done = run(tmp_path, "diagnose", "model.xml", "--json")
+    clean = furiko.to_mjcf(furiko.RodChain([1.0, 0.5]))
+    (tmp_path / "clean.xml").write_text(clean)
+    (tmp_path / "model.xml").write_text(clean.replace('name="hinge2"', 'name="hinge2" armature="0.01"'))
+    done = run(tmp_path, "diagnose", "model.xml", "--against", "clean.xml", "--json")
     found = json.loads(done.stdout)
     assert done.returncode == 1
     assert found["findings"][0]["cause"] == "armature"
     assert "0.01" in found["findings"][0]["says"]
+    alone = run(tmp_path, "diagnose", "model.xml", "--json")  # the file says so itself, and engines do as it says
+    assert alone.returncode == 0
+    assert any("armature" in note for note in json.loads(alone.stdout)["notes"])
 
 
 ENTITY = '<!DOCTYPE x [<!ENTITY a "b">]><mujoco>&a;</mujoco>'
