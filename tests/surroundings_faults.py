@@ -257,7 +257,7 @@ NAMES = [
         SCENE, "check", "FILE", "-e", "mujoco", "--profile", "smoke", "--json", name="\udcff.toml"), (0,)),
     Fault("a model's names that act on a terminal", _with(
         furiko.to_mjcf(furiko.RodChain([1.0])).replace('name="hinge1"', 'name="\u202ehinge1\x9b" armature="0.1"'),
-        "diagnose", "FILE", name="m.xml"), (1, 2)),
+        "diagnose", "FILE", name="m.xml"), (0, 1, 2)),
 ]  # fmt: skip
 
 MISTAKES = [
