@@ -44,7 +44,6 @@ from ..step_rounding import (
     Disturbed,
     conversion,
     disturbed,
-    in_a_step,
     iterations_error,
     joints_apart,
     rounding_error,
@@ -231,44 +230,39 @@ def sharp_line(cell: Cell, integrator: Integrator, ladder: Ladder, passed: Passe
     """The coarsest run's angles against those of the textbook scheme that it is, after the same steps.
 
     The two have the scheme's error in common, and rounding is all that is between them: by what it is in the states
-    that the motion passes, sampled along the run. Where the first step is that of several schemes, which part later,
-    the run may be any one's. None where no scheme of the order does as the first step does, which is for the step map
-    to say, or steps are too long for it.
+    that the motion passes, sampled along the run. None where no scheme of the order does as the first step does, which
+    is for the step map to say, or steps are too long for one of them.
     """
     theta, omega = passed.theta[:1], passed.omega[:1]
     if cell.info.coordinates == "maximal" and theta.size > LARGEST_MAXIMAL:
         return None
     steps = min(ladder.steps, sharp.steps_together(integrator, cell.scene.system.n))
     by = disturbed(cell, integrator, passed.theta[:2], passed.omega[:2], passed.alpha[:2]).worst()
-    alike = schemes_of(cell, integrator, theta, omega, ladder.step, by)
-    end = ladder.ends[0] if steps == ladder.steps or not alike else run(cell, integrator, steps * ladder.step, steps)
+    candidate = scheme_of(cell, integrator, theta, omega, ladder.step, by)
+    if candidate is None:
+        return None
+    try:
+        found = sharp_steps(cell, candidate, theta, omega, by, ladder.step, steps)
+    except ArithmeticError:
+        return None
+    end = ladder.ends[0] if steps == ladder.steps else run(cell, integrator, steps * ladder.step, steps)
+    error = (end[:1] - found.exact[0]).astype(np.float64)
     state = States((f"after {steps} steps of {ladder.step:.3g} s",), theta, omega)
-    factor = sharp.for_steps(cell.info, integrator)
-    lines = []
-    for candidate in alike:
-        try:
-            found = sharp_steps(cell, candidate, theta, omega, by, ladder.step, steps)
-        except ArithmeticError:
-            continue
-        error = (end[:1] - found.exact[0]).astype(np.float64)
-        lines.append(sharp.line(error, found.rounding[0], factor, state, 1, found.left[0]))
-        if not lines[-1].loose:
-            break
-    return min(lines, key=lambda line: line.quotient, default=None)
+    return sharp.line(error, found.rounding[0], sharp.for_steps(integrator), state, 1, found.left[0])
 
 
-def schemes_of(
+def scheme_of(
     cell: Cell, integrator: Integrator, theta: Array, omega: Array, h: float, by: Disturbed
-) -> list[Candidate]:
-    """Textbook schemes of the integrator's order whose step from a state (1, n) may be the engine's, nearest first.
+) -> Candidate | None:
+    """The textbook scheme of the integrator's order whose step from a state (1, n) is the nearest to the engine's.
 
     Each entry is held against about what disturbs it in a step: schemes of one order may differ in an angle that is
-    exact to its last digit by less than others' rates are off by. Near rest several do the same to rounding; beyond
-    that only the nearest is left.
+    exact to its last digit by less than others' rates are off by.
     """
     got = run(cell, integrator, h, 1)
-    factor = sharp.for_steps(cell.info, integrator)
-    found: list[tuple[float, Candidate]] = []
+    off_rates = h * (by.accelerations + by.left) + by.speeds + by.rates
+    besides = np.concatenate([h / 2 * off_rates + by.angles, off_rates])
+    best: tuple[float, Candidate] | None = None
     for candidate in candidates(cell, omega, literal=False):
         if candidate.scheme.order == integrator.order:
             try:
@@ -276,12 +270,10 @@ def schemes_of(
             except ArithmeticError:
                 continue
             apart = np.abs(got - end)
-            # What an angle of zero is the difference of, and what it is a sum of, is known to its last digits.
-            off = EPSILON * cell.amplitude.path_sums(end) + np.concatenate(in_a_step(candidate, by, h))
-            if (apart < ALIKE * (np.abs(end) + h * np.abs(end).max()) + factor * off).all():
-                found.append((float((apart / np.maximum(off, TINY)).max()), candidate))
-    found.sort(key=lambda one: one[0])
-    return [one for k, (off, one) in enumerate(found) if k == 0 or off <= factor]
+            if (apart < ALIKE * (np.abs(end) + h * np.abs(end).max())).all():
+                off = float((apart / np.maximum(EPSILON * np.abs(end) + besides, TINY)).max())
+                best = (off, candidate) if best is None or off < best[0] else best
+    return best[1] if best else None
 
 
 def measured_error(cell: Cell, theta: Array, omega: Array, alpha: Array) -> float:
