@@ -26,6 +26,7 @@ from ...reference.rounding.bounds import EPSILON, amplitudes, condition
 from ...reference.truth.enclosures import Enclosure
 from ...reference.truth.newton_euler import close_accelerations, enclosed_accelerations
 from .axes import Mechanism, find_axes
+from .case import RungCase
 from .failures import Failure, of_answer
 
 Array = NDArray[np.float64]
@@ -41,23 +42,8 @@ MOST_FOR_CONDITION = 300  # links: the matrices are dense
 
 
 @dataclass(frozen=True)
-class AccelerationCase:
+class AccelerationCase(RungCase):
     """A case: it says under which names its result stands, and makes it."""
-
-    ladder: str
-    engine: str
-    rung: int
-    seed: int
-
-    @property
-    def scene(self) -> str:
-        """The ladder."""
-        return self.ladder
-
-    @property
-    def check(self) -> str:
-        """The rung."""
-        return f"accelerations, rung {self.rung}"
 
     @property
     def heavy(self) -> bool:
@@ -127,10 +113,6 @@ class AccelerationCase:
             reason=reason,
             details=details,
         )
-
-    def result(self, outcome: str, **fields: object) -> Result:
-        """A result under this case's names."""
-        return Result(scene=self.scene, engine=self.engine, check=self.check, outcome=outcome, **fields)  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True)

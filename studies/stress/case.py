@@ -24,6 +24,30 @@ class Case(Protocol):
 
 
 @dataclass(frozen=True)
+class RungCase:
+    """Accelerations on one rung of a ladder: the names under which the result stands."""
+
+    ladder: str
+    engine: str
+    rung: int
+    seed: int
+
+    @property
+    def scene(self) -> str:
+        """The ladder."""
+        return self.ladder
+
+    @property
+    def check(self) -> str:
+        """The rung."""
+        return f"accelerations, rung {self.rung}"
+
+    def result(self, outcome: str, **fields: object) -> Result:
+        """A result under this case's names."""
+        return Result(scene=self.scene, engine=self.engine, check=self.check, outcome=outcome, **fields)  # type: ignore[arg-type]
+
+
+@dataclass(frozen=True)
 class CaseJob:
     """Run one case."""
 

@@ -9,6 +9,7 @@ a frontier that is caught between two rungs, then one search after the other: th
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -66,64 +67,17 @@ class Search(Protocol):
         ...
 
 
-@dataclass(frozen=True)
-class AccelerationSearch:
-    """How far up a ladder a subject's accelerations keep half their digits."""
-
-    subject: str
-    ladder: Ladder
-    seed: int
+class UpRungs(ABC):
+    """A search up the rungs of a ladder, for the last that holds."""
 
     @property
-    def family(self) -> str:
-        return "pairs" if isinstance(self.ladder, Pair) else "accelerations"
-
-    @property
-    def top(self) -> int:
-        """The last rung for this subject."""
-        most = {KERNELS: 10_001, DOCUMENT: DENSE_LIMIT}.get(self.subject)
-        return self.ladder.top_for(most or engine_info(self.subject).largest_n, kernels=self.subject == KERNELS)
-
-    def case(self, rung: int) -> AccelerationCase:
-        """The case of a rung."""
-        return AccelerationCase(self.ladder.name, self.subject, rung, self.seed)
-
-    def answers(self, results: Results) -> dict[int, bool]:
-        """The known answers, by rung."""
-        found = ((rung, results.get(key(self.case(rung)))) for rung in range(self.top + 1))
-        return {rung: holds(result) for rung, result in found if result is not None}
-
-    def next(self, results: Results) -> tuple[Case | None, int]:
-        answers = self.answers(results)
-        rung = next_rung(answers, self.top)
-        return None if rung is None else self.case(rung), len(answers)
-
-    def caught(self, results: Results) -> bool:
-        return frontier(self.answers(results), self.top).fails is not None
-
-    def frontier(self, results: Results) -> Frontier:
-        """The frontier known so far."""
-        return frontier(self.answers(results), self.top)
-
-
-@dataclass(frozen=True)
-class TreeSearch:
-    """The same of an open mechanism in space, on one engine."""
-
-    subject: str
-    ladder: TreeLadder
-    seed: int
-
-    family = "trees"
-
-    @property
+    @abstractmethod
     def top(self) -> int:
         """The last rung."""
-        return len(self.ladder.values) - 1
 
-    def case(self, rung: int) -> TreeCase:
+    @abstractmethod
+    def case(self, rung: int) -> Case:
         """The case of a rung."""
-        return TreeCase(self.ladder.name, self.subject, rung, self.seed)
 
     def answers(self, results: Results) -> dict[int, bool]:
         """The known answers, by rung."""
@@ -144,7 +98,50 @@ class TreeSearch:
 
 
 @dataclass(frozen=True)
-class StabilitySearch:
+class AccelerationSearch(UpRungs):
+    """How far up a ladder a subject's accelerations keep half their digits."""
+
+    subject: str
+    ladder: Ladder
+    seed: int
+
+    @property
+    def family(self) -> str:
+        return "pairs" if isinstance(self.ladder, Pair) else "accelerations"
+
+    @property
+    def top(self) -> int:
+        """The last rung for this subject."""
+        most = {KERNELS: 10_001, DOCUMENT: DENSE_LIMIT}.get(self.subject)
+        return self.ladder.top_for(most or engine_info(self.subject).largest_n, kernels=self.subject == KERNELS)
+
+    def case(self, rung: int) -> AccelerationCase:
+        """The case of a rung."""
+        return AccelerationCase(self.ladder.name, self.subject, rung, self.seed)
+
+
+@dataclass(frozen=True)
+class TreeSearch(UpRungs):
+    """The same of an open mechanism in space, on one engine."""
+
+    subject: str
+    ladder: TreeLadder
+    seed: int
+
+    family = "trees"
+
+    @property
+    def top(self) -> int:
+        """The last rung."""
+        return len(self.ladder.values) - 1
+
+    def case(self, rung: int) -> TreeCase:
+        """The case of a rung."""
+        return TreeCase(self.ladder.name, self.subject, rung, self.seed)
+
+
+@dataclass(frozen=True)
+class StabilitySearch(UpRungs):
     """The largest step that an engine's integrator survives, in one place of what is put under stress."""
 
     engine: str
@@ -155,22 +152,14 @@ class StabilitySearch:
 
     family = "steps"
 
+    @property
+    def top(self) -> int:
+        """The last rung."""
+        return TOP
+
     def case(self, rung: int) -> StabilityCase:
         """The case of a rung."""
         return StabilityCase(self.engine, self.integrator, self.stress, self.value, rung, self.seed)
-
-    def answers(self, results: Results) -> dict[int, bool]:
-        """The known answers, by rung."""
-        found = ((rung, results.get(key(self.case(rung)))) for rung in range(TOP + 1))
-        return {rung: holds(result) for rung, result in found if result is not None}
-
-    def next(self, results: Results) -> tuple[Case | None, int]:
-        answers = self.answers(results)
-        rung = next_rung(answers, TOP)
-        return None if rung is None else self.case(rung), len(answers)
-
-    def caught(self, results: Results) -> bool:
-        return frontier(self.answers(results), TOP).fails is not None
 
 
 @dataclass(frozen=True)

@@ -22,6 +22,7 @@ from ...records.stress import HALF_THE_DIGITS
 from ...reference.truth.enclosures import Enclosure
 from ...reference.truth.spatial import spatial_truth
 from .accelerations import digits, finite, relative_error, told
+from .case import RungCase
 from .failures import of_answer
 
 Array = NDArray[np.float64]
@@ -139,23 +140,8 @@ TREE_LADDERS = {
 
 
 @dataclass(frozen=True)
-class TreeCase:
+class TreeCase(RungCase):
     """A case: it says under which names its result stands, and makes it."""
-
-    ladder: str
-    engine: str
-    rung: int
-    seed: int
-
-    @property
-    def scene(self) -> str:
-        """The ladder."""
-        return self.ladder
-
-    @property
-    def check(self) -> str:
-        """The rung."""
-        return f"accelerations, rung {self.rung}"
 
     @property
     def heavy(self) -> bool:
@@ -195,10 +181,6 @@ class TreeCase:
                 "digits": digits(typical),
             },
         )
-
-    def result(self, outcome: str, **fields: object) -> Result:
-        """A result under this case's names."""
-        return Result(scene=self.scene, engine=self.engine, check=self.check, outcome=outcome, **fields)  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True)
