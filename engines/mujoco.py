@@ -174,15 +174,7 @@ class Mujoco:
 
 def model_from_spec(tree: PlanarTree) -> Any:
     """The compiled model that furiko's MJCF describes, without its geoms, built without XML."""
-    spec = mujoco.MjSpec()
-    spec.modelname = "furiko"
-    compiler, option = spec.compiler, spec.option
-    compiler.degree = False
-    compiler.inertiafromgeom = mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_FALSE
-    compiler.balanceinertia = compiler.autolimits = False
-    compiler.boundinertia = LEAST_INERTIA
-    option.gravity = [0.0, 0.0, -tree.gravity]
-    option.disableflags = int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT) | int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
+    spec = empty_spec([0.0, 0.0, -tree.gravity])
     bodies: list[Any] = []
     for link, body_name, hinge_name in zip(tree.links, tree.names("link"), tree.names("hinge"), strict=True):
         parent = bodies[link.parent] if link.parent >= 0 else spec.worldbody
@@ -196,6 +188,25 @@ def model_from_spec(tree: PlanarTree) -> Any:
         )
         body.add_joint(name=hinge_name, type=mujoco.mjtJoint.mjJNT_HINGE, axis=[0.0, -1.0, 0.0])
         bodies.append(body)
+    return compiled(spec)
+
+
+def empty_spec(gravity: list[float]) -> Any:
+    """A specification without bodies; its compiler keeps what is added, and no motion is constrained or reset."""
+    spec = mujoco.MjSpec()
+    spec.modelname = "furiko"
+    compiler, option = spec.compiler, spec.option
+    compiler.degree = False
+    compiler.inertiafromgeom = mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_FALSE
+    compiler.balanceinertia = compiler.autolimits = False
+    compiler.boundinertia = LEAST_INERTIA
+    option.gravity = gravity
+    option.disableflags = int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT) | int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
+    return spec
+
+
+def compiled(spec: Any) -> Any:
+    """The model of a specification."""
     with warnings.catch_warnings():  # this way the compiler's warnings are Python's
         warnings.simplefilter("ignore")
         return spec.compile()

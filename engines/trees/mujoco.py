@@ -7,7 +7,6 @@
 
 from __future__ import annotations
 
-import warnings
 from importlib import import_module
 from typing import Any
 
@@ -17,7 +16,7 @@ from ...models.spatial_mechanism import WORLD, Joint, RigidBody, SpatialMechanis
 from ...models.writers.mjcf import LEAST_INERTIA
 from ..model_files.robot_coordinates import Block, RobotCoordinates
 from ..model_files.robot_mujoco import BoundMujoco
-from ..mujoco import INTEGRATORS, keep_centres, quiet_data
+from ..mujoco import INTEGRATORS, compiled, empty_spec, keep_centres, quiet_data
 from ..protocol import Array
 
 # MuJoCo's bindings have no type stubs that fit: Any, here and nowhere else.
@@ -91,24 +90,14 @@ def _columns(starts: Array, sizes: list[int]) -> Any:
 
 
 def _model(mechanism: SpatialMechanism) -> Any:
-    spec = mujoco.MjSpec()
-    spec.modelname = "furiko"
-    compiler, option = spec.compiler, spec.option
-    compiler.degree = False
-    compiler.inertiafromgeom = mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_FALSE
-    compiler.balanceinertia = compiler.autolimits = False
-    compiler.boundinertia = LEAST_INERTIA
-    option.gravity = mechanism.gravity.tolist()
-    option.disableflags = int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT) | int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
+    spec = empty_spec(mechanism.gravity.tolist())
     bodies: list[Any] = []
     for k, body in enumerate(mechanism.bodies):
         parent = spec.worldbody if body.parent == WORLD else bodies[body.parent]
         bodies.append(_body(parent, body, k))
     for k, placed in enumerate(mechanism.joints):
         _joint(bodies[placed.body], placed.joint, f"joint{k}")
-    with warnings.catch_warnings():  # this way the compiler's warnings are Python's
-        warnings.simplefilter("ignore")
-        model = spec.compile()
+    model = compiled(spec)
     keep_centres(model)
     for k, body in enumerate(mechanism.bodies):
         moments = np.diag(body.inertial.tensor)
