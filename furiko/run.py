@@ -21,7 +21,8 @@ from .models import AnyScene, EngineMissing, InvalidInput, TreeScene, catalogue
 from .models.errors import installing, installing_all
 from .records import provenance
 from .records.check import Diagnosis, EngineEntry, Footer, Header, Result, SceneEntry
-from .reports import Report, StreamWriter, footer_of, open_report, prepare_reports, write_reports
+from .reports import Report, StreamWriter, footer_of, known_in, open_report, prepare_reports, write_reports
+from .reports.known import Entry
 
 R = TypeVar("R", Result, Diagnosis)
 SEED = "sha256 of the scene's name, PCG64"
@@ -46,6 +47,7 @@ def check(
     use_cache: bool = True,
     source: Workers | None = None,
     watch: Callable[[Plan, Result], None] | None = None,
+    known: Sequence[Entry] | None = None,
 ) -> Report:
     """Check engines against the documents' equations.
 
@@ -53,7 +55,8 @@ def check(
     None for all; ``profile``: ``smoke``, ``quick`` or ``full``; ``out``: folder for ``report.jsonl`` and its
     renderings, None for none; ``jobs``: worker processes, None for one a core; ``timeout`` [s] of one check;
     ``use_cache``: take results of an earlier run with the very same inputs; ``source``: workers started ahead;
-    ``watch`` is called with each result as it comes.
+    ``watch`` is called with each result as it comes; ``known``: entries of a file of known differences, which the
+    renderings tell apart, None for no file.
 
     Raises :class:`furiko.InvalidInput` for unknown names and bad files, :class:`furiko.EngineMissing` where none of the
     engines is installed, before anything runs, and :class:`ReportNotWritten` at the end of a run whose files could not
@@ -92,7 +95,7 @@ def check(
     report = Report(header, tuple(results), footer, tuple(diagnoses))
     if out is not None:
         try:
-            write_reports(out, report)
+            write_reports(out, report, None if known is None else known_in(report, known))
         except InvalidInput as error:
             unwritten.append(str(error))
     if unwritten:

@@ -56,8 +56,7 @@ def check(
     from ..engines.workers.processes import worker_processes
 
     with worker_processes(jobs or os.cpu_count() or 1, MODULES) as source:
-        from ..models import InvalidInput
-        from ..reports import compare, known_in, read_known, read_stream, write_reports
+        from ..reports import compare, known_in, read_known, read_stream
         from ..run import ReportNotWritten
         from ..run import check as run_check
 
@@ -78,15 +77,11 @@ def check(
                     use_cache=not no_cache,
                     source=source,
                     watch=watch,
+                    known=entries if known else None,
                 )
             except ReportNotWritten as error:
                 report, unwritten = error.report, str(error)
     accounted = known_in(report, entries)  # without a file nothing is known
-    if known is not None and not unwritten:
-        try:
-            write_reports(out, report, accounted)
-        except InvalidInput as error:
-            unwritten = str(error)
     statuses = [accounted.exit_status_of(before is not None if sharp is None else sharp, known_strict)]
     if unwritten:
         print_failure(unwritten)
