@@ -58,6 +58,8 @@ NEAR = 1e-2  # [rad]; up to here an error is small: what it neglects of itself i
 GONE = 1.0  # [rad]; beyond, a carried error means nothing
 MEMORIES = (4, 8, 16, 32, 64, 128)  # steps that a scheme may take to forget
 FORGOTTEN = 1e-3  # twice as many steps change the local errors by less than this part of them
+FRAMES = 150  # of a motion that is shown: the coarsest step's, which parts first
+MOST_SHOWN = 10  # links of one
 WINDOW = 16  # steps whose local errors one such run gives
 
 # The prediction neglects what an error does to its own growth: at NEAR a hundredth part for each time that the rates
@@ -83,7 +85,7 @@ class Horizon:
     """``predicted`` and ``measured``: largest error of an angle so far [rad] at each of ``times`` [s], (K+1,).
 
     ``local``: size of the local error [rad, rad/s] of each step that is predicted; ``from_time``: predictions begin
-    here [s].
+    here [s]. ``truth``, ``run``: angles of the true motion and of the engine's [rad], (K+1, n), (≤ K+1, n).
     """
 
     integrator: Integrator
@@ -94,6 +96,8 @@ class Horizon:
     local: Array
     from_time: float
     lyapunov_time: float
+    truth: Array
+    run: Array
 
     def crossing(self, threshold: float) -> tuple[float, float]:
         """When the predicted and the measured error first exceed a threshold [s]; infinite where they do not."""
@@ -143,7 +147,8 @@ def horizon(cell: Cell, integrator: Integrator, step: float, duration: float) ->
     n, steps = scene.system.n, len(truth.flow)
     # Where the prediction has come to its end the run need not go on for long.
     last = min(steps, len(carried) + len(carried) // 10 + 10)
-    measured = path(cell, integrator, truth.high[0], step, last) - truth.high[: last + 1]
+    run = path(cell, integrator, truth.high[0], step, last)
+    measured = run - truth.high[: last + 1]
     return Horizon(
         integrator=integrator,
         step=step,
@@ -153,6 +158,8 @@ def horizon(cell: Cell, integrator: Integrator, step: float, duration: float) ->
         local=local,
         from_time=start * step,
         lyapunov_time=truth.growth.lyapunov_time,
+        truth=truth.high[:, :n],
+        run=run[:, :n],
     )
 
 
@@ -308,6 +315,7 @@ def _result(cell: Cell, found: Horizon, order: float | None) -> Result:
             "order of local errors": order,
             "predicted from": found.from_time,
             "errors over time": history(found),
+            **({"motion": motion(found)} if found.step == max(STEPS) and found.truth.shape[-1] <= MOST_SHOWN else {}),
         },
     )
 
@@ -317,6 +325,21 @@ def history(found: Horizon) -> list[list[float | None]]:
     chosen = np.unique(np.linspace(1, len(found.times) - 1, 50).astype(int))
     columns = (found.times, found.predicted, found.measured)
     return [[_finite(float(column[k])) for column in columns] for k in chosen]
+
+
+def motion(found: Horizon) -> dict[str, list[list[float]] | list[float]]:
+    """``times`` [s], and the angles [rad] of ``theory`` and ``engine`` at each, to four decimals, for a drawing.
+
+    As long as the engine's are numbers.
+    """
+    ended = ~np.isfinite(found.run).all(axis=-1)
+    last = int(np.argmax(ended)) - 1 if ended.any() else len(found.run) - 1
+    chosen = np.unique(np.linspace(0, last, FRAMES).astype(int))
+    return {
+        "times": [round(float(found.times[k]), 4) for k in chosen],
+        "theory": np.round(found.truth[chosen], 4).tolist(),
+        "engine": np.round(found.run[chosen], 4).tolist(),
+    }
 
 
 def _finite(value: float) -> float | None:

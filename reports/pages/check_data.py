@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, TypeGuard
 
 import msgspec
 
@@ -20,11 +20,12 @@ from ..words import GLYPHS, Word, count, figure, listed, one_line, word
 from .mechanism_drawing import draw_mechanism
 
 WORDS: tuple[Word, ...] = ("differs", "error", "loose", "agrees", "skipped")  # the gravest first
-HISTORY = "errors over time"  # a detail that is drawn
+HISTORY, MOTION = "errors over time", "motion"  # details that are drawn
 MOST_PLACES = 3000  # sentences of causes in all: a page is to be read, the stream has every one
 MOST_DRAWN = 60_000  # numbers in drawings of mechanisms: a third of a megabyte
 LONGEST_DETAIL = 2000  # characters of a list or a table
-MOST_TIMES = 200  # of one error over time
+MOST_TIMES = 400  # of one error over time, or of one motion
+MOST_FRAMES = 200_000  # numbers in all motions: a megabyte
 HUGE = 1e308  # stands for infinity, which JSON does not have
 
 SYSTEMS = {
@@ -52,10 +53,15 @@ class Texts:
         return found
 
 
-def page_data(report: Report, known: Known | None = None) -> str:
-    """The run as JSON for a script element: no character of it can end the element or begin another."""
-    encoded = msgspec.json.encode(_data(report, known)).decode()
-    return encoded.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
+def page_data(report: Report, known: Known | None = None) -> tuple[str, bool]:
+    """The run as JSON for a script element, and whether there is something to plot.
+
+    No character of the JSON can end the element or begin another.
+    """
+    data = _data(report, known)
+    encoded = msgspec.json.encode(data).decode()
+    safe = encoded.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
+    return safe, bool(data["histories"])
 
 
 def _data(report: Report, known: Known | None) -> dict[str, Any]:
@@ -94,7 +100,8 @@ class _Rows:
         self._scenes = {name: i for i, name in enumerate(report.scenes)}
         self._engines = {name: i for i, name in enumerate(report.engines)}
         self._checks = {name: i for i, name in enumerate(report.checks)}
-        self.histories: list[list[list[float | None]]] = []
+        self.histories: list[dict[str, Any]] = []
+        self._frames = 0
 
     def cell(self, cell: TableCell) -> list[Any]:
         """Scene, engine, word, figure, share, results."""
@@ -133,14 +140,18 @@ class _Rows:
         return -1 if value is None else self._texts.number(f"{figure(value)} {unit}".rstrip())
 
     def _details(self, result: Result) -> list[list[int]]:
-        shown = [(key, value) for key, value in result.details.items() if key != HISTORY]
+        shown = [(key, value) for key, value in result.details.items() if key not in (HISTORY, MOTION)]
         return [[self._texts.number(key), self._texts.number(_detail(value))] for key, value in shown if key]
 
     def _history(self, result: Result) -> int:
         found = errors_over_time(result)
         if not found:
             return -1
-        self.histories.append(found)
+        motion = motion_of(result, self._report.scene(result.scene))
+        if motion is not None:
+            self._frames += 2 * len(motion["times"]) * len(motion["lengths"])
+        shown = motion if self._frames <= MOST_FRAMES else None
+        self.histories.append({"errors": found, "motion": shown})
         return len(self.histories) - 1
 
 
@@ -152,7 +163,32 @@ def errors_over_time(result: Result) -> list[list[float | None]]:
     if not timed:
         return []
     timed.sort(key=lambda row: float(row[0]))
-    return [[_short(value) if _number(value) else None for value in column] for column in zip(*timed, strict=True)]
+    times, *errors = zip(*timed, strict=True)
+    shown = [[_short(value) if _number(value) and value > 0 else None for value in column] for column in errors]
+    end = max((k for column in shown for k, value in enumerate(column, start=1) if value is not None), default=0)
+    return [[float(f"{time:.6g}") for time in times[:end]], *(column[:end] for column in shown)] if end else []
+
+
+def motion_of(result: Result, scene: SceneEntry | None) -> dict[str, Any] | None:
+    """Angles of theory and engine over time, with what is needed to draw them; None where the result has none."""
+    found = result.details.get(MOTION)
+    if not isinstance(found, dict) or scene is None or not scene.lengths:
+        return None
+    times, theory, engine = (found.get(name) for name in ("times", "theory", "engine"))
+    if not _numbers(times) or len(times) > MOST_TIMES:
+        return None
+    if not all(_table(rows, len(times), len(scene.lengths)) for rows in (theory, engine)):
+        return None
+    fan = scene.system == "n-leg"
+    return {"times": times, "theory": theory, "engine": engine, "lengths": scene.lengths, "fan": fan}
+
+
+def _numbers(values: object) -> TypeGuard[list[float]]:
+    return isinstance(values, list) and bool(values) and all(map(_number, values))
+
+
+def _table(rows: object, height: int, width: int) -> bool:
+    return isinstance(rows, list) and len(rows) == height and all(_numbers(row) and len(row) == width for row in rows)
 
 
 def _number(value: object) -> bool:

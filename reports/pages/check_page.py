@@ -21,16 +21,19 @@ PAGE = "report.html.j2"
 PARTS = ("facts", "causes", "by_engine", "reasons", "browse", "loose")  # it includes these
 MOST_LISTED = 40  # lines of a list in the markup; the table has all results
 SCRIPTS = ("formula.js", "check.js")
+# Where there is something to plot: uPlot, with its licence, and what draws with it.
+PLOTTING = ("uplot/uPlot.js", "motion.js")
 
 
 def to_html(report: Report, known: Known | None = None) -> str:
     """The whole page as text; nothing from the stream is markup. ``known``: its known differences."""
     from markupsafe import Markup
 
-    script = _script()
+    data, plotted = page_data(report, known)
+    script = _script(plotted)
     return render(
         PAGE,
-        ("style.css", "check.css"),
+        ("style.css", *(("uplot/uPlot.css",) if plotted else ()), "check.css"),
         report=report,
         known=known,
         mark=_mark(report, known),
@@ -42,7 +45,7 @@ def to_html(report: Report, known: Known | None = None) -> str:
         loose=group_by_check(report.loose),
         untested=list(dict.fromkeys(engine.untested for engine in report.header.engines if engine.untested)),
         most=MOST_LISTED,
-        data=Markup(page_data(report, known)),
+        data=Markup(data),
         script=Markup(script),
         script_digest=_digest(script),
     )
@@ -50,14 +53,17 @@ def to_html(report: Report, known: Known | None = None) -> str:
 
 def load_templates() -> None:
     """Compile the page's templates ahead of their use; they are kept."""
-    _script()
     for name in (PAGE, *(f"{part}.html.j2" for part in PARTS)):
         environment().get_template(name)
 
 
 @cache
-def _script() -> str:
-    return "\n".join((TEMPLATES / name).read_text(encoding="utf-8") for name in SCRIPTS)
+def _script(plotted: bool) -> str:
+    parts = [(TEMPLATES / name).read_text(encoding="utf-8") for name in (*(PLOTTING if plotted else ()), *SCRIPTS)]
+    if plotted:
+        licence = (TEMPLATES / "uplot" / "LICENSE.txt").read_text(encoding="utf-8")
+        parts.insert(0, f"/* uPlot, which draws the plots of this page:\n\n{licence}*/")
+    return "\n".join(parts)
 
 
 def _digest(script: str) -> str:

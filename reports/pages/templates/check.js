@@ -186,6 +186,7 @@
     if (result.cause) parts.push(make("p", {}, "cause: ", make("strong", {}, result.cause)));
     if (result.reason) parts.push(result.reason.includes("\n") ? make("pre", {}, result.reason) : make("p", {}, result.reason));
     if (result.line) parts.push(make("p", { class: "faint" }, `rounding gives at most ${result.line} in this state`));
+    if (result.history >= 0) parts.push(folded("errors over time, and the motion", () => furikoMotion(data.histories[result.history], make, svg), result.word === 0));
     if (result.details.length) parts.push(folded("state and further figures", () => figures(result)));
     return parts;
   }

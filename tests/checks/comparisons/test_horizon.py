@@ -1,6 +1,7 @@
 """Predicted and measured horizons, against figures of an earlier program and against engines with a fault."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -119,3 +120,16 @@ def test_the_command_prints_a_table(capsys):
     assert "0.020 s" in lines[1]
     assert "later" in lines[3]
     assert find_scene("double-pendulum").name in lines[1]
+
+
+def test_a_motion_that_is_shown_begins_at_the_scene_and_ends_where_the_engine_does(make_cell):
+    scene = find_scene("double-pendulum")
+    cell = make_cell("mujoco", scene)
+    found = horizon.horizon(cell, integrator(cell, "RK4"), 1e-2, 0.5)
+    shown = horizon.motion(found)
+    assert shown["theory"][0] == shown["engine"][0] == pytest.approx(list(scene.theta), abs=1e-4)
+    assert (len(shown["times"]), shown["times"][-1]) == (51, 0.5)  # every step of a short motion
+    assert np.abs(np.subtract(shown["theory"], shown["engine"])).max() < 1e-3  # they part at 3.83 s
+    run = found.run.copy()
+    run[20:] = math.inf
+    assert horizon.motion(replace(found, run=run))["times"][-1] == pytest.approx(0.19)

@@ -154,13 +154,36 @@ def test_known_differences_are_told_and_marked(make):
     assert "Known differences" not in to_html(run)
 
 
-def test_errors_over_time_are_data_of_their_own(make):
-    history = [[1.0, 1e-6, 2e-6], [0.5, 1e-7, 2e-7], [2.0, 1e-3, None], [3.0, None, "x"], ["no", 1, 1], 7]
-    details = {"errors over time": history, "step": 0.01, "Lyapunov time": 0.5}
-    data = Page(to_html(make.report(make.result(check="horizon RK4", details=details)))).data
-    assert data["histories"] == [[[0.5, 1, 2, 3], [1e-7, 1e-6, 1e-3, None], [2e-7, 2e-6, None, None]]]
+HISTORY = [[1.0, 1e-6, 2e-6], [0.5, 1e-7, 2e-7], [2.0, 1e-3, None], [3.0, 0.0, "x"], ["no", 1, 1], 7]
+
+
+def test_errors_over_time_are_data_of_their_own_and_bring_the_plots(make):
+    details = {"errors over time": HISTORY, "step": 0.01, "Lyapunov time": 0.5}
+    html = to_html(make.report(make.result(check="horizon RK4", details=details)))
+    data = Page(html).data
+    errors = [[0.5, 1, 2], [1e-7, 1e-6, 1e-3], [2e-7, 2e-6, None]]  # a logarithmic axis has no zero
+    assert data["histories"] == [{"errors": errors, "motion": None}]
     assert "errors over time" not in data["text"]
     assert "0.5 s, in which a small difference grows e-fold" in data["text"]
+    assert "var uPlot=" in html
+    assert "The MIT License (MIT)" in html  # wherever uPlot goes
+    assert "uPlot" not in to_html(make.report(make.result(details={"step": 0.01})))
+
+
+MOVING = {"times": [0.0, 0.1], "theory": [[0.1, 0.2], [0.3, 0.4]], "engine": [[0.1, 0.2], [0.3, 0.5]]}
+
+
+@pytest.mark.parametrize(
+    "given",
+    [7, {}, MOVING | {"times": [0.0]}, MOVING | {"times": [0.0, None]}, MOVING | {"engine": [[0.1, 0.2], [0.3]]}],
+)
+def test_a_motion_is_shown_only_where_it_is_whole(make, given):
+    def motion(given):
+        details = {"errors over time": HISTORY, "motion": given}
+        return Page(to_html(make.report(make.result(details=details)))).data["histories"][0]["motion"]
+
+    assert motion(MOVING) == MOVING | {"lengths": [0.8, 0.9], "fan": False}
+    assert motion(given) is None
 
 
 def skeleton(html):

@@ -1,5 +1,6 @@
 """The page of a check in a real browser: every control, the keyboard, both themes, narrow windows, hostile text."""
 
+import math
 import re
 
 import pytest
@@ -159,6 +160,32 @@ def test_a_cell_opens_its_evidence_and_the_keyboard_does_all(make, page):
     shown.run("document.querySelector('#evidence [data-place=\"0-2\"]').click(); new Promise((k) => setTimeout(k, 50))")
     assert shown.run("document.getElementById('evidence-title').textContent") == "rods-2 × exudyn-tree≈ loose"
     assert "rounding gives at most 4 ε" in shown.run("document.getElementById('evidence-body').innerText")
+
+
+def test_a_motion_plays_and_its_errors_are_said_at_every_time(make, page):
+    history = [[t / 10, 10.0 ** (t - 8), 2 * 10.0 ** (t - 8)] for t in range(1, 6)]
+    angles = [[0.1 * t, 0.2 * t] for t in range(6)]
+    motion = {"times": [t / 10 for t in range(6)], "theory": angles, "engine": [[a, b + 0.1] for a, b in angles]}
+    details = {"errors over time": history, "motion": motion}
+    shown = page(make.report(make.result(check="horizon RK4", details=details)), fragment="#0-0")
+    shown.run("document.querySelector('#evidence details').open = true; " + SOON)
+    assert shown.run("document.querySelector('#evidence canvas').width") > 200
+    shown.run("document.querySelector('#evidence [type=range]').focus()")
+    for _ in range(2):
+        shown.key("ArrowRight")
+    shown.run("{ const s = document.activeElement; s.value = 400; s.dispatchEvent(new Event('input')) }")
+    said = "0.20 s: predicted 1.0e-6 rad, measured 2.0e-6 rad"
+    assert (
+        shown.run("document.activeElement.ariaValueText ?? document.activeElement.getAttribute('aria-valuetext')")
+        == said
+    )
+    # At 0.2 s the first link is at 0.2 rad, 0.8 m long, in a picture of 300 with 1.7 m to 136.
+    end = shown.run("document.querySelector('.motion .body.theory').getAttribute('d')").split("L")[1]
+    x, y = 150 + 80 * 0.8 * math.sin(0.2), 150 + 80 * 0.8 * math.cos(0.2)
+    assert [float(v) for v in end.split()] == pytest.approx([x, y], abs=0.06)
+    shown.run("document.querySelector('.player button').click(); new Promise((kept) => setTimeout(kept, 600))")
+    assert shown.run("document.querySelector('.player output').textContent").startswith("0.50 s")
+    assert shown.run("document.querySelector('.player button').textContent") == "Play"
 
 
 def test_known_differences_are_marked_and_can_be_left_out(make, page):
