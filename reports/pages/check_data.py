@@ -22,7 +22,7 @@ from .mechanism_drawing import draw_mechanism
 WORDS: tuple[Word, ...] = ("differs", "error", "loose", "agrees", "skipped")  # the gravest first
 HISTORY, MOTION = "errors over time", "motion"  # details that are drawn
 MOST_PLACES = 3000  # sentences of causes in all: a page is to be read, the stream has every one
-MOST_DRAWN = 60_000  # numbers in drawings of mechanisms: a third of a megabyte
+MOST_DRAWN = 30_000  # numbers in drawings of mechanisms: a sixth of a megabyte
 LONGEST_DETAIL = 2000  # characters of a list or a table
 MOST_TIMES = 400  # of one error over time, or of one motion
 MOST_FRAMES = 200_000  # numbers in all motions: a megabyte
@@ -139,9 +139,10 @@ class _Rows:
     def _figure(self, value: float | None, unit: str) -> int:
         return -1 if value is None else self._texts.number(f"{figure(value)} {unit}".rstrip())
 
-    def _details(self, result: Result) -> list[list[int]]:
+    def _details(self, result: Result) -> list[int]:
         shown = [(key, value) for key, value in result.details.items() if key not in (HISTORY, MOTION)]
-        return [[self._texts.number(key), self._texts.number(_detail(value))] for key, value in shown if key]
+        pairs = ((self._texts.number(key), self._texts.number(_detail(value))) for key, value in shown if key)
+        return [number for pair in pairs for number in pair]
 
     def _history(self, result: Result) -> int:
         found = errors_over_time(result)

@@ -166,9 +166,10 @@
 
   // --- the evidence
 
-  const figures = (result) => make("dl", { class: "figures" }, ...result.details.flatMap(([name, value]) => {
+  const figures = (result) => make("dl", { class: "figures" }, ...result.details.flatMap((value, i) => {
+    if (i % 2 === 0) return [make("dt", {}, text(value))];
     const said = text(value);
-    return [make("dt", {}, text(name)), make("dd", {}, said.includes("\n") ? make("pre", {}, said) : said)];
+    return [make("dd", {}, said.includes("\n") ? make("pre", {}, said) : said)];
   }));
 
   /** A heading that makes what is under it when it is opened for the first time. */

@@ -37,7 +37,7 @@ const furikoMotion = (() => {
       body: svg("path", { class: `body ${name}` }),
     }));
     const picture = svg("svg", { class: "motion", viewBox: `0 0 ${SIZE} ${SIZE}`, role: "img", "aria-label": "Theory and engine in motion, with the paths of the last joint" },
-      ...kinds.map((kind) => kind.trace), ...kinds.map((kind) => kind.body).reverse()); // theory, which is dashed, over the engine
+      svg("path", { class: "support", d: `M${SIZE / 2 - 12} ${SIZE / 2 - 3}h24` }), ...kinds.map((kind) => kind.trace), ...kinds.map((kind) => kind.body).reverse()); // theory, which is dashed, over the engine
     const show = (at) => kinds.forEach((kind) => kind.body.setAttribute("d", links(between(motion[kind.name], at))));
     return { picture, show };
   }
@@ -45,18 +45,20 @@ const furikoMotion = (() => {
   function plot(errors, box) {
     const faint = colour("--faint"), line = colour("--line");
     const axis = { stroke: faint, grid: { stroke: line, width: 1 }, ticks: { stroke: line, width: 1 } };
-    const decade = (values) => values.map((value) => {
-      const power = Math.log10(value);
-      return Math.abs(power - Math.round(power)) < 1e-9 ? `1e${Math.round(power)}` : "";
-    });
+    const powers = (low, high) => {
+      const [first, last] = [Math.ceil(Math.log10(low) - 1e-9), Math.floor(Math.log10(high) + 1e-9)];
+      const every = Math.max(1, Math.ceil((last - first) / 8));
+      return Array.from({ length: Math.max(0, Math.floor((last - first) / every) + 1) }, (_, i) => 10 ** (first + i * every));
+    };
     return new uPlot({
       width: Math.max(240, Math.min(box.clientWidth || 560, 720)), height: 260,
       scales: { x: { time: false }, y: { distr: 3, log: 10 } },
       legend: { show: false }, cursor: { y: false, drag: { x: false, y: false }, points: { size: 8 } },
-      series: [{}, { label: "predicted", stroke: colour("--e1"), width: 2, dash: [6, 4], spanGaps: false },
-        { label: "measured", stroke: colour("--e0"), width: 2, spanGaps: false }],
-      axes: [{ ...axis, label: "time [s]" }, { ...axis, label: "error of the angles [rad]", size: 62, values: (_, ticks) => decade(ticks) }],
-    }, errors, box);
+      series: [{}, { label: "measured", stroke: colour("--e0"), width: 2.5, spanGaps: false },
+        { label: "predicted", stroke: colour("--e1"), width: 2, dash: [6, 4], spanGaps: false }],
+      axes: [{ ...axis, label: "time [s]" }, { ...axis, label: "error of the angles [rad]", size: 62, splits: (_, axis, low, high) => powers(low, high), filter: (_, ticks) => ticks,
+        values: (_, ticks) => ticks.map((tick) => `1e${Math.round(Math.log10(tick))}`) }],
+    }, [errors[0], errors[2], errors[1]], box);
   }
 
   return function show(history, make, svg) {
@@ -117,7 +119,7 @@ const furikoMotion = (() => {
     const part = make("div", { class: "motions" }, moving ? make("div", {}, moving.picture, drawn) : null, make("div", { class: "errors" }, box, legend));
     requestAnimationFrame(() => {
       if (box.isConnected && times.length > 1) chart = plot(history.errors, box);
-      stand(0);
+      stand(timeOf());
     });
     return make("div", {}, part, make("div", { class: "player" }, play, slider, now));
   };
