@@ -18,6 +18,7 @@ from .registry import (
     engine_version,
     load_engine,
     load_tree_engine,
+    plugin_names,
     untested,
 )
 
@@ -56,6 +57,7 @@ __all__ = [
     "engine_version",
     "load_engine",
     "load_tree_engine",
+    "plugin_names",
     "untested",
 ]
 

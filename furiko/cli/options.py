@@ -5,15 +5,20 @@ from __future__ import annotations
 import os
 import sys
 from pathlib import Path
+from typing import TypeVar
 
 import click
 
 REPORT_FOLDER = Path("furiko-report")
 
 
-def _found_here(_context: click.Context, _parameter: click.Parameter, names: tuple[str, ...]) -> tuple[str, ...]:
+Names = TypeVar("Names", str, tuple[str, ...])
+
+
+def found_here(_context: click.Context, _parameter: click.Parameter, names: Names) -> Names:
     """The names; for an adapter from elsewhere the current folder is on Python's path, after all else."""
-    if any(":" in name for name in names) and os.getcwd() not in sys.path:
+    each = (names,) if isinstance(names, str) else names
+    if any(":" in name or name.endswith(".py") for name in each) and os.getcwd() not in sys.path:
         sys.path.append(os.getcwd())
     return names
 
@@ -24,10 +29,10 @@ engine_option = click.option(
     "-e",
     "engines",
     multiple=True,
-    metavar="NAME|module:Class",
-    callback=_found_here,
-    help="Run only this engine, or a class of your own, looked for in the current folder too "
-    "(an example is in furiko.engines.protocol); may be repeated.",
+    metavar="NAME|FILE.py|module:Class",
+    callback=found_here,
+    help="Run only this engine, or an adapter of your own: a file, or a class in a module, looked for in the current "
+    "folder too (an example is in furiko.engines.protocol); may be repeated.",
 )
 report_folder_option = click.option(
     "--out",

@@ -48,7 +48,10 @@ ROOMS = {
         {"models", "records", "reference", "engines"},
         [("finding", "explanation", "measurement", "question"), ("fits",), (".",), ("model_files",)],
     ),
-    "checks": ({"models", "records", "reference", "engines", "diagnosis"}, [(".",), ("comparisons",), ("trees",)]),
+    "checks": (
+        {"models", "records", "reference", "engines", "diagnosis"},
+        [(".",), ("comparisons",), ("trees",), ("conformance",)],
+    ),
     "studies": (
         {"models", "records", "reference", "engines", "diagnosis", "checks"},
         [(".",), ("bench", "stress")],
