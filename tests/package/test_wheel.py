@@ -10,7 +10,7 @@ import pytest
 
 ROOT = Path(__file__).parent.parent.parent
 LEFT_OUT = ("models/files",)  # written from the catalogue: for people and engines, not for the package
-DATA = {".toml", ".json", ".j2", ".css", ".html", ".typed"}  # what the code reads at run time
+DATA = {".toml", ".json", ".j2", ".css", ".js", ".html", ".typed"}  # what the code reads at run time
 
 
 def links():
