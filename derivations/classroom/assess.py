@@ -13,7 +13,8 @@ from ..algebra.trig import digits
 from ..grading.differences import authors
 from ..grading.grade import graded
 from ..grading.grade_record import Grade
-from ..reading.submission import Submission, read_table, table_of
+from ..reading.derivation import read_derivation
+from ..reading.submission import Submission, table_of
 from .feedback import feedback
 from .marks import Part, marks
 from .problem import Problem
@@ -73,7 +74,7 @@ def assess(problem: Problem, who: str, data: dict[str, Any]) -> Assessment:
     held = problem.held(data)
 
     def read(slashes: int) -> Submission:
-        return problem.checked(read_table(held, slashes))
+        return problem.checked(read_derivation(held, slashes))
 
     first = read(0)
     _require_form(problem, first)

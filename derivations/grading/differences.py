@@ -17,7 +17,7 @@ from flint import fmpq
 from ..algebra.multiples import divided
 from ..algebra.notation import pretty, text
 from ..algebra.symbols import symbols_of
-from ..algebra.trig import CONSTANT_ONE, COS, NOTHING, ONE, Formula, Key, Space, unit
+from ..algebra.trig import CONSTANT_ONE, COS, NOTHING, ONE, Formula, Key, Space, digit, unit
 from ..reading.submission import Submission
 from ..steps.mechanism import Mechanism
 from ..steps.solved_form import is_solved, solved_rows
@@ -29,13 +29,14 @@ Term = tuple[int, int, int]  # packed motion (and coordinates outside waves), wa
 Terms = dict[Term, Formula]
 
 
-def terms(space: Space, f: Formula, apart: bool = False) -> Terms:
+def terms(space: Space, f: Formula, apart: bool = False, beside: Sequence[int] = ()) -> Terms:
     """The coefficient of each product of motion and wave: in parameters, and in coordinates outside of waves, since
-    rows are divided by those too; ``apart``: the latter are told apart as well.
+    rows are divided by those too; ``apart``: the latter are told apart as well; ``beside``: and the symbols there.
     """
     parts: dict[Term, dict[Key, fmpq]] = {}
     for (e, h, s), c in f.terms.items():
         q = space.motion(e) + (space.outside(e) if apart else 0)
+        q += sum(digit(e, place) * unit(place) for place in beside)
         parts.setdefault((q, h, s), {})[e - q, 0, COS] = c
     return {key: Formula(part) for key, part in parts.items()}
 

@@ -10,10 +10,12 @@ from pathlib import Path
 from ...models.errors import InvalidInput
 from ...models.readers.bounded_file import read_text, shown
 from ..algebra.fingerprint import RandomPoint
+from ..reading.derivation import read_derivation
 from ..reading.pinned import Pinned
-from ..reading.submission import LARGEST_FILE, Submission, read_table, table_of
+from ..reading.submission import LARGEST_FILE, Submission, table_of
 from ..steps.families import family
 from .differences import row_differences
+from .forms.hamilton import scale_note
 from .grade_record import Grade, Verdict
 from .hypotheses import Hypothesis, Said, merged
 from .judge import Judgement, judge
@@ -39,7 +41,7 @@ def grade_text(toml: str, *, pinned: Pinned | None = None) -> Grade:
     data = table_of(toml)
 
     def read(slashes: int) -> Submission:
-        s = read_table(data, slashes)
+        s = read_derivation(data, slashes)
         if pinned is not None:
             pinned.check(s)
         return s
@@ -81,6 +83,7 @@ def _right(s: Submission, judgement: Judgement, *, slashes: bool) -> Grade:
             "The rows determine the accelerations only while the system moves: a rate is a factor of them.",
             "各式に角速度が掛かっているので、加速度が決まるのは動いている間だけです。",
         ))  # fmt: skip
+    notes += scale_note(s, h.mechanism)
     if s.kind == "rod-chain" and h.variant.choices.density and h.variant.assumes:
         notes += _of_independent_masses(s, h)
     assumes = list(h.assumes)

@@ -66,7 +66,9 @@ class Judge:
         if self.s.lagrangian is None:
             return compare(given, h.mechanism.system)
         rows = _given_rows(self, h)
-        return Comparison("same" if one_scale(self.space, rows, h.mechanism.rows) else "different")
+        # T - U has no forces; those that have a potential, as a constant drive F has -F x, may be in U as well
+        right = one_scale(self.space, rows, h.mechanism.free_rows) or one_scale(self.space, rows, h.mechanism.rows)
+        return Comparison("same" if right else "different")
 
 
 def one_scale(space: Space, rows: Sequence[Formula], right: Sequence[Formula]) -> bool:

@@ -13,6 +13,7 @@ from ..steps.conventions import Convention
 from ..steps.derivation import NEWTON_STAGES, Mistake
 from .differences import lagrangian_differences, row_differences
 from .explain import Alignment, align, explanations
+from .forms.hamilton import first_order_differences
 from .grade_record import Grade, NamedMistake, Verdict
 from .hypotheses import Hypothesis, hypotheses
 from .other_mechanisms import in_relative_angles, right_for
@@ -31,6 +32,9 @@ def wrong(s: Submission, *, pinned: bool = False) -> Grade:
     """Name the mistakes, and list the terms, in the meaning in which fewest are wrong."""
     meant = next(hypotheses(s, pinned=True))
     found = Grade(verdict="wrong", links=s.space.n)
+    if s.first_order is not None and s.first_order.canonical:
+        nearest = meant if pinned else _nearest(s, meant)
+        return replace(_by_terms(s, nearest, found), system=s.kind, reading=readback(s, nearest))
     if is_documents(s):
         found = _plainer(s, meant, _by_catalogue(prepare(s)))
     if not found.mistakes and not any(f.cause in USELESS for f in found.findings):
@@ -79,6 +83,8 @@ def _by_terms(s: Submission, h: Hypothesis, found: Grade) -> Grade:
     """The terms that differ, in the author's coordinates, symbols and scale."""
     assumes = tuple(en for en, _ in h.assumes), tuple(ja for _, ja in h.assumes)
     found = replace(found, assumes=assumes[0], assumes_ja=assumes[1])
+    if s.first_order is not None and s.first_order.canonical:
+        return replace(found, findings=first_order_differences(s, h.mechanism))
     if s.lagrangian is None:
         return replace(found, findings=row_differences(s, h.mechanism), notes=(), notes_ja=())
     terms, notes = lagrangian_differences(s, h.mechanism)
@@ -101,6 +107,8 @@ def _nearest(s: Submission, meant: Hypothesis) -> Hypothesis:
 
 
 def _count(s: Submission, h: Hypothesis) -> int:
+    if s.first_order is not None and s.first_order.canonical:
+        return len(first_order_differences(s, h.mechanism))
     if s.lagrangian is not None:
         return len(lagrangian_differences(s, h.mechanism)[0])
     return len(row_differences(s, h.mechanism))

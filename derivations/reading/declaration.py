@@ -13,7 +13,8 @@ a body on a hinge (a point mass at its end) and 0 on a slide, everything else no
 from __future__ import annotations
 
 import re
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ...models.errors import InvalidInput, nearest
@@ -21,7 +22,8 @@ from ..algebra.trig import NOTHING, Formula, Space
 from ..steps.declared import Declared, Joined, pivot_to_centre
 from .evaluation import Evaluation
 from .layout import laid_out
-from .meaning import Meaning
+from .meaning import Meaning, momentum_symbols
+from .momenta import Variable, has_momenta, variable
 from .names import GREEK, WRITTEN, base_and_index, is_joined, plain_name, spelling, splits
 from .parser import parse_expression
 from .tokens import LONGEST_LINE
@@ -53,8 +55,18 @@ PRESETS: dict[str, list[dict[str, str]]] = {
 }  # fmt: skip
 
 
-def declared(data: dict[str, Any]) -> tuple[Declared, dict[str, Formula], Vocabulary] | None:
-    """The mechanism that a file declares, its symbols, and the words of its coordinates; None where it names one."""
+@dataclass(frozen=True)
+class Own:
+    """A mechanism that a file declares, its symbols, the words of its coordinates, and a variable of its author's."""
+
+    mechanism: Declared
+    symbols: dict[str, Formula]
+    words: Vocabulary
+    variable: Variable | None
+
+
+def declared(data: dict[str, Any], texts: Sequence[str] = ()) -> Own | None:
+    """The mechanism that a file declares; None where it names one. ``texts``: its lines of mathematics."""
     system = data.get("system")
     if isinstance(system, str) and system in PRESETS and "bodies" not in data:
         bodies: object = [_with_rest(body, data) for body in PRESETS[system]]
@@ -75,15 +87,17 @@ def declared(data: dict[str, Any]) -> tuple[Declared, dict[str, Formula], Vocabu
             if not isinstance(value, str) or len(value) > 200:
                 raise InvalidInput(f"bodies {place}: {name}: a text in quotes is needed, got {value!r:.40}")
     names, apart = _names(bodies)
-    space = Space.general(len(bodies), tuple(names))
-    symbols = {name: space.own(name) for name in names}
     coordinates = tuple(_coordinate(b, place) for place, b in enumerate(bodies, 1))
+    taken = frozenset({*names, *(base for base, _ in coordinates), *map(str, data.get("define", {}))})
+    letter = variable(texts, len(bodies), momenta=has_momenta(data), coordinates=coordinates, taken=taken)
+    space = Space.general(len(bodies), (*names, *momentum_symbols(letter, len(bodies))))
+    symbols = {name: space.own(name) for name in names}
     plain = [base + index for base, index in coordinates]
     if len(set(plain)) < len(plain) or set(plain) & set(names):
         raise InvalidInput("bodies: every coordinate needs a name of its own")
     words = _words(coordinates, frozenset(names), apart)
     made = tuple(_body(b, place, bodies, symbols, space, words) for place, b in enumerate(bodies))
-    return Declared(space, made, tuple(plain)), symbols, words
+    return Own(Declared(space, made, tuple(plain)), symbols, words, letter)
 
 
 RESTS = ("l0", "L0", "r0", "R0", "l", "L", "a")

@@ -7,7 +7,20 @@ from .parser import Call, Inverse, Matrix, Name, Node, Number, Power, Product, S
 from .vocabulary import Vocabulary
 
 LONGEST = 600  # characters that are said back of one line
-LETTERS = {"t": "θ", "w": "θ̇", "a": "θ̈", "l": "l", "m": "m", "g": "g", "r": "ρ", "I": "I", "c": "l_c", "p": "π"}
+LETTERS = {
+    "t": "θ",
+    "w": "θ̇",
+    "a": "θ̈",
+    "l": "l",
+    "m": "m",
+    "g": "g",
+    "r": "ρ",
+    "I": "I",
+    "c": "l_c",
+    "p": "π",
+    "P": "p",
+    "D": "p\u0307",
+}
 DOTS = {"w": "\u0307", "a": "\u0308"}
 
 
@@ -26,6 +39,10 @@ class Typesetter:
         for written, meant in words.said:
             if meant == "angle":
                 self._angles(written)
+            elif meant == "momentum":
+                self.letters |= {"P": written, "D": written + DOTS["w"]}
+            elif meant == "rate of the angle":
+                self.letters |= {"w": written, "a": written + DOTS["w"]}
             elif meant.startswith("θ") and meant[1:].isdigit():
                 self.single[int(meant[1:])] = (written, "")
             elif meant in self.letters and not written.startswith("index"):

@@ -93,9 +93,13 @@ class Mechanism:
     @cached_property
     def rows(self) -> tuple[Formula, ...]:
         """d/dt ∂L/∂q̇_i - ∂L/∂q_i - Q_i for each coordinate, each to be zero."""
-        rows = lagrange_rows(self.space, self.lagrangian)
         forces = [self._valued(f) for f in self.forces]
-        return tuple(row - forces[i] if forces else row for i, row in enumerate(rows))
+        return tuple(row - forces[i] if forces else row for i, row in enumerate(self.free_rows))
+
+    @cached_property
+    def free_rows(self) -> tuple[Formula, ...]:
+        """The same without forces: Lagrange's equations of T - U alone."""
+        return tuple(lagrange_rows(self.space, self.lagrangian))
 
     @cached_property
     def parameters(self) -> frozenset[int]:
