@@ -16,11 +16,12 @@ from ..reading.submission import LARGEST_FILE, Submission, table_of
 from ..steps.families import family
 from .differences import row_differences
 from .forms.hamilton import scale_note
-from .grade_record import Grade, Verdict
-from .hypotheses import Hypothesis, Said, merged
+from .forms.stages import StageJudge, none_wrong
+from .grade_record import Grade, StageMark, Verdict
+from .hypotheses import Hypothesis, Said, hypotheses, merged
 from .judge import Judgement, judge
 from .readback import readback
-from .wrong import if_as_declared, wrong
+from .wrong import if_as_declared, named_in_stages, wrong
 
 
 def grade(source: str | os.PathLike[str], *, pinned: Pinned | None = None) -> Grade:
@@ -55,6 +56,8 @@ def graded(read: Callable[[int], Submission], *, pinned: bool) -> tuple[Grade, S
     ``read``: reads it, with slashes as in :class:`Slashes`; ``pinned``: nothing is assumed.
     """
     first = read(0)
+    if first.stages is not None:
+        return _staged(read, first, pinned=pinned)
     readings = [(first, judge(first, pinned=pinned))]
     if first.doubtful and readings[0][1].hypothesis is None:
         for mode in (1, 2, 3):
@@ -65,6 +68,58 @@ def graded(read: Callable[[int], Submission], *, pinned: bool) -> tuple[Grade, S
         s, judgement = min(right, key=lambda pair: len(pair[1].assumes))
         return _right(s, judgement, slashes=s is not first), s
     return wrong(first, pinned=pinned), first
+
+
+def _staged(read: Callable[[int], Submission], first: Submission, *, pinned: bool) -> tuple[Grade, Submission]:
+    """A derivation that is stated stage by stage, in the meaning in which no stage is wrong, else in the declared."""
+    readings = [first, *(read(mode) for mode in (1, 2, 3) if first.doubtful)]
+    for s in readings:
+        for h in hypotheses(s, pinned=pinned):
+            found = StageJudge(s, h)
+            marks = found.marks()
+            if none_wrong(marks):
+                return _right_stages(s, h, found, marks, slashes=s is not first), s
+    h = next(hypotheses(first, pinned=True))
+    found = StageJudge(first, h)
+    marks = found.marks()
+    findings = tuple(term for mark in marks for term in mark.findings)
+    note = found.frame_note
+    return Grade(
+        verdict="wrong", findings=findings, mistakes=named_in_stages(first, h, found, marks), system=first.kind,
+        links=first.space.n, reading=readback(first, h), stages=marks,
+        notes=(note[0],) if note else (), notes_ja=(note[1],) if note else (),
+    ), first  # fmt: skip
+
+
+def _right_stages(
+    s: Submission, h: Hypothesis, found: StageJudge, marks: tuple[StageMark, ...], *, slashes: bool
+) -> Grade:
+    """No stage is wrong."""
+    assert s.stages is not None
+    notes = [note for note in (found.frame_note,) if note]
+    assumes = [*h.assumes, *([_slashes(s)] if slashes else [])]
+    rows = s.stages.equations or s.stages.solved
+    verdict: Verdict = "correct"
+    if rows and len(rows) < s.space.n:
+        verdict = "undecided"
+        notes.append((f"The given equations are right, but they are {len(rows)} of {s.space.n}.",
+                      f"書かれている式は正しいですが、{s.space.n} 本中 {len(rows)} 本です。"))  # fmt: skip
+    if h.convention != s.convention:
+        declared = StageJudge(s, next(hypotheses(s, pinned=True))).marks()
+        wrong_there = next((mark for mark in declared if mark.outcome == "wrong"), None)
+        if wrong_there is not None:
+            notes.append((f"If they are not: {wrong_there.says}", f"そうでなければ：{wrong_there.says_ja}"))
+    return Grade(
+        verdict=verdict, system=s.kind, links=s.space.n, reading=readback(s, h), stages=marks,
+        notes=tuple(en for en, _ in notes), notes_ja=tuple(ja for _, ja in notes),
+        assumes=tuple(en for en, _ in assumes), assumes_ja=tuple(ja for _, ja in assumes),
+    )  # fmt: skip
+
+
+def _slashes(s: Submission) -> Said:
+    examples = ", ".join(f"{x} as {_with_brackets(x)}" for x in s.doubtful[:3])
+    return (f"all that stands at once behind a slash is below it: {examples}",
+            f"斜線の直後に続く文字はすべて分母にある：{examples}")  # fmt: skip
 
 
 def _right(s: Submission, judgement: Judgement, *, slashes: bool) -> Grade:
@@ -88,9 +143,7 @@ def _right(s: Submission, judgement: Judgement, *, slashes: bool) -> Grade:
         notes += _of_independent_masses(s, h)
     assumes = list(h.assumes)
     if slashes:
-        examples = ", ".join(f"{x} as {_with_brackets(x)}" for x in s.doubtful[:3])
-        assumes.append((f"all that stands at once behind a slash is below it: {examples}",
-                        f"斜線の直後に続く文字はすべて分母にある：{examples}"))  # fmt: skip
+        assumes.append(_slashes(s))
     verdict: Verdict = "correct"
     if comparison.answer == "incomplete":
         verdict = "undecided"

@@ -19,6 +19,7 @@ from ..steps.conventions import Convention
 from ..steps.declared import Declared
 from ..steps.first_order import FirstOrder
 from ..steps.mechanism import Origin
+from ..steps.stages import STAGES, Stages
 from .declaration import PRESETS, declared
 from .evaluation import Evaluation
 from .layout import equations_of, laid_out
@@ -35,21 +36,7 @@ from .vocabulary import FUNCTIONS, Vocabulary, vocabulary
 LARGEST_FILE = 200_000  # characters; a chain of twenty rods, every sum multiplied out, has 150 000
 MOST_LINKS = 20
 MOST_DEFINITIONS = 40
-FIELDS = (
-    "system",
-    "links",
-    "bodies",
-    "angles",
-    "from",
-    "sense",
-    "equations",
-    "lagrangian",
-    "hamiltonian",
-    "momenta",
-    "define",
-    "title",
-    "author",
-)
+FIELDS = ("system", "links", "bodies", "angles", "from", "sense", *STAGES, "define", "title", "author")
 ANGLES = ("absolute", "relative")
 SYSTEMS = (*KINDS, "rods", "point-masses", "links")
 WORDS: dict[str, tuple[str, int]] = {  # usual names, with how many links they have
@@ -90,6 +77,7 @@ class Submission:
     source: str = ""  # all lines of mathematics, as they were written
     mechanism: Declared | None = None  # where the file declares it body by body
     first_order: FirstOrder | None = None  # a Hamiltonian, or equations with momenta, as they were written
+    stages: Stages | None = None  # a derivation stated stage by stage; then there is nothing else
 
     @property
     def relative(self) -> bool:
@@ -103,6 +91,8 @@ class Submission:
         lagrangian = None if self.lagrangian is None else space.rename(self.lagrangian, places)
         return replace(
             self, rows=rows, lagrangian=lagrangian,
+            first_order=self.first_order.mapped(lambda f: space.rename(f, places)) if self.first_order else None,
+            stages=self.stages.mapped(lambda f: space.rename(f, places)) if self.stages else None,
             equal_lengths=self.equal_lengths or 2 * n + 1 in places,
             equal_masses=self.equal_masses or 3 * n + 1 in places,
         )  # fmt: skip
@@ -218,7 +208,7 @@ def _convention(data: dict[str, Any], n: int) -> Convention:
 
 def _texts(data: dict[str, Any]) -> Iterable[str]:
     """All lines of mathematics in a file."""
-    for table in ("define", "equations", "momenta"):
+    for table in ("define", "positions", "velocities", "momenta", "equations", "solved"):
         found = data.get(table)
         entries = found.values() if isinstance(found, dict) else found if isinstance(found, list) else ()
         yield from (entry.translate(FULL_WIDTH) for entry in entries if isinstance(entry, str))
@@ -231,6 +221,8 @@ def _texts(data: dict[str, Any]) -> Iterable[str]:
 
 _OF = r"\s*(?:\([^=()]{0,200}\)\s*)?"
 LEFT_SIDE = {  # what people write in front of an energy
+    "kinetic": re.compile(rf"^\s*(?:[TK]|KE|E_?\{{?k\}}?|\\mathcal\s*\{{?\s*T\s*\}}?){_OF}="),
+    "potential": re.compile(rf"^\s*(?:[UV]|PE|E_?\{{?p\}}?|\\mathcal\s*\{{?\s*[UV]\s*\}}?){_OF}="),
     "lagrangian": re.compile(
         rf"^\s*(?:L|\\mathcal\s*\{{?\s*L\s*\}}?|\\mathscr\s*\{{?\s*L\s*\}}?|ℒ|𝓛){_OF}(?:=\s*T\s*[-−]\s*[UV]\s*)?="
     ),
@@ -314,8 +306,8 @@ class Reader:
         self.doubtful += [written[start:end] for start, end in self.slashes.doubtful]
         self.slashes.doubtful.clear()
 
-    def rows(self, table: object) -> tuple[tuple[str, Formula], ...]:
-        """The equations of motion; one in matrices is as many as it has rows."""
+    def rows(self, table: object, name: str = "equations") -> tuple[tuple[str, Formula], ...]:
+        """The rows of the field ``name``; one in matrices is as many as it has rows."""
         n = self.evaluation.space.n
         if isinstance(table, list):
             table = {str(i): line for i, line in enumerate(table, 1)}
@@ -324,13 +316,13 @@ class Reader:
             several = equations_of(_line(line)) if isinstance(line, str) and len(line) <= LONGEST_LINE else []
             table = {str(i): row for i, row in enumerate(several, 1)} if len(several) > 1 else table
         if not isinstance(table, dict) or not table:
-            raise InvalidInput('equations: a table of rows is needed, as in 1 = "m1*l1^2*a1 = -m1*g*l1*sin(t1)"')
+            raise InvalidInput(f'{name}: a table of rows is needed, as in 1 = "m1*l1^2*a1 = -m1*g*l1*sin(t1)"')
         most = n if self.variable is None and len(table) != 2 * n else 2 * n  # of first order: two for each angle
         if len(table) > most:
-            raise InvalidInput(f"equations: {len(table)} rows for {n} angles; one row for each angle is needed")
+            raise InvalidInput(f"{name}: {len(table)} rows for {n} angles; one row for each angle is needed")
         rows: list[tuple[str, Formula]] = []
         for label, line in table.items():
-            where = f"equations.{label!s:.40}"
+            where = f"{name}.{label!s:.40}"
             found, text = _located(where, self._row, line)
             self.lines.append((str(label)[:40], text))
             labels = [str(label)[:40]] if len(found) == 1 else [str(len(rows) + k) for k in range(1, len(found) + 1)]
@@ -340,7 +332,7 @@ class Reader:
         if len(rows) > n and (self.variable is None or self.variable.kind == "rate"):
             rows = [(label, f) for label, f in rows if f]  # θ̇ = ω, where both are the rate
             if len(rows) > n:
-                raise InvalidInput(f"equations: {len(rows)} rows for {n} angles; one row for each angle is needed")
+                raise InvalidInput(f"{name}: {len(rows)} rows for {n} angles; one row for each angle is needed")
         return tuple(rows)
 
     def momenta(self, table: object) -> list[tuple[str, Formula]]:

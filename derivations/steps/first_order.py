@@ -7,8 +7,8 @@ give the same motion, and that alone is held against the truth.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 from flint import fmpq
 
@@ -64,6 +64,16 @@ class FirstOrder:
     momenta: Momenta
     hamiltonian: tuple[Formula, Formula] | None = None
     canonical: bool = True
+
+    def mapped(self, change: Callable[[Formula], Formula]) -> FirstOrder:
+        """With every formula changed."""
+        energy = self.hamiltonian
+        return replace(
+            self, relations=tuple((label, change(f)) for label, f in self.relations),
+            slopes=tuple((label, change(f)) for label, f in self.slopes),
+            momenta=Momenta(tuple(map(change, self.momenta.above)), change(self.momenta.below)),
+            hamiltonian=(change(energy[0]), change(energy[1])) if energy else None,
+        )  # fmt: skip
 
 
 def solved_momenta(space: Space, at: Places, relations: Sequence[Formula], budget: Budget) -> Momenta:

@@ -9,7 +9,7 @@ from ...algebra.division import exact_quotient
 from ...algebra.equivalence import determinant
 from ...algebra.multiples import divided
 from ...algebra.quotient import Budget, TooLarge
-from ...algebra.trig import CONSTANT_ONE, HALF, NOTHING, Formula, Space, digit
+from ...algebra.trig import CONSTANT_ONE, HALF, Formula, Space, digit
 from ...reading.submission import Submission
 from ...steps.derivation import add
 from ...steps.first_order import WORK, FirstOrder, substituted
@@ -19,10 +19,15 @@ from ..grade_record import WrongTerm
 from ..hypotheses import Said
 
 
-def first_order_differences(s: Submission, mechanism: Mechanism) -> tuple[WrongTerm, ...]:
-    """The wrong terms of a Hamiltonian, or of each equation with momenta; () where none can be told."""
-    stated = s.first_order
-    assert stated is not None
+def first_order_differences(
+    s: Submission, mechanism: Mechanism, given: dict[int, Formula] | None = None
+) -> tuple[WrongTerm, ...]:
+    """The wrong terms of a Hamiltonian, or of each equation with momenta; () where none can be told.
+
+    ``given``: what symbols of the derivation stand for, by place.
+    """
+    assert s.first_order is not None
+    stated = s.first_order.mapped(lambda f: s.space.replace(f, given)) if given else s.first_order
     try:
         if stated.hamiltonian is not None:
             return _of_hamiltonian(s, stated, mechanism)
@@ -137,7 +142,7 @@ def _of_slopes(s: Submission, stated: FirstOrder, mechanism: Mechanism) -> list[
     """The derivatives of momenta that are wrong, with the right momenta put in."""
     space, at = s.space, stated.at
     values = dict(zip(at.momenta, canonical_momenta(mechanism), strict=True))
-    forces = mechanism.forces or (NOTHING,) * space.n
+    forces = mechanism.driven
     rights = [space.symbol(at.slopes[k]) - space.by_angle(mechanism.lagrangian, k) - forces[k] for k in range(space.n)]
     findings: list[WrongTerm] = []
     for label, f in stated.slopes:

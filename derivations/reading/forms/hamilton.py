@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import gcd, lcm
 from typing import Any
 
@@ -80,31 +80,53 @@ def _hamiltonian(data: dict[str, Any], reader: Reader) -> Submission:
 
 
 def _equations(data: dict[str, Any], reader: Reader) -> Submission:
+    momenta = tuple(reader.momenta(data["momenta"])) if "momenta" in data else ()
+    made = split_equations(reader, reader.rows(data["equations"]), momenta)
+    if made is None:
+        raise InvalidInput(f"equations: there are no momenta in them; {ADVICE}")
+    letter = reader.words.said[-1][0]
+    stated = FirstOrder(made.at, momenta or made.relations, made.slopes, made.momenta, canonical=letter in "pP")
+    return replace(reader.submission(made.rows, None), first_order=stated)
+
+
+@dataclass(frozen=True)
+class Split:
+    """Equations with momenta. ``relations``: those without derivatives of momenta; ``rows``: the others, eliminated."""
+
+    at: Places
+    momenta: Momenta
+    relations: Labelled
+    slopes: Labelled
+    rows: Labelled
+
+
+def split_equations(
+    reader: Reader, rows: Labelled, momenta: Labelled, hamiltonian: FirstOrder | None = None
+) -> Split | None:
+    """Tell relations from slopes; None where there are no momenta at all. ``momenta``: what they are said to be."""
     space, budget = reader.evaluation.space, Budget(WORK)
     at, n = places(space), space.n
-    relations = list(reader.momenta(data["momenta"])) if "momenta" in data else []
-    rows = reader.rows(data["equations"])
+    relations: list[tuple[str, Formula]] = []
     slopes: list[tuple[str, Formula]] = []
     for label, row in rows:
         f = _whole_numbers(row)
         used = space.places(f)
-        if used & set(range(n)):
-            raise InvalidInput(f"equations.{label}: accelerations in equations with momenta; {ADVICE}")
-        if used & set(at.slopes):
-            slopes.append((label, f))
-        else:
-            relations.append((label, f))
+        if used & set(range(n)) and used & {*at.momenta, *at.slopes}:
+            raise InvalidInput(f"equations.{label}: accelerations in an equation with momenta; {ADVICE}")
+        (slopes if used & set(at.slopes) else relations).append((label, f))
+    if not slopes and not any(space.places(f) & set(at.momenta) for _, f in relations):
+        return None
     letter = reader.words.said[-1][0]
-    if len(relations) != n or len(slopes) != n:
+    there = momenta or tuple(relations) or (hamiltonian.relations if hamiltonian else ())
+    if len(there) != n or len(slopes) != n or (momenta and len(relations) not in (0, n)):
         raise InvalidInput(
-            f"equations: {len(relations)} for the rates or momenta and {len(slopes)} for the derivatives of {letter}, "
+            f"equations: {len(there)} for the rates or momenta and {len(slopes)} for the derivatives of {letter}, "
             f"where {n} and {n} are needed; {ADVICE}"
         )
-    momenta = _momenta(space, at, [f for _, f in relations], budget, "equations")
-    made = without_momenta(space, at, [f for _, f in slopes], momenta, budget)
-    stated = FirstOrder(at, tuple(relations), tuple(slopes), momenta, canonical=letter in "pP")
-    labelled = tuple((label, f) for (label, _), f in zip(slopes, made, strict=True))
-    return replace(reader.submission(labelled, None), first_order=stated)
+    solved = _momenta(space, at, [f for _, f in there], budget, "momenta" if momenta else "equations")
+    made = without_momenta(space, at, [f for _, f in slopes], solved, budget)
+    labels = [label for label, _ in slopes]
+    return Split(at, solved, tuple(relations), tuple(slopes), _labelled(labels, made))
 
 
 def _momenta(space: Space, at: Places, relations: Sequence[Formula], budget: Budget, where: str) -> Momenta:
