@@ -66,7 +66,7 @@ def graded(read: Callable[[int], Submission], *, pinned: bool) -> tuple[Grade, S
     right = [(s, j) for s, j in readings if j.hypothesis is not None]
     if right:
         s, judgement = min(right, key=lambda pair: len(pair[1].assumes))
-        return _right(s, judgement, slashes=s is not first), s
+        return _right(s, judgement, slashes=s is not first, pinned=pinned), s
     return wrong(first, pinned=pinned), first
 
 
@@ -122,7 +122,7 @@ def _slashes(s: Submission) -> Said:
             f"斜線の直後に続く文字はすべて分母にある：{examples}")  # fmt: skip
 
 
-def _right(s: Submission, judgement: Judgement, *, slashes: bool) -> Grade:
+def _right(s: Submission, judgement: Judgement, *, slashes: bool, pinned: bool) -> Grade:
     """Right, or right as far as it goes."""
     h, comparison = judgement.hypothesis, judgement.comparison
     assert h is not None
@@ -146,8 +146,12 @@ def _right(s: Submission, judgement: Judgement, *, slashes: bool) -> Grade:
         assumes.append(_slashes(s))
     verdict: Verdict = "correct"
     if comparison.answer == "incomplete":
-        verdict = "undecided"
-        notes.append(_incomplete(s, h))
+        given = _given_motions(s, assume=not pinned)
+        if given is None:
+            verdict = "undecided"
+            notes.append(_incomplete(s, h))
+        else:
+            assumes += given
     mistakes = if_as_declared(s) if verdict == "correct" and _other_zero(s, h) else ()
     return Grade(
         verdict=verdict, system=s.kind, links=s.space.n, reading=readback(s, h), mistakes=mistakes,
@@ -176,6 +180,21 @@ def _with_brackets(text: str) -> str:
 def _other_zero(s: Submission, h: Hypothesis) -> bool:
     """Whether it is right with angles from elsewhere alone: then gravity may be wrong in place of them."""
     return h.convention.origin != s.convention.origin and h.convention.relative == s.convention.relative
+
+
+def _given_motions(s: Submission, *, assume: bool) -> list[Said] | None:
+    """What is assumed where the rows that are not there belong to coordinates whose motion is given; None elsewhere."""
+    rows = [f for _, f in s.rows]
+    if s.mechanism is None or not rows:
+        return None
+    if len(rows) == s.space.n - len(s.mechanism.given):
+        return []
+    free = s.mechanism.free_drives(rows)
+    if not assume or len(rows) != s.space.n - len(free):
+        return None
+    names = " and ".join(s.mechanism.coordinates[k] for k in free)
+    return [(f"the motion of {names} is given: its own equation, which is not here, would say what drives it",
+             f"{names} の運動が与えられている（その式は駆動力を定めるだけなので省かれている）")]  # fmt: skip
 
 
 def _incomplete(s: Submission, h: Hypothesis) -> Said:

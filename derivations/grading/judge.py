@@ -65,9 +65,13 @@ class Judge:
         given = self.given(h)
         if self.s.lagrangian is None:
             return compare(given, h.mechanism.system)
-        rows = _given_rows(self, h)
+        given = self.s.mechanism.given if self.s.mechanism else ()
+        rows, free, forced = (
+            [row for k, row in enumerate(x) if k not in given]
+            for x in (_given_rows(self, h), h.mechanism.free_rows, h.mechanism.rows)
+        )
         # T - U has no forces; those that have a potential, as a constant drive F has -F x, may be in U as well
-        right = one_scale(self.space, rows, h.mechanism.free_rows) or one_scale(self.space, rows, h.mechanism.rows)
+        right = one_scale(self.space, rows, free) or one_scale(self.space, rows, forced)
         return Comparison("same" if right else "different")
 
 

@@ -6,7 +6,8 @@
     [[bodies]]
     name = "pole"; coordinate = "theta"; joint = "hinge"; on = "cart"; length = "l"; mass = "m"
 
-Every quantity is an expression in the author's own names. Left out: ``on`` is the body before, ``centre`` the length of
+Every quantity is an expression in the author's own names; ``motion = "given"`` of a support that is moved, whose own
+equation is not asked for. Left out: ``on`` is the body before, ``centre`` the length of
 a body on a hinge (a point mass at its end) and 0 on a slide, everything else nothing.
 """
 
@@ -31,7 +32,7 @@ from .vocabulary import ANGLES, FUNCTIONS, LETTERS, Vocabulary
 
 MOST_BODIES = 8
 QUANTITIES = ("mass", "length", "centre", "inertia", "at", "spring", "rest", "damping", "drive")
-FIELDS = ("name", "on", "coordinate", "joint", "along", "about", *QUANTITIES)
+FIELDS = ("name", "on", "coordinate", "joint", "along", "about", "motion", *QUANTITIES)
 FRACTION = re.compile(r"\\(?:[dt]?frac|cdot|times|left|right|over|pi)(?![A-Za-z])|[0-9.]+(?:[eE][+-]?[0-9]+)?")
 GLYPHS_APART = {"vartheta": "theta", "th": "theta", "varphi": "phi"}  # one letter, unless both are used
 TAKEN = ("g", "t", "pi", *FUNCTIONS)
@@ -89,6 +90,7 @@ def declared(data: dict[str, Any], texts: Sequence[str] = ()) -> Own | None:
     names, apart = _names(bodies)
     coordinates = tuple(_coordinate(b, place) for place, b in enumerate(bodies, 1))
     taken = frozenset({*names, *(base for base, _ in coordinates), *map(str, data.get("define", {}))})
+    names += [_reaction(k) for k, body in enumerate(bodies) if _is_given(body, k)]
     letter = variable(texts, len(bodies), momenta=has_momenta(data), coordinates=coordinates, taken=taken)
     space = Space.general(len(bodies), (*names, *momentum_symbols(letter, len(bodies))))
     symbols = {name: space.own(name) for name in names}
@@ -194,17 +196,34 @@ def _body(
             raise InvalidInput(f"bodies {place + 1}: {field}: a sum in a denominator")
         return found.numerator
 
+    given = _is_given(body, place)
     length, mass = value("length"), value("mass")
     centre = value("centre", length if joint == "hinge" else NOTHING)
     inertia = value("inertia")
     if body.get("about") == "pivot":
         inertia = pivot_to_centre(inertia, mass, centre)
     return Joined(
-        names[place], names.index(on) if on != "support" else -1,
+        names[place], names.index(on) if on in names[:place] else -1,  # a body may be called "support" itself
         None if joint == "hinge" else along,  # type: ignore[arg-type]
         mass, length, centre, inertia, value("at") if "at" in body else None, value("spring"), value("rest"),
-        value("damping"), value("drive"),
+        value("damping"), symbols[_reaction(place)] if given else value("drive"), given,
     )  # fmt: skip
+
+
+def _reaction(place: int) -> str:
+    """The name of the force that brings a given motion about."""
+    return f"reaction{place + 1}"
+
+
+def _is_given(body: dict[str, str], place: int) -> bool:
+    """Whether a body's motion is given. Raises InvalidInput where the file says that otherwise than so."""
+    if "motion" not in body:
+        return False
+    if body["motion"] != "given":
+        raise InvalidInput(f"bodies {place + 1}: motion: 'given', or leave it out")
+    if "drive" in body:
+        raise InvalidInput(f"bodies {place + 1}: a drive besides a given motion; its drive is what the motion needs")
+    return True
 
 
 def _words(coordinates: tuple[tuple[str, str], ...], names: frozenset[str], apart: frozenset[str]) -> Vocabulary:

@@ -287,7 +287,7 @@ class Reader:
             base, index = base[: figures.start()], figures[0]
         counted = self.words.kind(base) is not None and base not in self.words.fixed and base != "g"
         numbers = self.words.numbers.get(base)
-        taken = index in numbers if numbers else index.isdigit() and int(index[:6]) <= n
+        taken = index in numbers if numbers else index.isdigit() and 1 <= int(index[:6]) <= n
         if short in own or (counted and taken):
             raise InvalidInput(f"define.{name!s:.40}: already has a meaning")
 

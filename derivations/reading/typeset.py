@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..algebra.notation import SUBSCRIPTS, SUPERSCRIPTS
-from .parser import Call, Inverse, Matrix, Name, Node, Number, Power, Product, Sum, Symbol
+from .parser import Call, Inverse, Matrix, Name, Node, Number, Power, Product, Root, Sum, Symbol
 from .vocabulary import Vocabulary
 
 LONGEST = 600  # characters that are said back of one line
@@ -82,6 +82,8 @@ class Typesetter:
                 return f"{function} {inner}" if isinstance(argument, Symbol) else f"{function}({inner})"
             case Matrix(rows=rows):
                 return "[" + "; ".join(", ".join(self.text(entry) for entry in row) for row in rows) + "]"
+            case Root(base=base):
+                return f"√{self.text(base, 3)}"
             case Inverse(base=base):
                 return self.text(base, 3) + "⁻¹"
 

@@ -218,8 +218,8 @@ class StageJudge:
         return found
 
     def _compared(self, stage: StageName, given: Formula, expected: Formula, label: str = "") -> list[WrongTerm]:
-        parts = (terms(self.space, f, apart=True) for f in (given, expected))
-        scaled = Scaled(*(without_constants(part) for part in parts), CONSTANT_ONE)
+        one, other = (without_constants(terms(self.space, f, apart=True)) for f in (given, expected))
+        scaled = Scaled(one, other, CONSTANT_ONE)
         where, wo = WHERE[stage]
         name = f" {label}" if label else ""
         return [term_finding(self.s, scaled, key, label, where + name, wo + name) for key in scaled.wrong]

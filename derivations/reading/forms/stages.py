@@ -40,11 +40,14 @@ def is_staged(data: dict[str, Any], links: int) -> bool:
 def read_stages(data: dict[str, Any], reader: Reader) -> Submission:
     """Read the fields of such a derivation."""
     components = {name: _components(data.get(name, {}), name, reader) for name in ("positions", "velocities")}
-    energies = {
-        name: reader.formula(name, label, data[name]) if name in data else None
-        for name, label in (("kinetic", "T"), ("potential", "U"), ("lagrangian", "L"))
-    }
-    stated = Stages(components["positions"], components["velocities"], **energies)
+
+    def energy(name: str, label: str) -> Formula | None:
+        return reader.formula(name, label, data[name]) if name in data else None
+
+    stated = Stages(
+        components["positions"], components["velocities"], energy("kinetic", "T"), energy("potential", "U"),
+        energy("lagrangian", "L"),
+    )  # fmt: skip
     try:
         stated = _momenta(data, reader, stated)
     except TooLarge:
