@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from ..engines import EngineInfo, cannot, engine_info, engine_names, engine_version
+from ..engines import OWN_EQUATIONS, EngineInfo, cannot, engine_info, engine_names, engine_version
 from ..models import AnyScene, InvalidInput, TreeScene, find_scenes
 from ..models.errors import installing, nearest
 from ..records.check import Outcome, Result
@@ -70,11 +70,15 @@ def make_plan(scenes: Sequence[str] | None, engines: Sequence[str] | None, profi
     infos = tuple(
         replace(engine_info(name), name=name) for name in dict.fromkeys(engine_names() if engines is None else engines)
     )
+    if any(isinstance(scene, TreeScene) and scene.own for scene in found):
+        infos = (*infos, OWN_EQUATIONS)
     tasks: list[Task] = []
     settled: list[Result] = []
     absent = {info.name: _absent(info) for info in infos}
     for scene in found:
         for info in infos:
+            if info is OWN_EQUATIONS and not (isinstance(scene, TreeScene) and scene.own):
+                continue
             outcome: Outcome = "skipped" if engines is None else "error"
             reasons = {check: reason for check in chosen.checks if (reason := skip(check, scene, info))}
             if absent[info.name]:

@@ -144,6 +144,25 @@ ENGINES: dict[str, EngineInfo] = {
 }
 
 
+# Takes part like an engine where a scene has a user's own equations; its answers are theirs, without rounding.
+OWN_EQUATIONS = EngineInfo(
+    name="own equations",
+    formulation="the equations of the scene file, in ball arithmetic",
+    adapter="",
+    module="",
+    package="",
+    homepage="",
+    coordinates="relative",
+    tree=TreeInfo(
+        "",
+        {
+            "energy": "equations of motion give no energies",
+            "trajectory": "equations of motion have no integrator of their own",
+        },
+    ),
+)
+
+
 def engine_names() -> list[str]:
     """The engines that furiko knows, installed or not."""
     return list(ENGINES)
@@ -157,6 +176,8 @@ def engine_info(name: str) -> EngineInfo:
     """
     if name in ENGINES:
         return ENGINES[name]
+    if name == OWN_EQUATIONS.name:
+        return OWN_EQUATIONS
     if ":" not in name:
         hint = nearest(name, ENGINES) or f"; there are {', '.join(ENGINES)}, or package.module:Class"
         raise InvalidInput(f"engine: no engine is called {name!r}{hint}")

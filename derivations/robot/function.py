@@ -51,9 +51,11 @@ def function_rows(text: str, evaluation: Evaluation, names: tuple[str, ...]) -> 
     for statement in tree.body:
         if statement is not functions[0] and not isinstance(statement, ast.Import | ast.ImportFrom):
             follower.statement(statement)
-    follower.parameters(functions[0])
-    returned = follower.body(functions[0].body)
-    return follower.rows(returned)
+    try:
+        follower.parameters(functions[0])
+        return follower.rows(follower.body(functions[0].body))
+    except RecursionError:
+        raise InvalidInput("function: an expression is nested too deeply") from None
 
 
 def _tree(text: str) -> ast.Module:
@@ -91,10 +93,11 @@ class _Follower:
             if name not in self.evaluation.meaning.named:
                 self.here[name] = self.expression(value)
         free = [name for name in arguments if name not in self.here and not self._is_constant(name)]
-        free = [name for name in free if name not in ("t", "time") or len(free) in (2 * self.n, 2)]
+        used = {node.id for node in ast.walk(function) if isinstance(node, ast.Name)}
+        free = [name for name in free if name in used or name not in ("t", "time")]  # as solvers of ODEs call it
         state: list[Node] = [Symbol(letter, k, 0) for letter in "tw" for k in range(1, self.n + 1)]
         listed = _listed(function, free)
-        if len(free) == 1 and (listed or self.n > 0):
+        if len(free) == 1:
             self.here[free[0]] = state
         elif len(free) == 2 and (self.n > 1 or listed):
             self.here |= {free[0]: state[: self.n], free[1]: state[self.n :]}

@@ -36,10 +36,18 @@ class _Term:
 
 
 class OwnMotion:
-    """Rows of a space whose own symbols have numbers, as functions of the joints' coordinates q and rates v."""
+    """Rows of a space whose own symbols have numbers, as functions of the joints' coordinates q and rates v.
 
-    def __init__(self, space: Space, rows: Sequence[Formula], coordinates: Coordinates, gravity: float) -> None:
+    ``dampers``: of the joints, [N m s or N s/m], for the rows of a Lagrangian, which can have none; these rows are then
+    those of the joints' coordinates.
+    """
+
+    def __init__(
+        self, space: Space, rows: Sequence[Formula], coordinates: Coordinates, gravity: float,
+        dampers: Sequence[float] | None = None,
+    ) -> None:  # fmt: skip
         self.n, self.coordinates, self.gravity = space.n, coordinates, gravity
+        self.dampers = dampers
         self.terms = _terms(space, rows)
 
     def parts(self, q: Floats, v: Floats) -> tuple[list[list[Any]], list[list[Any]]]:
@@ -67,6 +75,17 @@ class OwnMotion:
             for j, factor in enumerate(self.coordinates.turns[term.acceleration]):
                 if factor:
                     matrix[term.row][j] += value * factor
+        return (matrix, rest) if self.dampers is None else self._of_joints(matrix, rest, v, self.dampers)
+
+    def _of_joints(
+        self, matrix: list[list[Any]], rest: list[list[Any]], v: Floats, dampers: Sequence[float]
+    ) -> tuple[list[list[Any]], list[list[Any]]]:
+        """Tᵀ times the rows, and the forces of the dampers."""
+        turns, n = self.coordinates.turns, range(self.n)
+        matrix = [[sum((turns[i][j] * matrix[i][k] for i in n if turns[i][j]), arb(0)) for k in n] for j in n]
+        rest = [[sum((turns[i][j] * part[i] for i in n if turns[i][j]), arb(0)) for j in n] for part in rest]
+        passive = PARTS.index("passive")
+        rest[passive] = [b + arb(d) * arb(x) for b, d, x in zip(rest[passive], dampers, v.tolist(), strict=True)]
         return matrix, rest
 
     def accelerations(self, q: Floats, v: Floats) -> Floats:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass
 from typing import Any
@@ -17,6 +18,7 @@ from ..reading.submission import Reader, Submission, opened
 from ..steps.derivation import lagrange_rows
 from .coordinates import Coordinates, read_coordinates
 from .function import function_rows, names_in_function
+from .motion import OwnMotion
 from .plane import Plane, plane_of
 from .quantities import UNITS, Quantity, quantities, usual_names
 
@@ -30,7 +32,8 @@ class RobotDerivation:
     """``rows``: each to be zero, in the symbols of ``submission``, coordinate k being that of joint k.
 
     ``names``: of the coordinates; ``values``: of the constants, by name; ``inferred``: those of them that are the model
-    file's; ``usual``: what usual names mean in the file; ``why_not``: why there is no ``plane``.
+    file's; ``quantities``: the file's numbers, and ``usual``: those that usual names mean; ``damping`` of the joints;
+    ``why_not``: why there is no ``plane``.
     """
 
     own: OwnEquations
@@ -39,9 +42,11 @@ class RobotDerivation:
     names: tuple[str, ...]
     values: dict[str, float]
     inferred: dict[str, Quantity]
+    quantities: tuple[Quantity, ...]
     usual: dict[str, Quantity]
     coordinates: Coordinates
     gravity: float
+    damping: tuple[float, ...]
     plane: Plane | None
     why_not: str
 
@@ -54,7 +59,16 @@ class RobotDerivation:
     def said(self) -> tuple[str, ...]:
         """What was taken from the model file, and how coordinates are counted, in sentences."""
         taken = [f"{name} = {q.value:g} {UNITS[q.kind]}, {q.words}" for name, q in self.inferred.items()]
-        return (f"taken from the mechanism: {'; '.join(taken)}",) if taken else ()
+        said = [f"taken from the mechanism: {'; '.join(taken)}"] if taken else []
+        if self.is_lagrangian and any(self.damping):
+            said.append("a Lagrangian has no dampers: their forces are those of the mechanism")
+        return tuple(said)
+
+    def motion(self, values: dict[str, float] | None = None, coordinates: Coordinates | None = None) -> OwnMotion:
+        """The equations in numbers; with other values of some constants, or with angles counted in another way."""
+        rows = self.numeric(self.values if values is None else self.values | values)
+        dampers = self.damping if self.is_lagrangian else None
+        return OwnMotion(self.submission.space, rows, coordinates or self.coordinates, self.gravity, dampers)
 
     def numeric(self, values: dict[str, float]) -> tuple[Formula, ...]:
         """The rows with these values of the constants, taken as exact; g stays a symbol."""
@@ -77,7 +91,8 @@ def read_robot(system: TreeSystem, own: OwnEquations) -> RobotDerivation:
     if n > MOST_JOINTS:
         raise InvalidInput(f"equations: of at most {MOST_JOINTS} joints, the mechanism has {n}")
     plane, why_not = _plane(system)
-    usual = usual_names(system, quantities(system, plane))
+    numbers = quantities(system, plane)
+    usual = usual_names(system, numbers)
     text = _bare(own)
     names = _coordinates(system, own, text)
     values, inferred = _constants(own, usual, text, names)
@@ -96,11 +111,11 @@ def read_robot(system: TreeSystem, own: OwnEquations) -> RobotDerivation:
                                "one for each joint is needed")  # fmt: skip
         formulas = [formula for _, formula in rows]
         submission = reader.submission(rows, None)
-    coordinates = read_coordinates(system, own, plane, why_not)
-    gravity = plane.gravity if plane is not None else sum(x * x for x in system.gravity) ** 0.5
     return RobotDerivation(
-        own, submission, tuple(formulas), names, values, inferred, usual, coordinates, gravity, plane, why_not
-    )
+        own, submission, tuple(formulas), names, values, inferred, tuple(numbers), usual,
+        read_coordinates(system, own, plane, why_not), math.hypot(*system.gravity),
+        tuple(joint.damping for joint in system.joints), plane, why_not,
+    )  # fmt: skip
 
 
 def _plane(system: TreeSystem) -> tuple[Plane | None, str]:
