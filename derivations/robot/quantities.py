@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ...models.trees.system import TreeSystem
+from ...models.trees.system import TreeJoint, TreeSystem
 from .plane import PARALLEL, Plane
 
 WORDS = {
@@ -13,8 +13,8 @@ WORDS = {
     "inertia": "the moment of inertia about the centre of mass of", "damping": "the damping of",
     "stiffness": "the stiffness of",
 }  # fmt: skip
-UNITS = {"mass": "kg", "length": "m", "centre": "m", "inertia": "kg m²", "damping": "N m s or N s/m",
-         "stiffness": "N m/rad or N/m", "gravity": "m/s²"}  # fmt: skip
+UNITS = {"mass": "kg", "length": "m", "centre": "m", "inertia": "kg m²"}
+OF_JOINTS = {"damping": ("N m s", "N s/m"), "stiffness": ("N m/rad", "N/m"), "armature": ("kg m²", "kg")}
 
 
 @dataclass(frozen=True)
@@ -25,27 +25,36 @@ class Quantity:
     joint: int
     of: str
     value: float
+    unit: str
 
     @property
     def words(self) -> str:
         """ "the mass of 'pole'"."""
-        return f"{WORDS[self.kind]} {self.of!r}" if self.kind in WORDS else "gravity"
+        return f"{WORDS[self.kind]} {self.of!r}"
+
+
+def joint_unit(kind: str, joint: TreeJoint) -> str:
+    """The unit of a hinge's, or a slide's, damping, stiffness or armature."""
+    return OF_JOINTS[kind][joint.kind == "slide"]
 
 
 def quantities(system: TreeSystem, plane: Plane | None) -> list[Quantity]:
     """All that a usual name may mean, joint after joint."""
     found: list[Quantity] = []
     for k, joint in enumerate(system.joints):
-        found += [Quantity(kind, k, joint.name, getattr(joint, kind)) for kind in ("damping", "stiffness")]
+        found += [
+            Quantity(kind, k, joint.name, getattr(joint, kind), joint_unit(kind, joint))
+            for kind in ("damping", "stiffness")
+        ]
         if plane is None:
             continue
         body = plane.bodies[k]
         way = math.dist(body.centre, body.anchor) if body.mass else 0.0
-        found += [Quantity("mass", k, body.link, body.mass), Quantity("inertia", k, body.link, body.inertia)]
+        numbers = {"mass": body.mass, "inertia": body.inertia}
         if body.turns:
-            found.append(Quantity("centre", k, body.link, way))
             length = _length(plane, k, way)
-            found += [Quantity("length", k, body.link, length)] if length else []
+            numbers |= {"centre": way} | ({"length": length} if length else {})
+        found += [Quantity(kind, k, body.link, value, UNITS[kind]) for kind, value in numbers.items()]
     return found
 
 

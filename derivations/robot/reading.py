@@ -20,7 +20,7 @@ from .coordinates import Coordinates, read_coordinates
 from .function import function_rows, names_in_function
 from .motion import OwnMotion
 from .plane import Plane, plane_of
-from .quantities import UNITS, Quantity, quantities, usual_names
+from .quantities import Quantity, quantities, usual_names
 
 MOST_JOINTS = 8  # of equations that a person writes
 BY_ORDER = ("q", "theta", "phi", "x")  # letters that count joints where nothing is declared
@@ -31,7 +31,7 @@ COMMANDS = re.compile(r"\\(?!ell|var)[A-Za-z]+|cos|sin|tan")
 class RobotDerivation:
     """``rows``: each to be zero, in the symbols of ``submission``, coordinate k being that of joint k.
 
-    ``names``: of the coordinates; ``values``: of the constants, by name; ``inferred``: those of them that are the model
+    ``names``: of the coordinates, ``joints``: of theirs; ``values``: of the constants, by name; ``inferred``: those of them that are the model
     file's; ``quantities``: the file's numbers, and ``usual``: those that usual names mean; ``damping`` of the joints;
     ``why_not``: why there is no ``plane``.
     """
@@ -40,6 +40,7 @@ class RobotDerivation:
     submission: Submission
     rows: tuple[Formula, ...]
     names: tuple[str, ...]
+    joints: tuple[str, ...]
     values: dict[str, float]
     inferred: dict[str, Quantity]
     quantities: tuple[Quantity, ...]
@@ -58,11 +59,20 @@ class RobotDerivation:
     @property
     def said(self) -> tuple[str, ...]:
         """What was taken from the model file, and how coordinates are counted, in sentences."""
-        taken = [f"{name} = {q.value:g} {UNITS[q.kind]}, {q.words}" for name, q in self.inferred.items()]
-        said = [f"taken from the mechanism: {'; '.join(taken)}"] if taken else []
+        joints = dict(zip(self.names, self.joints, strict=True))
+        said = [", ".join(f"{name} is joint {joint!r}" for name, joint in joints.items())]
+        convention = self.coordinates.convention
+        said.append("in the joints' own coordinates" if convention is None else convention.words)
+        taken = [f"{name} = {q.value:g} {q.unit}, {q.words}" for name, q in self.inferred.items()]
+        said += [f"taken from the model: {'; '.join(taken)}"] if taken else []
         if self.is_lagrangian and any(self.damping):
-            said.append("a Lagrangian has no dampers: their forces are those of the mechanism")
+            said.append("a Lagrangian has no dampers: their forces are those of the model")
         return tuple(said)
+
+    @property
+    def typeset(self) -> tuple[str, ...]:
+        """The equations as they were read, in the author's letters; none of a function."""
+        return tuple(f"{label}: {text}" for label, text in self.submission.lines)
 
     def motion(self, values: dict[str, float] | None = None, coordinates: Coordinates | None = None) -> OwnMotion:
         """The equations in numbers; with other values of some constants, or with angles counted in another way."""
@@ -112,7 +122,7 @@ def read_robot(system: TreeSystem, own: OwnEquations) -> RobotDerivation:
         formulas = [formula for _, formula in rows]
         submission = reader.submission(rows, None)
     return RobotDerivation(
-        own, submission, tuple(formulas), names, values, inferred, tuple(numbers), usual,
+        own, submission, tuple(formulas), names, tuple(joint.name for joint in system.joints), values, inferred, tuple(numbers), usual,
         read_coordinates(system, own, plane, why_not), math.hypot(*system.gravity),
         tuple(joint.damping for joint in system.joints), plane, why_not,
     )  # fmt: skip

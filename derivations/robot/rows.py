@@ -40,7 +40,8 @@ def true_terms(mechanism: SpatialMechanism, q: Floats, v: Floats) -> TrueTerms:
 def alignment(motion: OwnMotion, true: TrueTerms) -> Floats | None:
     """S (n, n): S times the author's rows are rows of the joints' coordinates, scaled like M; None where none are.
 
-    A row belongs to the joint, or to the author's coordinate, with which most of its terms agree up to one factor.
+    A row belongs to the joint, or to the author's coordinate, with which most of its terms agree up to one factor, if
+    these are half of them. Rows that give the right accelerations have all terms right, or are combined.
     """
     if motion.dampers is not None:
         return np.eye(motion.n)
@@ -53,7 +54,11 @@ def alignment(motion: OwnMotion, true: TrueTerms) -> Floats | None:
         found = _paired(given, mixed @ right)
         if found is not None and (best is None or found[0] > best[0]):
             best = found[0], np.linalg.inv(mixed) @ found[1]
-    return None if best is None else best[1]
+    if best is None:
+        return None
+    scaled = best[1] @ given
+    right_in_sum = rows_same(motion.accelerations(true.q, true.v), true.accelerations)
+    return None if right_in_sum and not same(scaled, right) else best[1]
 
 
 def _paired(given: Floats, right: Floats) -> tuple[int, Floats] | None:
@@ -79,10 +84,16 @@ def _factor(given: Floats, right: Floats) -> tuple[int, float]:
         factor = float(np.median(right[there, k] / given[there, k]))
         if not factor:
             continue
-        votes = sum(same(factor * given[:, j], right[:, j]) and bool(np.any(right[:, j])) for j in range(given.shape[1]))
-        if votes > best[0]:
+        there_too = [j for j in range(given.shape[1]) if np.any(given[:, j]) or np.any(right[:, j])]
+        votes = sum(same(factor * given[:, j], right[:, j]) for j in there_too)
+        if votes > best[0] and 2 * votes >= len(there_too):
             best = int(votes), factor
     return best
+
+
+def rows_same(one: Floats, other: Floats) -> bool:
+    """The same of each row: of the accelerations in each state."""
+    return all(same(a, b) for a, b in zip(one, other, strict=True))
 
 
 def same(one: Floats, other: Floats) -> bool:

@@ -15,9 +15,9 @@ from ...models.errors import InvalidInput
 from ...models.trees.system import TreeSystem
 from .coordinates import coordinates_in, other_conventions
 from .graded import wrong_terms
-from .quantities import UNITS, Quantity
+from .quantities import Quantity, joint_unit
 from .reading import RobotDerivation
-from .rows import SAME, TrueTerms, alignment, same, true_terms
+from .rows import SAME, Floats, TrueTerms, alignment, rows_same, same, true_terms
 
 KINDS = {"m": ("mass",), "M": ("mass",), "l": ("length", "centre"), "L": ("length", "centre"), "r": ("centre",),
          "a": ("centre", "length"), "I": ("inertia",), "J": ("inertia",), "b": ("damping",), "c": ("damping",),
@@ -44,26 +44,20 @@ class Reason:
 
 def reasons(d: RobotDerivation, system: TreeSystem, true: TrueTerms) -> list[Reason]:
     """Why the equations do not give the mechanism's accelerations, the first that explains all; never empty."""
-    for found in (_numbers(d, true), _left_out(d, system, true), _convention(d, true), wrong_terms_as_reasons(d)):
-        if found:
-            return found
-    return _terms(d, system, true)
-
-
-def agrees(d: RobotDerivation, true: TrueTerms) -> bool:
-    """Whether the equations give the accelerations, to more than what numbers in files are printed with."""
-    return _right(d, true)
+    return (
+        _numbers(d, true)
+        or _left_out(d, system, true)
+        or _convention(d, true)
+        or _graded(d)
+        or _terms(d, system, true)
+    )
 
 
 def _right(d: RobotDerivation, true: TrueTerms, values: dict[str, float] | None = None) -> bool:
     try:
-        return _same_rows(d.motion(values).accelerations(true.q, true.v), true.accelerations)
+        return rows_same(d.motion(values).accelerations(true.q, true.v), true.accelerations)
     except InvalidInput:
         return False
-
-
-def _same_rows(one: np.ndarray, other: np.ndarray) -> bool:
-    return all(same(a, b) for a, b in zip(one, other, strict=True))
 
 
 def _numbers(d: RobotDerivation, true: TrueTerms) -> list[Reason]:
@@ -90,7 +84,7 @@ def _differ(one: float, other: float) -> bool:
 
 
 def _other_number(name: str, value: float, q: Quantity) -> Reason:
-    unit = UNITS[q.kind]
+    unit = q.unit
     says = (f"the equations are right, and {q.words} is {q.value:.9g} {unit} in the model, where {name} is "
             f"{value:.9g} {unit} in the equations")  # fmt: skip
     return Reason(True, q.kind if q.kind != "centre" else "com-displaced", f"model: {q.of!r}", q.value, value, says)
@@ -98,8 +92,8 @@ def _other_number(name: str, value: float, q: Quantity) -> Reason:
 
 def _left_out(d: RobotDerivation, system: TreeSystem, true: TrueTerms) -> list[Reason]:
     """What the mechanism has and the equations have not."""
-    for changed, what in _without(system):
-        if _same_rows(d.motion().accelerations(true.q, true.v), _accelerations(changed, true)):
+    for changed, what in _without(system, true):
+        if rows_same(d.motion().accelerations(true.q, true.v), _accelerations(changed, true)):
             return [
                 Reason(True, cause, f"model: {of!r}", value, 0.0,
                        f"the model has {words} at {of!r} ({value:.9g} {unit}), and the equations, which are right without "
@@ -112,12 +106,13 @@ def _left_out(d: RobotDerivation, system: TreeSystem, true: TrueTerms) -> list[R
 Had = tuple[str, str, float, str, str]  # cause, joint or link, value, words, unit
 
 
-def _without(system: TreeSystem) -> Iterator[tuple[TreeSystem, list[Had]]]:
-    """The mechanism with some of it left out, the least first; and what was."""
+def _without(system: TreeSystem, true: TrueTerms) -> Iterator[tuple[TreeSystem, list[Had]]]:
+    """The mechanism with some of it left out that matters, the least first; and what was."""
     there: list[tuple[str, int, int]] = []
     for i, link in enumerate(system.links):
         there += [(name, i, j) for j, joint in enumerate(link.joints) for name in PASSIVE if getattr(joint, name)]
         there += [("inertia", i, -1)] if any(link.inertia) else []
+    there = [x for x in there if not rows_same(_accelerations(_stripped(system, [x]), true), true.accelerations)]
     kinds = [[x for x in there if x[0] == kind] for kind in (*PASSIVE, "inertia")]
     passive = [x for x in there if x[0] != "inertia"]
     chosen = [[x] for x in there] + [group for group in (*kinds, passive, there) if len(group) > 1]
@@ -130,8 +125,7 @@ def _had(system: TreeSystem, kind: str, i: int, j: int) -> Had:
     if kind == "inertia":
         return "inertia", link.name, max(link.inertia[:3]), "a moment of inertia", "kg m²"
     joint = link.joints[j]
-    unit = UNITS.get(kind, "kg m² or kg")
-    return kind, joint.name, getattr(joint, kind), PASSIVE[kind], unit
+    return kind, joint.name, getattr(joint, kind), PASSIVE[kind], joint_unit(kind, joint)
 
 
 def _stripped(system: TreeSystem, group: list[tuple[str, int, int]]) -> TreeSystem:
@@ -146,7 +140,7 @@ def _stripped(system: TreeSystem, group: list[tuple[str, int, int]]) -> TreeSyst
     return replace(system, links=tuple(links))
 
 
-def _accelerations(system: TreeSystem, true: TrueTerms) -> np.ndarray:
+def _accelerations(system: TreeSystem, true: TrueTerms) -> Floats:
     try:
         return true_terms(system.mechanism(), true.q, true.v).accelerations
     except ArithmeticError:  # what was left out was all that a joint moves
@@ -163,7 +157,7 @@ def _convention(d: RobotDerivation, true: TrueTerms) -> list[Reason]:
             found = motion.accelerations(true.q, true.v)
         except InvalidInput:
             return []
-        if _same_rows(found, true.accelerations):
+        if rows_same(found, true.accelerations):
             senses = ["clockwise" if s < 0 else "counter-clockwise" for s in convention.senses]
             sense = f'"{senses[0]}"' if len(set(senses)) == 1 else str(senses).replace("'", '"')
             declared = f'from = "{convention.origin}", sense = {sense}'
@@ -171,11 +165,13 @@ def _convention(d: RobotDerivation, true: TrueTerms) -> list[Reason]:
                 declared = f'angles = "{"relative" if convention.relative else "absolute"}", ' + declared
             says = (f"they are right if {convention.words}, and not in the joints' own coordinates; if that is meant, "
                     f"write {declared}")  # fmt: skip
+            otherwise = [said for *_, said in wrong_terms(d)]
+            says += f"; if not: {otherwise[0]}" if otherwise else ""
             return [Reason(False, "angle-convention", "equations", "joint coordinates", convention.words, says)]
     return []
 
 
-def wrong_terms_as_reasons(d: RobotDerivation) -> list[Reason]:
+def _graded(d: RobotDerivation) -> list[Reason]:
     """What the grader says of them, in the author's own letters."""
     return [
         Reason(False, cause, f"equations, row {row}" if row else "equations", found, expected, says)
@@ -202,7 +198,7 @@ def _terms(d: RobotDerivation, system: TreeSystem, true: TrueTerms) -> list[Reas
     return found or [Reason(False, "unexplained", "equations", None, None, "their terms are right, their sum is not")]
 
 
-def _term(name: str, words: str, given: np.ndarray, right: np.ndarray) -> Reason:
+def _term(name: str, words: str, given: Floats, right: Floats) -> Reason:
     where = f"equations, the row of {name!r}"
     start = f"in the row of {name!r} the term of {words}"
     if not given.any():
