@@ -50,7 +50,9 @@ def _alone(report: Report, scene: str) -> Alone:
 
 def _equations_right(report: Report, scene: str, agree: Sequence[str], differ: Sequence[str]) -> Alone:
     if not differ:
-        says = f"{scene}: your equations{_and(agree, 'and the theory of the model', ', the theory of the model')} agree."
+        says = (
+            f"{scene}: your equations{_and(agree, 'and the theory of the model', ', the theory of the model')} agree."
+        )
         return Alone(scene=scene, who="nobody", names=[], says=says)
     why = " ".join(said for name in differ if (said := _said(_diagnosis(report, scene, name))))
     verb = "is" if len(differ) == 1 else "are"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cached_property
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,14 +13,13 @@ from ...derivations.robot.reading import RobotDerivation, read_robot
 from ...derivations.robot.rows import TrueTerms, alignment, true_terms
 from ...derivations.robot.why import reasons
 from ...diagnosis.finding import Finding
-from ...engines import OWN_EQUATIONS, EngineInfo, TreeQuantity, TreeShape
+from ...engines import OWN_EQUATIONS, EngineInfo, TreeEngine, TreeQuantity, TreeShape
 from ...models import TreeScene
 from ...models.trees.states import random_states
 
 Array = NDArray[np.float64]
 
 STATES = 6  # in which rows are told apart and causes looked for
-IN_MODEL = "model: "  # how the place of a cause begins that is in the model, not in the equations
 COMBINED: dict[TreeQuantity, str] = dict.fromkeys(
     ("mass_matrix", "bias", "passive"),
     "the rows are combined otherwise than those of Lagrange's equations: their accelerations are compared",
@@ -75,4 +75,5 @@ def own_equations(scene: TreeScene) -> tuple[OwnEquationsTree, TreeShape, Engine
     if own.scale is None:
         assert info.tree is not None
         info = replace(info, tree=replace(info.tree, missing={**info.tree.missing, **COMBINED}))
-    return own, TreeShape(own, info, scene.system.mechanism()), info
+    # Energies and trajectories are left out, as an adapter may: the information says that they are missing.
+    return own, TreeShape(cast(TreeEngine, own), info, scene.system.mechanism()), info

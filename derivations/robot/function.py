@@ -239,10 +239,10 @@ class _Follower:
 def _listed(function: ast.FunctionDef, names: list[str]) -> bool:
     """Whether a parameter is unpacked or has an index."""
     for node in ast.walk(function):
-        if isinstance(node, ast.Subscript) and isinstance(node.value, ast.Name) and node.value.id in names:
-            return True
-        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Tuple | ast.List):
-            if isinstance(node.value, ast.Name) and node.value.id in names:
+        unpacks = isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Tuple | ast.List)
+        if unpacks or isinstance(node, ast.Subscript):
+            value = node.value  # type: ignore[attr-defined]
+            if isinstance(value, ast.Name) and value.id in names:
                 return True
     return False
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
+
 from flint import fmpq
 
 from ..algebra.trig import NOTHING, Formula, constant
@@ -24,7 +26,7 @@ SLIDES: dict[tuple[float, float], Along] = {(1.0, 0.0): "right", (0.0, 1.0): "up
 def wrong_terms(d: RobotDerivation) -> list[FOUND]:
     """The wrong terms or mistakes that the grader names; none where the mechanism has no letters of the author's."""
     mechanism = _declared(d)
-    convention = _convention(d)
+    convention = None if mechanism is None or d.plane is None else _convention(d, d.plane)
     if mechanism is None or convention is None:
         return []
     submission = replace(d.submission, mechanism=mechanism, convention=convention)
@@ -54,35 +56,35 @@ def _declared(d: RobotDerivation) -> Declared | None:
 
     def formula(kind: str, k: int, value: float) -> Formula:
         name = symbols.get((kind, k))
-        if name is not None:
+        if name is not None and value >= 0:
             return space.own(name)
         return constant(fmpq(*value.as_integer_ratio())) if value else NOTHING
 
-    bodies = []
-    for k, body in enumerate(plane.bodies):
-        along = None if body.turns else SLIDES.get((round(body.slide[0], 9), round(body.slide[1], 9)))
-        reach = plane.reaches(k) if body.turns else (0.0, 0.0)
-        if (along is None) != body.turns or reach is None:
-            return None
-        own = _along(reach, body.centre, body.anchor) if body.mass and body.turns else 0.0
-        if own is None:
-            return None
-        at = NOTHING
-        if body.parent >= 0 and plane.bodies[body.parent].turns:
-            carrier = plane.bodies[body.parent]
-            way = _along(plane.reaches(body.parent) or (0.0, 0.0), body.anchor, carrier.anchor)
-            if way is None:
-                return None
-            at = formula("length", body.parent, way)
-        joint = body.joint
-        if joint.armature:
-            return None
-        bodies.append(Joined(
-            joint.name, body.parent, along, formula("mass", k, body.mass), NOTHING, formula("centre", k, own),
-            formula("inertia", k, body.inertia), at, formula("stiffness", k, joint.stiffness),
-            constant(fmpq(*joint.springref.as_integer_ratio())), formula("damping", k, joint.damping),
-        ))  # fmt: skip
-    return Declared(space, tuple(bodies), d.names)
+    bodies = [_joined(d, plane, k, formula) for k in range(space.n)]
+    made = tuple(body for body in bodies if body is not None)
+    return Declared(space, made, d.names) if len(made) == len(bodies) else None
+
+
+def _joined(d: RobotDerivation, plane: Plane, k: int, formula: Callable[[str, int, float], Formula]) -> Joined | None:
+    """One body as the grader has them; None where its mass is beside its line, or it slides another way."""
+    body = plane.bodies[k]
+    along = None if body.turns else SLIDES.get((round(body.slide[0], 9), round(body.slide[1], 9)))
+    reach = plane.reaches(k) if body.turns else (0.0, 0.0)
+    centre: float | None = 0.0
+    if body.mass and body.turns and reach is not None:
+        centre = _along(reach, body.centre, body.anchor)
+    way: float | None = 0.0
+    if body.parent >= 0 and plane.bodies[body.parent].turns:
+        way = _along(plane.reaches(body.parent) or (0.0, 0.0), body.anchor, plane.bodies[body.parent].anchor)
+    joint = body.joint
+    if (along is None) != body.turns or reach is None or centre is None or way is None or joint.armature:
+        return None
+    return Joined(
+        joint.name, body.parent, along, formula("mass", k, body.mass), NOTHING, formula("centre", k, centre),
+        formula("inertia", k, body.inertia), formula("length", body.parent, way) if way else NOTHING,
+        formula("stiffness", k, joint.stiffness), constant(fmpq(*joint.springref.as_integer_ratio())),
+        NOTHING if d.is_lagrangian else formula("damping", k, joint.damping),
+    )  # fmt: skip
 
 
 def _place(d: RobotDerivation, name: str) -> int:
@@ -122,10 +124,8 @@ def _along(reach: tuple[float, float], point: tuple[float, float], start: tuple[
     return None if abs(beside) > PARALLEL * (abs(along) + size) else along
 
 
-def _convention(d: RobotDerivation) -> Convention | None:
+def _convention(d: RobotDerivation, plane: Plane) -> Convention | None:
     """The author's; of the joints' own coordinates: relative, if all links are straight on where those are zero."""
-    plane = d.plane
-    assert plane is not None
     if d.coordinates.convention is not None:
         return d.coordinates.convention
     quarters = set()

@@ -31,9 +31,9 @@ COMMANDS = re.compile(r"\\(?!ell|var)[A-Za-z]+|cos|sin|tan")
 class RobotDerivation:
     """``rows``: each to be zero, in the symbols of ``submission``, coordinate k being that of joint k.
 
-    ``names``: of the coordinates, ``joints``: of theirs; ``values``: of the constants, by name; ``inferred``: those of them that are the model
-    file's; ``quantities``: the file's numbers, and ``usual``: those that usual names mean; ``damping`` of the joints;
-    ``why_not``: why there is no ``plane``.
+    ``names``: of the coordinates, ``joints``: of theirs; ``values``: of the constants, by name; ``inferred``: those of
+    them that are the model file's; ``quantities``: the file's numbers, and ``usual``: those that usual names mean;
+    ``damping`` of the joints; ``why_not``: why there is no ``plane``.
     """
 
     own: OwnEquations
@@ -122,8 +122,8 @@ def read_robot(system: TreeSystem, own: OwnEquations) -> RobotDerivation:
         formulas = [formula for _, formula in rows]
         submission = reader.submission(rows, None)
     return RobotDerivation(
-        own, submission, tuple(formulas), names, tuple(joint.name for joint in system.joints), values, inferred, tuple(numbers), usual,
-        read_coordinates(system, own, plane, why_not), math.hypot(*system.gravity),
+        own, submission, tuple(formulas), names, tuple(joint.name for joint in system.joints), values, inferred,
+        tuple(numbers), usual, read_coordinates(system, own, plane, why_not), math.hypot(*system.gravity),
         tuple(joint.damping for joint in system.joints), plane, why_not,
     )  # fmt: skip
 
@@ -162,8 +162,9 @@ def _coordinates(system: TreeSystem, own: OwnEquations, text: str) -> tuple[str,
             letter = letters[0] if len(letters) == 1 else "q"
             single = system.n == 1 and not _occurs(f"{letter}1", text)
             return (letter,) if single else tuple(f"{letter}{k + 1}" for k in range(system.n))
-    joint = next(joint.name for joint, name in zip(system.joints, names, strict=True) if not name)
-    raise InvalidInput(f"symbols: which coordinate is joint {joint!r}? Write [symbols] x = {joint!r}, with your letter")
+    missing = next(joint.name for joint, name in zip(system.joints, names, strict=True) if not name)
+    raise InvalidInput(f"symbols: which coordinate is joint {missing!r}? Write [symbols] x = {missing!r}, with your "
+                       "letter")  # fmt: skip
 
 
 def _constants(

@@ -32,9 +32,15 @@ def true_terms(mechanism: SpatialMechanism, q: Floats, v: Floats) -> TrueTerms:
     truths = [spatial_truth(mechanism, *state) for state in zip(q, v, strict=True)]
     rest = [[t.velocity.float, t.gravity.float, -t.passive.float] for t in truths]
     return TrueTerms(
-        q, v, np.array([t.mass_matrix.float for t in truths]), np.array(rest),
+        q, v, _cleaned(np.array([t.mass_matrix.float for t in truths])), _cleaned(np.array(rest)),
         np.array([t.accelerations.float for t in truths]),
     )  # fmt: skip
+
+
+def _cleaned(terms: Floats) -> Floats:
+    """Zero for what is a ball about zero: less than rounding of the largest in its state."""
+    largest = np.abs(terms).max(axis=(1, 2), keepdims=True)
+    return np.where(np.abs(terms) <= 2.0**-52 * largest, 0.0, terms)
 
 
 def alignment(motion: OwnMotion, true: TrueTerms) -> Floats | None:

@@ -45,11 +45,7 @@ class Reason:
 def reasons(d: RobotDerivation, system: TreeSystem, true: TrueTerms) -> list[Reason]:
     """Why the equations do not give the mechanism's accelerations, the first that explains all; never empty."""
     return (
-        _numbers(d, true)
-        or _left_out(d, system, true)
-        or _convention(d, true)
-        or _graded(d)
-        or _terms(d, system, true)
+        _numbers(d, true) or _left_out(d, system, true) or _convention(d, true) or _graded(d) or _terms(d, system, true)
     )
 
 
@@ -96,8 +92,8 @@ def _left_out(d: RobotDerivation, system: TreeSystem, true: TrueTerms) -> list[R
         if rows_same(d.motion().accelerations(true.q, true.v), _accelerations(changed, true)):
             return [
                 Reason(True, cause, f"model: {of!r}", value, 0.0,
-                       f"the model has {words} at {of!r} ({value:.9g} {unit}), and the equations, which are right without "
-                       "it, have none")
+                       f"the model has {words} at {of!r} ({value:.9g} {unit}), and the equations, which are right "
+                       "without it, have none")
                 for cause, of, value, words, unit in what
             ]  # fmt: skip
     return []
@@ -135,7 +131,9 @@ def _stripped(system: TreeSystem, group: list[tuple[str, int, int]]) -> TreeSyst
             links[i] = replace(links[i], inertia=(0.0,) * 6)
         else:
             joints = list(links[i].joints)
-            joints[j] = replace(joints[j], **{kind: 0.0})
+            joint = joints[j]
+            kept = {name: 0.0 if name == kind else getattr(joint, name) for name in PASSIVE}
+            joints[j] = replace(joint, damping=kept["damping"], armature=kept["armature"], stiffness=kept["stiffness"])
             links[i] = replace(links[i], joints=tuple(joints))
     return replace(system, links=tuple(links))
 
@@ -184,8 +182,8 @@ def _terms(d: RobotDerivation, system: TreeSystem, true: TrueTerms) -> list[Reas
     motion = d.motion()
     scale = alignment(motion, true)
     if scale is None:
-        return [Reason(False, "unexplained", "equations", None, None,
-                       "no term of them is found again, up to a factor, in the right ones: compare row by row")]  # fmt: skip
+        says = "no row of them is, up to a factor, a right one in half of its terms"
+        return [Reason(False, "unexplained", "equations", None, None, says)]
     matrix, rest = motion.floats(true.q, true.v)
     matrix, rest = scale @ matrix, rest @ scale.T
     found = []

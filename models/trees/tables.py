@@ -25,7 +25,8 @@ A file with everything that it may have::
     duration = 2.0
 
 In the place of links ``model = "file.xml"`` names an MJCF or URDF file, beside the scene file or below it; at the top
-of the file it stands for the whole [system]. A user's own equations are those of :mod:`.own`. Coordinates are those of :mod:`furiko.models.spatial_mechanism`. ``limits`` bound the random states of a scene, and act on nothing.
+of the file it stands for the whole [system]. A user's own equations are those of :mod:`.own`. Coordinates are those of
+:mod:`furiko.models.spatial_mechanism`. ``limits`` bound the random states of a scene, and act on nothing.
 """
 
 from __future__ import annotations

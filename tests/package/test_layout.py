@@ -15,7 +15,7 @@ ROOMS = {
             ("errors",),
             ("readers.bounded_file",),
             ("readers.toml_text", "readers.toml_fields", "writers.whole_file"),
-            ("trees.scene", "trees.system"),
+            ("trees.scene", "trees.own", "trees.system"),
             (".",),
             (
                 "readers.xml_file",
@@ -48,14 +48,26 @@ ROOMS = {
         {"models", "records", "reference", "engines"},
         [("finding", "explanation", "measurement", "question"), ("fits",), (".",), ("model_files",)],
     ),
-    "checks": ({"models", "records", "reference", "engines", "diagnosis"}, [(".",), ("comparisons",), ("trees",)]),
+    "checks": (
+        {"models", "records", "reference", "engines", "diagnosis", "derivations"},
+        [(".",), ("comparisons",), ("trees",)],
+    ),
     "studies": (
         {"models", "records", "reference", "engines", "diagnosis", "checks"},
         [(".",), ("bench", "stress")],
     ),
     "derivations": (
         {"models", "reference"},
-        [(".",), ("algebra",), ("steps",), ("reading",), ("mistakes",), ("grading",), ("audit", "lesson", "classroom")],
+        [
+            (".",),
+            ("algebra",),
+            ("steps",),
+            ("reading",),
+            ("mistakes",),
+            ("grading",),
+            ("robot",),
+            ("audit", "lesson", "classroom"),
+        ],
     ),
     "reports": ({"models", "records"}, [(".",), ("pages", "terminal")]),
     "furiko": ({"*"}, [(".",), ("cli",)]),
