@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from .info import EngineInfo, Integrator, Quantity, TreeInfo, TreeQuantity
 from .registry import (
     ENGINES,
+    OWN_EQUATIONS,
     cannot,
     engine_info,
     engine_names,
@@ -39,6 +40,7 @@ _HOMES = {
 
 __all__ = [
     "ENGINES",
+    "OWN_EQUATIONS",
     "AnyShape",
     "BareCall",
     "Engine",

@@ -145,6 +145,25 @@ ENGINES: dict[str, EngineInfo] = {
 }
 
 
+# Takes part like an engine where a scene has a user's own equations; its answers are theirs, without rounding.
+OWN_EQUATIONS = EngineInfo(
+    name="own equations",
+    formulation="the equations of the scene file, in ball arithmetic",
+    adapter="",
+    module="",
+    package="",
+    homepage="",
+    coordinates="relative",
+    tree=TreeInfo(
+        "",
+        {
+            "energy": "equations of motion give no energies",
+            "trajectory": "equations of motion have no integrator of their own",
+        },
+    ),
+)
+
+
 def engine_names() -> list[str]:
     """The engines that furiko knows, installed or not."""
     return list(ENGINES)
@@ -164,6 +183,8 @@ def engine_info(name: str) -> EngineInfo:
     """
     if name in ENGINES:
         return ENGINES[name]
+    if name == OWN_EQUATIONS.name:
+        return OWN_EQUATIONS
     if not elsewhere.is_elsewhere(name) and name not in plugin_names():
         known = [*ENGINES, *plugin_names()]
         hint = nearest(name, known) or f"; there are {', '.join(known)}, package.module:Class, or a file, ./adapter.py"

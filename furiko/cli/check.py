@@ -101,6 +101,7 @@ def check(
                 footer=report.footer,
                 diagnoses=list(report.diagnoses),
                 known=list(accounted.differences),
+                alone=list(report.alone),
             )
         )
     else:

@@ -39,6 +39,9 @@ def print_report(
     """
     console = PlainConsole(file or sys.stdout, width)
     _print_table(report, console)
+    for scene in report.header.scenes:
+        if scene.own:
+            console.line(one_line(f"\n{scene.name}: your equations: {'; '.join(scene.own)}", 2000))
     _print_reasons(report, "skipped", "Skipped", console)
     _print_reasons(report, "error", "Failed", console)
     _print_loose(report, console)

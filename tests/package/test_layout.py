@@ -15,7 +15,7 @@ ROOMS = {
             ("errors",),
             ("readers.bounded_file",),
             ("readers.toml_text", "readers.toml_fields", "writers.whole_file"),
-            ("trees.scene", "trees.system"),
+            ("trees.scene", "trees.own", "trees.system"),
             (".",),
             (
                 "readers.xml_file",
@@ -49,7 +49,7 @@ ROOMS = {
         [("finding", "explanation", "measurement", "question"), ("fits",), (".",), ("model_files",)],
     ),
     "checks": (
-        {"models", "records", "reference", "engines", "diagnosis"},
+        {"models", "records", "reference", "engines", "diagnosis", "derivations"},
         [(".",), ("comparisons",), ("trees",), ("conformance",)],
     ),
     "studies": (
@@ -69,6 +69,7 @@ ROOMS = {
             ("grading.differences", "grading.grade_record", "grading.hypotheses", "grading.judge"),
             ("grading.forms",),
             ("grading",),
+            ("robot",),
             ("audit", "lesson", "classroom"),
         ],
     ),
