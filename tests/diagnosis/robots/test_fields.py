@@ -176,4 +176,4 @@ def test_a_slides_reference_is_seen_and_no_other_pose_of_the_same_motion(tmp_pat
     said = read(0.5, 0.2)
     assert not field_differences(read(0.3, 0.0), said)  # the same place at each coordinate
     (found,) = field_differences(read(0.5, 0.0), said)
-    assert (found.cause, found.size > 0.1) == ("com-displaced", True)
+    assert (found.cause, found.found, found.expected) == ("joint-reference", 0.0, 0.2)

@@ -68,14 +68,14 @@ MISREAD = {
         "geoms-without-contact-weigh-nothing",
         "mass 1 kg, the file says 3 kg",
     ),
-    "collision.urdf": (  # 1000 kg/m³ · 4/3 π 0.1³ = 4.18879 kg more
+    "collision.urdf": (  # 1000 kg/m³ · 4/3 π 0.1³ = 4.18879 kg
         f"""<robot name="r"><link name="world"/>{LINK.format("a", TENSOR, "")}<link name="tip"><collision><geometry>
         <sphere radius="0.1"/></geometry></collision></link><joint name="j" type="continuous"><parent link="world"/>
         <child link="a"/><axis xyz="0 1 0"/></joint><joint name="f" type="fixed"><origin xyz="0 0 -1"/>
         <parent link="a"/><child link="tip"/></joint></robot>""",
         "mujoco",
         "collision-weighs",
-        "mass 5.18879 kg, the file says 1 kg",
+        "link 'tip': mass 4.18879 kg, the file says 0 kg",
     ),
     "plane.urdf": (
         f"""<robot name="r"><link name="world"/>{LINK.format("a", TENSOR, "")}<joint name="j" type="planar">
@@ -114,7 +114,7 @@ MISREAD = {
         </body></body></worldbody></mujoco>""",
         "pinocchio-aba",
         "first-ref-ignored",
-        "joint 'j2': axis",
+        "joint 'j1': ref 0 rad, the file says 0.523599 rad",  # 30°
     ),
 }
 
