@@ -91,7 +91,7 @@ def _pose(body: RigidBody) -> Pose:
     return Pose(from_quaternion(body.quaternion), body.position)
 
 
-def _structure(mechanism: SpatialMechanism) -> list[object]:
+def _structure(mechanism: SpatialMechanism) -> list[tuple[str, str, list[tuple[str, str]]]]:
     bodies = mechanism.bodies
     above = {index: body.name for index, body in enumerate(bodies)} | {WORLD: None}
     rows = [(b.name, above[b.parent] or "", [(joint.name, joint.kind) for joint in b.joints]) for b in bodies]
