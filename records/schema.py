@@ -30,6 +30,7 @@ SCHEMAS: dict[str, tuple[str, Any]] = {
     "class": ("furiko grade --problem --json, and class.json", classroom.ClassDocument),
     "audit": ("furiko audit --json", findings.AuditDocument),
     "diagnose": ("furiko diagnose --json", findings.DiagnoseDocument),
+    "diagnose-several": ("furiko diagnose --json with several files", findings.DiagnosedModels),
     "error": ("every furiko command with --json that fails", errors.ErrorDocument),
 }
 
