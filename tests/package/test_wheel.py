@@ -10,8 +10,11 @@ import pytest
 
 ROOT = Path(__file__).parent.parent.parent
 LEFT_OUT = ("models/files",)  # written from the catalogue: for people and engines, not for the package
-ALONE = ("CHANGELOG.md", "CONTRIBUTING.md", "action.yml", ".pre-commit-hooks.yaml", "Containerfile", ".containerignore")
-DATA = {".toml", ".json", ".j2", ".css", ".html", ".typed"}  # what the code reads at run time
+ALONE = (
+    "CHANGELOG.md", "CONTRIBUTING.md", "CITATION.cff", "CODE_OF_CONDUCT.md", "SECURITY.md",
+    "action.yml", ".pre-commit-hooks.yaml", "Containerfile", ".containerignore",
+)  # fmt: skip
+DATA = {".toml", ".json", ".j2", ".css", ".html", ".yml", ".typed"}  # what the code reads at run time
 
 
 def links():
@@ -30,7 +33,7 @@ def source(tmp_path):
         shutil.copy(ROOT / name, copy / name)
     for name in ALONE:
         shutil.copy(ROOT / name, copy / name)
-    for name in ("tests", "docs", "benchmarks", ".ci"):
+    for name in ("tests", "docs", "benchmarks", ".ci", ".github"):
         shutil.copytree(ROOT / name, copy / name, ignore=shutil.ignore_patterns("__pycache__"))
     return copy
 
@@ -44,7 +47,7 @@ def test_wheel_sdist_and_checkout_hold_the_same_files(source, tmp_path):
     through_archive = build(unpacked, tmp_path / "through", "--wheel")
     assert direct == set(expected())
     assert through_archive == direct
-    for name in ("tests", "docs", "benchmarks"):
+    for name in ("tests", "docs", "benchmarks", ".github"):
         there = {path.relative_to(ROOT / name) for path in (ROOT / name).rglob("*") if path.is_file()}
         there = {path for path in there if "__pycache__" not in path.parts and ".asv" not in path.parts}
         assert there <= {path.relative_to(unpacked / name) for path in (unpacked / name).rglob("*")}
