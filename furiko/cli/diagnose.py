@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from .options import json_option
+from .options import engine_names, json_option, scene_names
 from .output import print_json, print_text
 
 if TYPE_CHECKING:
@@ -17,10 +17,19 @@ if TYPE_CHECKING:
 @click.command()
 @click.argument("model", type=click.Path(path_type=Path))
 @click.option(
-    "--against", metavar="SCENE|FILE", help="What MODEL should be: a scene, a scene's TOML file, or another model file."
+    "--against",
+    metavar="SCENE|FILE",
+    shell_complete=scene_names,
+    help="What MODEL should be: a scene, a scene's TOML file, or another model file.",
 )
 @click.option(
-    "-e", "--engine", "engines", multiple=True, metavar="NAME", help="Ask this engine, and no other; may be repeated."
+    "-e",
+    "--engine",
+    "engines",
+    multiple=True,
+    metavar="NAME",
+    shell_complete=engine_names,
+    help="Ask this engine, and no other; may be repeated.",
 )
 @click.option(
     "--meshes",
