@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ..records.exit_status import AGREES, DIFFERS
-from .options import found_here, json_option
+from .options import engine_names, found_here, json_option
 from .output import print_json, print_text
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ SIGNS = {"right": "✓", "wrong": "✗", "note": "!", "skipped": "-"}
 
 
 @click.command(name="engine-test")
-@click.argument("engine", metavar="ENGINE", callback=found_here)
+@click.argument("engine", metavar="ENGINE", callback=found_here, shell_complete=engine_names)
 @click.option("--timeout", type=click.FloatRange(min=1), default=60.0, show_default=True, help="Seconds for each step.")
 @json_option
 def engine_test(engine: str, timeout: float, as_json: bool) -> int:

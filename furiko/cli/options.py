@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
 import click
+from click.shell_completion import CompletionItem
 
 REPORT_FOLDER = Path("furiko-report")
 
@@ -23,6 +25,26 @@ def found_here(_context: click.Context, _parameter: click.Parameter, names: Name
     return names
 
 
+def scene_names(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """What a shell offers for a scene: names of the catalogue, and files. Nothing is imported that takes time."""
+    names = sorted(path.stem for path in (Path(__file__).parent.parent / "models" / "catalogue").rglob("*.toml"))
+    offered = [CompletionItem(name) for name in names if name.startswith(incomplete)]
+    return offered or [CompletionItem(incomplete, type="file")]
+
+
+def engine_names(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """What a shell offers for an engine."""
+    from ..engines import engine_names as known
+    from ..engines import plugin_names
+
+    return [CompletionItem(name) for name in [*known(), *plugin_names()] if name.startswith(incomplete)]
+
+
+def words(*known: str) -> Callable[..., list[CompletionItem]]:
+    """What a shell offers where one of a few words is needed."""
+    return lambda _context, _parameter, incomplete: [CompletionItem(w) for w in known if w.startswith(incomplete)]
+
+
 json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON document and nothing else.")
 engine_option = click.option(
     "--engine",
@@ -31,6 +53,7 @@ engine_option = click.option(
     multiple=True,
     metavar="NAME|FILE.py|module:Class",
     callback=found_here,
+    shell_complete=engine_names,
     help="Run only this engine, or an adapter of your own: a file, or a class in a module, looked for in the current "
     "folder too (an example is in furiko.engines.protocol); may be repeated.",
 )

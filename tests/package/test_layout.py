@@ -74,7 +74,7 @@ ROOMS = {
         ],
     ),
     "reports": ({"models", "records"}, [(".",), ("pages", "terminal")]),
-    "furiko": ({"*"}, [(".",), ("cli",)]),
+    "furiko": ({"*"}, [(".",), ("ci", "cli")]),
 }
 # Where a file of a room must import from a folder above it: what the room's front door (its __init__) names, and
 # renderings that are loaded when they are asked for.
