@@ -255,6 +255,7 @@ def _about(entry: SceneEntry | None, results: Sequence[Result]) -> list[tuple[st
     if entry.joints:
         size = f"{entry.n:,} degree{'' if entry.n == 1 else 's'} of freedom"
     about = [("system", f"{SYSTEMS.get(entry.system, entry.system)}, {size}")]
+    about += [("your equations", "; ".join(entry.own))] if entry.own else []
     about += [("joints", listed(entry.joints, 12))] if entry.joints else []
     about += [("lengths", f"{_list(entry.lengths)} m")] if entry.lengths else []
     about += [("masses", f"{_list(entry.masses)} kg"), ("gravity", f"{entry.gravity} m/s²")]

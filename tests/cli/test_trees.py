@@ -23,7 +23,7 @@ def test_scenes_lists_them(capsys):
     assert (rows["quadruped"]["system"], rows["quadruped"]["n"]) == ("tree", 18)
 
 
-def test_export_writes_what_engines_read(capsys):
+def test_export_writes_what_engines_read(capsys, tmp_path):
     assert run("export", "humanoid", "--mjcf") == 0
     model = mujoco.MjModel.from_xml_string(capsys.readouterr().out)
     system = find_scene("humanoid").system
@@ -31,6 +31,8 @@ def test_export_writes_what_engines_read(capsys):
     assert model.body_mass.sum() == pytest.approx(sum(link.mass for link in system.links))
     assert run("export", "humanoid", "--urdf") == 2
     assert "URDF cannot say it" in capsys.readouterr().err
+    assert run("export", "humanoid", "--mjcf", "--urdf", "--out", str(tmp_path / "both")) == 2
+    assert not (tmp_path / "both").exists(), "one of two would be half an answer"
 
 
 @pytest.mark.parametrize("what", [("bench", "--sharpness", "hopper"), ("bench", "--skips", "hopper")])
