@@ -31,6 +31,7 @@ COMMANDS = {
     "engines": "List the engines, their versions, and what they cannot compute.",
     "export": "Write a scene's mechanism as an MJCF or URDF file.",
     "grade": "Grade a derivation: correct, or which term is wrong and why.",
+    "history": "Show a folder of runs as one page, with badges.",
     "lesson": "Write a web page for teaching: thirty mistakes in derivations.",
     "scenes": "List the scenes of the catalogue.",
     "stress": "Find where engines, integrators and formulas break.",
