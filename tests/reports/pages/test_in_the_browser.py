@@ -83,7 +83,7 @@ def red(make) -> Report:
         Diagnosis(scene=scene, engine="mujoco", findings=[gravity], explains=["accelerations", "energy"])
         for scene in scenes
     )
-    equation = "takeno 17: (lⱼ²/12) θ̈ⱼ + Σₖ₌₁ⁿ lₖ sin(θⱼ − θₖ) = 0"
+    equation = "takeno 17: (lⱼ²/12) θ̈ⱼ" + " + Σₖ₌₁ⁿ lₖ sin(θⱼ − θₖ)" * 20 + " = 0"  # longer than any window is wide
     entries = [make.scene(name, equations=[equation], description=f"Chain {name}") for name in scenes]
     header = make.header(scenes=entries, engines=[make.engine(e) for e in ("mujoco", "pinocchio-aba", "exudyn-tree")])
     return Report(header, tuple(results), footer_of(results, diagnoses), diagnoses)
@@ -207,6 +207,7 @@ FORMULAS = {
     "<mrow><mi>n</mi><mo>+</mo><mn>1</mn></mrow></munderover><msub><mi>M</mi><mrow><mi>j</mi><mi>k</mi></mrow></msub>",
     "[a, 0; b, c]": "<mrow><mo>[</mo><mtable><mtr><mtd><mi>a</mi></mtd><mtd><mn>0</mn></mtd></mtr>"
     "<mtr><mtd><mi>b</mi></mtd><mtd><mi>c</mi></mtd></mtr></mtable><mo>]</mo></mrow>",
+    "Lⱼ∨ₖ": "<msub><mi>L</mi><mrow><mi>j</mi><mo>∨</mo><mi>k</mi></mrow></msub>",
     "2 < 3)": "<mn>2</mn><mo>&lt;</mo><mn>3</mn><mo>)</mo>",
 }
 
