@@ -97,7 +97,9 @@ def ask_robot(reader: RobotReader, question: Question) -> RobotAnswer:
 
 
 def _refused(reader: RobotReader, message: str) -> RobotAnswer:
-    inertia = "XML Error" not in message and re.search(r"inertia\b|\bmass|eigenvalue", message.lower()) is not None
+    words = message.lower().removeprefix("error: ")
+    of_file = "xml error" in words or words.startswith("mesh")  # whose message may advise another inertia
+    inertia = not of_file and re.search(r"inertia\b|\bmass|eigenvalue", words) is not None
     finding = Finding(
         "inertia-rejected" if inertia else "file-refused", reader.name, None, None, f"{reader.name} refuses: {message}"
     )

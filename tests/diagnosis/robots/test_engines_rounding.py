@@ -107,6 +107,14 @@ def test_an_inertial_that_is_not_understood_is_no_impossible_inertia(tmp_path):
     assert [finding.cause for finding in found.findings] == ["file-refused"]
 
 
+def test_a_mesh_without_volume_is_no_impossible_inertia(tmp_path):
+    """MuJoCo's message advises "inertia to shell"; no inertial is wrong."""
+    flat = '<asset><mesh name="m" vertex="0 0 0 1e-5 0 0 0 1e-5 0 0 0 1e-5"/></asset>'
+    found, answer = engine(tmp_path, BODY.format(flat, INERTIAL + '<geom type="mesh" mesh="m"/>'))
+    assert "mesh volume" in answer["says"]
+    assert [finding.cause for finding in found.findings] == ["file-refused"]
+
+
 def test_json_of_masses_that_are_numbers_of_numpy(tmp_path):
     """As a volume is where numpy has made it: it must not reach the document as one."""
     planar = planar_arm_file(tmp_path)
