@@ -38,6 +38,17 @@ class NamedMistake(msgspec.Struct, frozen=True, kw_only=True):
     also: list[str]  # further mistakes that lead to the same equations
 
 
+class StageMark(msgspec.Struct, frozen=True, kw_only=True):
+    """One stage of a derivation that is stated stage by stage."""
+
+    stage: str
+    outcome: Literal["right", "follows", "wrong"]  # follows: from earlier stages that are wrong; not wrong again
+    says: str
+    says_ja: str
+    findings: list[WrongTerm]
+    of: int  # how many terms the right stage has
+
+
 class GradeReading(msgspec.Struct, frozen=True, kw_only=True):
     """What was read of a derivation, so that its author sees whether he was understood."""
 
@@ -66,6 +77,7 @@ class GradeDocument(msgspec.Struct, frozen=True, kw_only=True):
     reading: GradeReading
     right_for: str  # another mechanism that wrong equations are right for; empty: none known
     right_for_ja: str
+    stages: list[StageMark]  # empty unless the derivation is stated stage by stage
 
 
 # --- audit

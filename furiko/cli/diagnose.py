@@ -10,7 +10,7 @@ import click
 
 from ..records.exit_status import AGREES
 from .failures import Failure, failure_of
-from .options import json_option
+from .options import engine_names, json_option, scene_names
 from .output import print_failure, print_json, print_text
 from .process import stopped
 
@@ -22,10 +22,19 @@ if TYPE_CHECKING:
 @click.command()
 @click.argument("models", metavar="MODEL...", nargs=-1, required=True, type=click.Path(path_type=Path))
 @click.option(
-    "--against", metavar="SCENE|FILE", help="What MODEL should be: a scene, a scene's TOML file, or another model file."
+    "--against",
+    metavar="SCENE|FILE",
+    shell_complete=scene_names,
+    help="What MODEL should be: a scene, a scene's TOML file, or another model file.",
 )
 @click.option(
-    "-e", "--engine", "engines", multiple=True, metavar="NAME", help="Ask this engine, and no other; may be repeated."
+    "-e",
+    "--engine",
+    "engines",
+    multiple=True,
+    metavar="NAME",
+    shell_complete=engine_names,
+    help="Ask this engine, and no other; may be repeated.",
 )
 @click.option(
     "--meshes",
