@@ -36,12 +36,14 @@ LONGEST_MESSAGE = 300  # characters of an engine's own message
 @dataclass(frozen=True)
 class Question:
     """``path``: the user's own file, bytes untouched; ``file``: furiko's reading of it; ``meshes``: folders besides its
-    own in which meshes are looked for; ``limits``: whether joints' ranges count."""
+    own in which meshes are looked for; ``limits``: whether joints' ranges count; ``contacts``: whether geoms that touch
+    do, in an engine that otherwise does what the file says."""
 
     path: Path
     file: ModelFile
     meshes: tuple[Path, ...] = ()
     limits: bool = False
+    contacts: bool = False
 
     def read(self, rules: Rules) -> SpatialMechanism:
         """The file, read with these mistakes."""

@@ -148,6 +148,20 @@ def test_in_the_plane_too_a_centre_of_mass_nearly_at_the_origin_is_a_note(tmp_pa
     assert found.mechanism["links"][0]["centre of mass"][0] == -float(z)  # what the file says is what is shown
 
 
+def test_in_the_plane_too_geoms_that_touch_are_what_a_simulation_adds(tmp_path):
+    """Two balls of 0.6 m, 1 m from one another: their bodies are not adjacent, so that MuJoCo lets them collide."""
+    ball = '<geom type="sphere" size="0.6" mass="0"/>'
+    link = f'<joint name="{{}}" axis="0 1 0"/>{INERTIAL}'
+    c = f'<body name="c" pos="0 0 -0.5">{link.format("m")}{ball}</body>'
+    b = f'<body name="b" pos="0 0 -0.5">{link.format("k")}{c}</body>'
+    file = tmp_path / "arm.xml"
+    file.write_text(f'<mujoco><worldbody><body name="a">{link.format("j")}{ball}{b}</body></worldbody></mujoco>')
+    found = diagnose(file)
+    assert (found.verdict, found.findings, found.mechanism is not None) == ("agrees", (), True), found.text()
+    assert [said.cause for said in found.simulation if said.cause != "coarse-time-step"] == ["colliding-geoms"]
+    assert "contacts" in found.without
+
+
 def test_a_damped_planar_arm_that_all_read_alike_agrees(tmp_path):
     found = planar_arm(tmp_path, joint='damping="0.3" frictionloss="0.1" stiffness="2"')
     assert (found.verdict, found.findings) == ("agrees", ()), found.text()
