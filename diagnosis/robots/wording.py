@@ -87,10 +87,8 @@ def _numbers(differences: Sequence[FieldDifference]) -> str:
 
 def _one(difference: FieldDifference) -> str:
     unit = f" {difference.unit}" if difference.unit else ""
-    for digits in DIGITS:
-        found, expected = _shown(difference.found, digits), _shown(difference.expected, digits)
-        if found != expected:
-            break
+    digits = next((n for n in DIGITS if _shown(difference.found, n) != _shown(difference.expected, n)), DIGITS[0])
+    found, expected = _shown(difference.found, digits), _shown(difference.expected, digits)
     return f"{difference.where}: {difference.field} {found}{unit}, the file says {expected}{unit}"
 
 
