@@ -6,9 +6,8 @@ result that is within the proven bound, but further off than a factor times that
 The factors were set by measurement with all six engines over the catalogue's scenes and random mechanisms, mild and
 wide, as ``tests/checks/score_sound.py`` draws them. The largest quotients were 34 for accelerations (articulated bodies
 on a chain with a link a thousand times shorter than the next; 17 elsewhere), 10 for terms, 6 for joint forces, 31 for
-energies and 8 in maximal coordinates. A factor is about twice that where the model is known to lack an operation or the
-sample is small, and less elsewhere: 14,118 results of scenes that were not used to set them had 2 loose, both in
-maximal coordinates, whose model was widened after that.
+energies and 6.4 in maximal coordinates, where 110 mechanisms more than the others' were looked at (13,436 results). A
+factor is about twice that where the model is known to lack an operation or the sample is small, and less elsewhere.
 """
 
 from __future__ import annotations
@@ -34,7 +33,7 @@ JOINT_FORCES = 15.0
 ENERGY = 15.0
 STEPS = 10.0  # angles and rates after steps of an explicit scheme, or the accelerations' where that is more
 ITERATED = 30.0  # the same of an implicit one, whose tolerance comes besides
-MAXIMAL = 5.0  # accelerations and joint forces of engines in maximal coordinates
+MAXIMAL = 8.0  # accelerations and joint forces of engines in maximal coordinates
 
 ENTRIES = 1_000  # states times links that are looked at for accelerations
 SYMMETRIES = 64  # the same for symmetries, each of which has an image
