@@ -107,6 +107,11 @@ def chosen(excess: Array, most: int) -> NDArray[np.intp]:
     return np.union1d(bad, even)
 
 
+def is_known(info: EngineInfo) -> bool:
+    """Whether the usual rounding of an engine's algorithm is known, and not its worst alone."""
+    return info.algorithm != "other"
+
+
 def for_accelerations(info: EngineInfo) -> float:
     """The factor for accelerations of this engine."""
     if info.coordinates == "maximal":
@@ -121,6 +126,8 @@ def for_steps(info: EngineInfo, integrator: Integrator) -> float:
 
 def states_for_accelerations(info: EngineInfo, n: int) -> int:
     """How many states a cell can afford, about a quarter of a second's work; 0: none."""
+    if not is_known(info):
+        return 0
     if info.coordinates != "maximal":
         return max(4, ENTRIES // n)
     return min(FEW, spread_states(n, info.ordering))
@@ -133,19 +140,21 @@ def steps_together(integrator: Integrator, n: int) -> int:
 
 def states_for_symmetries(info: EngineInfo, n: int) -> int:
     """How many states a cell can afford in which each image of the mechanism is looked at; 0: none."""
+    if not is_known(info):
+        return 0
     if info.coordinates == "maximal":
         return min(2, spread_states(n, info.ordering) // 4)
     return min(2, SYMMETRIES // n)
 
 
-def states_for_energy(n: int) -> int:
+def states_for_energy(info: EngineInfo, n: int) -> int:
     """The same for energies."""
-    return max(4, ENTRIES // n)
+    return max(4, ENTRIES // n) if is_known(info) else 0
 
 
-def states_for_terms(n: int) -> int:
+def states_for_terms(info: EngineInfo, n: int) -> int:
     """The same for the terms of the equations of motion."""
-    return max(2, COLUMNS // n, min(8, 3 * COLUMNS // n)) if n <= LONGEST else 0
+    return max(2, COLUMNS // n, min(8, 3 * COLUMNS // n)) if n <= LONGEST and is_known(info) else 0
 
 
 def verdict(agrees: bool, sharp: Line | None, reason: str) -> dict[str, Any]:
