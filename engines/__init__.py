@@ -19,6 +19,7 @@ from .registry import (
     engine_version,
     load_engine,
     load_tree_engine,
+    plugin_names,
     untested,
 )
 
@@ -58,6 +59,7 @@ __all__ = [
     "engine_version",
     "load_engine",
     "load_tree_engine",
+    "plugin_names",
     "untested",
 ]
 

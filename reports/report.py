@@ -307,10 +307,15 @@ class Report:
         return next((engine for engine in self.header.engines if engine.name == name), None)
 
     def again(self, scene: str) -> str:
-        """The command line that runs this scene again."""
+        """The command line that runs this scene again, on all engines, and keeps nothing of an earlier run."""
         entry = self.scene(scene)
         words = ["furiko", "check", (entry.source if entry else "") or scene]
-        return shlex.join([*words, "--profile", self.header.profile])
+        return shlex.join([*words, "--profile", self.header.profile, "--no-cache"])
+
+    @staticmethod
+    def engine_option(engine: str) -> str:
+        """What to write behind :meth:`again` for one engine alone."""
+        return shlex.join(["-e", engine])
 
     @cached_property
     def _miscounted(self) -> tuple[tuple[str, int, int], ...]:

@@ -44,6 +44,36 @@ def test_the_howto_does_what_it_says(tmp_path, monkeypatch):
     assert len(list(Path("results/students").iterdir())) == 3
 
 
+def test_the_tutorial_adapter_conforms_as_shown(tmp_path, monkeypatch):
+    pytest.importorskip("mujoco")
+    monkeypatch.chdir(tmp_path)
+    blocks = dict(BLOCK.findall((HOWTO / "add-an-engine.md").read_text(encoding="utf-8")))
+    code = blocks["python"]
+    assert len(code.splitlines()) < 40
+    Path("my_engine.py").write_text(code, encoding="utf-8")
+    command, *expected = blocks["console"].splitlines()
+    assert ran(command) == [without_digits(line) for line in expected]
+    Path("my_engine.py").write_text(code.replace("self.coordinates.absolute(found)", "found"), encoding="utf-8")
+    text = (HOWTO / "add-an-engine.md").read_text(encoding="utf-8")
+    wrong = ran(command)[7:9]
+    assert all(line in without_digits(text) for line in wrong), wrong
+    assert "relative values are used as absolute ones" in wrong[0]
+
+
+def ran(command):
+    words = command.removeprefix("$ furiko ").split()
+    done = subprocess.run(
+        [sys.executable, "-m", "furiko", *words], capture_output=True, text=True, encoding="utf-8", check=False
+    )
+    assert done.stderr == ""
+    return [without_digits(line.rstrip()) for line in done.stdout.splitlines()]
+
+
+def without_digits(text):
+    """Rounding depends on the engine's build: its size is not compared."""
+    return re.sub(r"off by [0-9.e-]+", "off by …", text)
+
+
 def test_the_howto_of_own_equations_ends_as_it_says(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     text = (HOWTO / "my-equations-my-robot.md").read_text(encoding="utf-8")

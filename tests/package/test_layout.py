@@ -50,7 +50,7 @@ ROOMS = {
     ),
     "checks": (
         {"models", "records", "reference", "engines", "diagnosis", "derivations"},
-        [(".",), ("comparisons",), ("trees",)],
+        [(".",), ("comparisons",), ("trees",), ("conformance",)],
     ),
     "studies": (
         {"models", "records", "reference", "engines", "diagnosis", "checks"},
@@ -62,15 +62,19 @@ ROOMS = {
             (".",),
             ("algebra",),
             ("steps",),
+            ("reading.submission",),
+            ("reading.forms",),
             ("reading",),
             ("mistakes",),
+            ("grading.differences", "grading.grade_record", "grading.hypotheses", "grading.judge"),
+            ("grading.forms",),
             ("grading",),
             ("robot",),
             ("audit", "lesson", "classroom"),
         ],
     ),
     "reports": ({"models", "records"}, [(".",), ("pages", "terminal")]),
-    "furiko": ({"*"}, [(".",), ("cli",)]),
+    "furiko": ({"*"}, [(".",), ("ci", "cli")]),
 }
 # Where a file of a room must import from a folder above it: what the room's front door (its __init__) names, and
 # renderings that are loaded when they are asked for.
