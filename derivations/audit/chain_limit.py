@@ -35,9 +35,9 @@ def limit() -> Question:
         "The hanging chain: its small swings converge to Bernoulli's, ω_k = (j₀,k/2) √(g/L), with errors that fall as "
         "1/n². Large motions converge, too, as measured, for as long as they are smooth.",
         "In the joints' displacements the linearised (18) is two tridiagonal matrices, of kinetic and potential "
-        "energy; for l → 0 they are the finite elements of (T y′)′ = ρ ÿ with the tension T = ρ g (L − s), whose solutions are "
-        "Bessel's J₀. That (22) is not explicit is no obstacle: the accelerations of n rods cost O(n) operations, by "
-        "recursion from link to link.",
+        "energy; for l → 0 they are the finite elements of (T y′)′ = ρ ÿ with the tension T = ρ g (L − s), whose "
+        "solutions are Bessel's J₀. That (22) is not explicit is no obstacle: the accelerations of n rods cost O(n)"
+        " operations, by recursion from link to link.",
         {"relative error of the rates of the slowest swings": rows} if rows else {},
     )
 
@@ -61,10 +61,10 @@ def tip() -> Question:
         "It is physics, not numerics: the chain cracks like a whip. Until then the tip converges as n grows; at the "
         "crack the curve has a kink at its free end, where the tension vanishes.",
         "Every n starts from rest in one curve, 1 m long. Before the crack the tips of n and of 2n rods come "
-        "together; at the crack, at nearly the same time for all n, the rate of the last rod more than doubles whenever n does, "
-        "while the speed of the tip gains little more than 1 m/s: what turns is ever shorter. An integrator needs "
-        "steps that fall with n, because finer chains resolve more of the kink; with them it keeps the energy. A scheme "
-        "without error control breaks there, and that looks like a fault of the equations.",
+        "together; at the crack, at nearly the same time for all n, the rate of the last rod more than doubles "
+        "whenever n does, while the speed of the tip gains little more than 1 m/s: what turns is ever shorter. An "
+        "integrator needs steps that fall with n, because finer chains resolve more of the kink; with them it keeps"
+        " the energy. A scheme without error control breaks there, and that looks like a fault of the equations.",
         {"from rest in one bow": rows},
     )
 

@@ -12,7 +12,7 @@ from .options import json_option
 from .output import print_json, print_text
 
 if TYPE_CHECKING:
-    from ..derivations.audit.prose import Prose
+    from ..derivations.audit.prose import Language, Prose
 
 
 @click.command()
@@ -37,7 +37,7 @@ def audit(file: Path | None, out: Path | None, lang: str, japanese: bool, stress
     """
     from ..derivations.audit.prose import of_documents, of_file
 
-    language = "ja" if japanese or lang == "ja" else "en"
+    language: Language = "ja" if japanese or lang == "ja" else "en"
     if file is not None:
         if stress is not None:
             raise click.UsageError("--stress goes with the documents, not with a FILE")
