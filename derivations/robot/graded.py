@@ -13,7 +13,7 @@ from ..grading.grade import graded
 from ..reading.submission import Submission
 from ..steps.conventions import Convention
 from ..steps.declared import Along, Declared, Joined
-from ..steps.mechanism import QUARTERS
+from ..steps.mechanism import QUARTERS, Origin
 from .plane import PARALLEL, Plane
 from .quantities import Quantity
 from .reading import RobotDerivation
@@ -143,5 +143,5 @@ def _convention(d: RobotDerivation, plane: Plane) -> Convention | None:
         return None
     # The grader measures the first angle from there in its own sense, positive as the hinge turns.
     quarter = next(iter(quarters), 0)
-    origin = next(name for name, q in QUARTERS.items() if q == quarter)
+    origin: Origin = next(name for name, q in QUARTERS.items() if q == quarter)
     return Convention(True, origin, tuple(body.sense for body in plane.bodies))
