@@ -73,7 +73,7 @@ class _Mechanics:
 
     def accelerations(self, theta: Array, omega: Array) -> Array:
         mass, forcing = self._mass_and_forcing(theta, omega, self._gravity)
-        return np.asarray(np.linalg.solve(mass, forcing[..., None])[..., 0])
+        return np.asarray(np.linalg.solve(mass, forcing[..., None])[..., 0], dtype=np.float64)
 
     def inverse_dynamics(self, theta: Array, omega: Array, alpha: Array, *, gravity: bool = True) -> Array:
         mass, forcing = self._mass_and_forcing(theta, omega, self._gravity if gravity else 0.0)

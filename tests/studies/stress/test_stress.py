@@ -115,12 +115,12 @@ def test_results_do_not_depend_on_workers_or_order():
 
 
 def test_a_resumed_run_asks_for_nothing_twice(tmp_path):
-    first = stress(["long-rods"], ["mujoco", "kernels"], budget=60, out=tmp_path)
+    first = stress(["long-rods"], ["mujoco", "document"], budget=60, out=tmp_path)
     begun = (tmp_path / STREAM).read_bytes()
-    again = stress(["long-rods"], ["mujoco", "kernels"], budget=60, out=tmp_path)
+    again = stress(["long-rods"], ["mujoco", "document"], budget=60, out=tmp_path)
     assert again == first
     assert read_stream(tmp_path / STREAM).results == read_stream_bytes(tmp_path, begun).results
-    more = stress(["long-rods", "short-rods"], ["mujoco", "kernels"], budget=60, out=tmp_path)
+    more = stress(["long-rods", "short-rods"], ["mujoco", "document"], budget=60, out=tmp_path)
     names = [key(result) for result in read_stream(tmp_path / STREAM).results]
     assert len(names) == len(set(names)) == more.cases > first.cases
 
