@@ -17,6 +17,7 @@ from ..steps.families import family
 from .differences import row_differences
 from .forms.hamilton import scale_note
 from .forms.stages import StageJudge, none_wrong
+from .forms.units import units_notes
 from .grade_record import Grade, StageMark, Verdict
 from .hypotheses import Hypothesis, Said, hypotheses, merged
 from .judge import Judgement, judge
@@ -83,11 +84,11 @@ def _staged(read: Callable[[int], Submission], first: Submission, *, pinned: boo
     found = StageJudge(first, h)
     marks = found.marks()
     findings = tuple(term for mark in marks for term in mark.findings)
-    note = found.frame_note
+    notes = [*units_notes(first), *([found.frame_note] if found.frame_note else [])]
     return Grade(
         verdict="wrong", findings=findings, mistakes=named_in_stages(first, h, found, marks), system=first.kind,
         links=first.space.n, reading=readback(first, h), stages=marks,
-        notes=(note[0],) if note else (), notes_ja=(note[1],) if note else (),
+        notes=tuple(en for en, _ in notes), notes_ja=tuple(ja for _, ja in notes),
     ), first  # fmt: skip
 
 

@@ -65,9 +65,9 @@ class Judge:
         given = self.given(h)
         if self.s.lagrangian is None:
             return compare(given, h.mechanism.system)
-        given = self.s.mechanism.given if self.s.mechanism else ()
+        moved = self.s.mechanism.given if self.s.mechanism else ()
         rows, free, forced = (
-            [row for k, row in enumerate(x) if k not in given]
+            [row for k, row in enumerate(x) if k not in moved]
             for x in (_given_rows(self, h), h.mechanism.free_rows, h.mechanism.rows)
         )
         # T - U has no forces; those that have a potential, as a constant drive F has -F x, may be in U as well

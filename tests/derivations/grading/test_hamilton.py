@@ -109,7 +109,6 @@ def test_momenta_of_another_scale_are_said():
         (ONE + 'hamiltonian = "p - m g l cos(t1)"', "do not say what each momentum is"),
         (ONE + '[equations]\n1 = "dp/dt = -m g l sin(t1)"', "where 1 and 1 are needed"),
         (MOMENTA.replace('p2 = "m2', '# "'), "1 for the rates or momenta and 2 for the derivatives"),
-        (ONE_H + '\n[momenta]\np = "m l^2 w1"', "leave them out"),
         ('system = "mechanism"\n[[bodies]]\ncoordinate = "x"\njoint = "slide"\nmass = "p"\n'
          '[momenta]\np = "p x\'"\n[equations]\n1 = "dp/dt = 0"', "give the quantity another letter"),
     ],
