@@ -9,6 +9,8 @@ from typing import Any, Literal
 
 import msgspec
 
+from .errors import Error
+
 # --- grade
 
 
@@ -236,3 +238,18 @@ class DiagnoseDocument(msgspec.Struct, frozen=True, kw_only=True):
     mechanism: MechanismEntry | None  # None: not a planar tree of hinges
     spatial: SpatialEntry
     notes: list[str]
+
+
+class DiagnosedModel(msgspec.Struct, frozen=True, kw_only=True):
+    """One file of several: what was found, or why there is no answer."""
+
+    model: str
+    status: int  # the exit status of ``furiko diagnose`` with this file alone
+    diagnosis: DiagnoseDocument | None
+    error: Error | None
+
+
+class DiagnosedModels(msgspec.Struct, frozen=True, kw_only=True):
+    """The document of ``furiko diagnose --json`` with several files, in the order in which they were given."""
+
+    models: list[DiagnosedModel]

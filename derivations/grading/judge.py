@@ -65,7 +65,7 @@ class Judge:
         given = self.given(h)
         if self.s.lagrangian is None:
             return compare(given, h.mechanism.system)
-        moved = self.s.mechanism.given if self.s.mechanism else ()
+        moved = self.s.mechanism.given if self.s.mechanism else ()  # as given: it has no row
         rows, free, forced = (
             [row for k, row in enumerate(x) if k not in moved]
             for x in (_given_rows(self, h), h.mechanism.free_rows, h.mechanism.rows)

@@ -8,13 +8,13 @@ from pathlib import Path
 import click
 
 from ..records.exit_status import AGREES, DIFFERS, INCOMPLETE
-from .options import engine_option, json_option, report_folder_option
+from .options import engine_option, json_option, report_folder_option, scene_names
 from .output import print_failure, print_json
 from .progress import status_line
 
 
 @click.command()
-@click.argument("scenes", nargs=-1, metavar="[SCENE|FILE.toml]...")
+@click.argument("scenes", nargs=-1, metavar="[SCENE|FILE.toml]...", shell_complete=scene_names)
 @engine_option
 @report_folder_option
 @click.option(

@@ -8,15 +8,22 @@ from pathlib import Path
 import click
 
 from ..records.exit_status import DIFFERS, INCOMPLETE
-from .options import engine_option, jobs_option, json_option, report_folder_option
+from .options import engine_option, jobs_option, json_option, report_folder_option, scene_names, words
 from .output import print_failure, print_json, print_text
 from .progress import check_progress
 
 
 @click.command()
-@click.argument("scenes", nargs=-1, metavar="[SCENE|FILE.toml]...")
+@click.argument("scenes", nargs=-1, metavar="[SCENE|FILE.toml]...", shell_complete=scene_names)
 @engine_option
-@click.option("--profile", default="quick", show_default=True, metavar="smoke|quick|full", help="How much is checked.")
+@click.option(
+    "--profile",
+    default="quick",
+    show_default=True,
+    metavar="smoke|quick|full",
+    shell_complete=words("smoke", "quick", "full"),
+    help="How much is checked.",
+)
 @report_folder_option
 @click.option("--baseline", type=click.Path(path_type=Path), help="Compare with this earlier report.jsonl.")
 @click.option("--known", type=click.Path(path_type=Path), help="A TOML file of known differences, which do not fail.")
@@ -101,6 +108,7 @@ def check(
                 footer=report.footer,
                 diagnoses=list(report.diagnoses),
                 known=list(accounted.differences),
+                alone=list(report.alone),
             )
         )
     else:

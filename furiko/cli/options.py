@@ -4,18 +4,45 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import TypeVar
 
 import click
+from click.shell_completion import CompletionItem
 
 REPORT_FOLDER = Path("furiko-report")
 
 
-def _found_here(_context: click.Context, _parameter: click.Parameter, names: tuple[str, ...]) -> tuple[str, ...]:
+Names = TypeVar("Names", str, tuple[str, ...])
+
+
+def found_here(_context: click.Context, _parameter: click.Parameter, names: Names) -> Names:
     """The names; for an adapter from elsewhere the current folder is on Python's path, after all else."""
-    if any(":" in name for name in names) and os.getcwd() not in sys.path:
+    each = (names,) if isinstance(names, str) else names
+    if any(":" in name or name.endswith(".py") for name in each) and os.getcwd() not in sys.path:
         sys.path.append(os.getcwd())
     return names
+
+
+def scene_names(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """What a shell offers for a scene: names of the catalogue, and files. Nothing is imported that takes time."""
+    names = sorted(path.stem for path in (Path(__file__).parent.parent / "models" / "catalogue").rglob("*.toml"))
+    offered = [CompletionItem(name) for name in names if name.startswith(incomplete)]
+    return offered or [CompletionItem(incomplete, type="file")]
+
+
+def engine_names(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """What a shell offers for an engine."""
+    from ..engines import engine_names as known
+    from ..engines import plugin_names
+
+    return [CompletionItem(name) for name in [*known(), *plugin_names()] if name.startswith(incomplete)]
+
+
+def words(*known: str) -> Callable[..., list[CompletionItem]]:
+    """What a shell offers where one of a few words is needed."""
+    return lambda _context, _parameter, incomplete: [CompletionItem(w) for w in known if w.startswith(incomplete)]
 
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON document and nothing else.")
@@ -24,10 +51,11 @@ engine_option = click.option(
     "-e",
     "engines",
     multiple=True,
-    metavar="NAME|module:Class",
-    callback=_found_here,
-    help="Run only this engine, or a class of your own, looked for in the current folder too "
-    "(an example is in furiko.engines.protocol); may be repeated.",
+    metavar="NAME|FILE.py|module:Class",
+    callback=found_here,
+    shell_complete=engine_names,
+    help="Run only this engine, or an adapter of your own: a file, or a class in a module, looked for in the current "
+    "folder too (an example is in furiko.engines.protocol); may be repeated.",
 )
 report_folder_option = click.option(
     "--out",

@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from ..records.exit_status import AGREES, DIFFERS, INCOMPLETE
-from .options import jobs_option, json_option
+from .options import engine_names, jobs_option, json_option
 from .output import print_failure, print_json
 from .progress import stress_progress
 
@@ -15,7 +15,13 @@ from .progress import stress_progress
 @click.command()
 @click.option("--axis", "-a", "axes", multiple=True, metavar="NAME", help="Only this axis; 'A x B' for two together.")
 @click.option(
-    "--engine", "-e", "engines", multiple=True, metavar="NAME", help="Only this engine, or 'document' or 'kernels'."
+    "--engine",
+    "-e",
+    "engines",
+    multiple=True,
+    metavar="NAME",
+    shell_complete=engine_names,
+    help="Only this engine, or 'document' or 'kernels'.",
 )
 @click.option(
     "--budget", type=click.FloatRange(1.0), default=60.0, show_default=True, help="Time for the whole run [s]."

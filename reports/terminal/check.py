@@ -1,4 +1,4 @@
-"""The end of a check in the terminal: the table of scenes and engines, skips, failures, causes, last the verdict."""
+"""The end of a check in the terminal: verdict, causes, failures, then the table of scenes and engines, and skips."""
 
 from __future__ import annotations
 
@@ -26,6 +26,7 @@ STYLES: dict[Word, str] = {
     "error": "bold magenta",
 }
 MOST_LISTED = 20
+SCREEN = 20  # lines of table and reasons above which the verdict, at the top, is out of sight
 LONGEST_SCENE = 32  # characters of a scene's name that the table shows
 GAP = 2  # columns of the terminal between two of the table
 
@@ -33,32 +34,43 @@ GAP = 2  # columns of the terminal between two of the table
 def print_report(
     report: Report, path: str | Path | None = None, file: TextIO | None = None, width: int | None = None
 ) -> None:
-    """Print the table, skips, failures, loose results, causes of differences, the verdict and the report's path.
+    """Print the verdict, causes of differences, failures, loose results, the table, skips, and the report's path.
 
-    ``file`` is standard output unless given; ``width`` [columns] that of the terminal, or 120 in a pipe.
+    The verdict is repeated at the end where the rest is longer than a screen. ``file`` is standard output unless given;
+    ``width`` [columns] that of the terminal, or 120 in a pipe.
     """
     console = PlainConsole(file or sys.stdout, width)
-    _print_table(report, console)
-    _print_reasons(report, "skipped", "Skipped", console)
-    _print_reasons(report, "error", "Failed", console)
-    _print_loose(report, console)
+    _print_verdict(report, console)
     _print_causes(report, console)
     _print_unexplained(report, console)
     for sentence in report.outliers:
         console.line(sentence)
+    _print_reasons(report, "error", "Failed", console)
+    _print_loose(report, console)
+    console.line()
+    _print_table(report, console)
+    for scene in report.header.scenes:
+        if scene.own:
+            console.line(one_line(f"\n{scene.name}: your equations: {'; '.join(scene.own)}", 2000))
+    _print_reasons(report, "skipped", "Skipped", console)
     console.line()
     for sentence in dict.fromkeys(engine.untested for engine in report.header.engines if engine.untested):
         console.line(one_line(sentence))
-    for flaw in report.flaws:
-        console.line(flaw, "bold reverse")
-    style = {AGREES: STYLES["agrees"], DIFFERS: STYLES["differs"]}.get(report.exit_status, STYLES["error"])
-    console.line(report.verdict, f"bold {style}")
     if report.kept:
         console.line(
             f"{count(report.kept, 'result')} kept from an earlier run with the same inputs; --no-cache runs all."
         )
+    if len(report.scenes) + len(report.reasons("skipped")) > SCREEN:
+        _print_verdict(report, console)
     if path is not None:
         console.line(one_line(f"Report: {path}"))
+
+
+def _print_verdict(report: Report, console: PlainConsole) -> None:
+    for flaw in report.flaws:
+        console.line(flaw, "bold reverse")
+    style = {AGREES: STYLES["agrees"], DIFFERS: STYLES["differs"]}.get(report.exit_status, STYLES["error"])
+    console.line(report.verdict, f"bold {style}")
 
 
 def _print_table(report: Report, console: PlainConsole) -> None:

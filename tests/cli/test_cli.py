@@ -185,6 +185,31 @@ def test_export_writes_what_the_library_writes(tmp_path):
     run("export", "rods-2-equal", "--urdf", "-o", "model.urdf", cwd=tmp_path)
     assert (tmp_path / "model.urdf").read_text() == furiko.to_urdf(system)
     assert run("export", "rods-2-equal", "--urdf", "-o", "/dev/stdout", cwd=tmp_path).stdout == furiko.to_urdf(system)
+    done = run("export", "rods-2-equal", "--mjcf", "--urdf", "-o", "both", cwd=tmp_path)
+    assert done.stdout.split() == ["both/rods-2-equal.xml", "both/rods-2-equal.urdf"]
+    assert (tmp_path / "both" / "rods-2-equal.xml").read_text() == furiko.to_mjcf(system)
+    assert (tmp_path / "both" / "rods-2-equal.urdf").read_text() == furiko.to_urdf(system)
+
+
+@pytest.mark.parametrize(
+    ("typed", "offered"),
+    [
+        ("furiko di", ["plain,diagnose", "plain,diff"]),
+        ("furiko check rods-5-", ["plain,rods-5-chaotic", "plain,rods-5-equal", "plain,rods-5-no-gravity"]),
+        ("furiko export hop", ["plain,hopper"]),
+        ("furiko check my/sc", ["file,my/sc"]),  # no scene: the shell completes files itself
+        ("furiko diff ru", ["file,ru"]),
+        ("furiko check -e exu", ["plain,exudyn-tree", "plain,exudyn-redundant"]),
+        ("furiko check --profile sm", ["plain,smoke"]),
+    ],
+)
+def test_a_shell_completes_commands_scenes_engines_and_files(tmp_path, typed, offered):
+    shell = {"_FURIKO_COMPLETE": "bash_complete", "COMP_WORDS": typed, "COMP_CWORD": str(len(typed.split()) - 1)}
+    done = subprocess.run(
+        [sys.executable, "-c", "from furiko.cli import main; main()"],
+        capture_output=True, text=True, cwd=tmp_path, env=ENVIRONMENT | shell, check=False,
+    )  # fmt: skip
+    assert done.stdout.splitlines() == offered, done
 
 
 def test_a_baseline_shows_what_got_worse(tmp_path):

@@ -15,7 +15,7 @@ ROOMS = {
             ("errors",),
             ("readers.bounded_file",),
             ("readers.toml_text", "readers.toml_fields", "writers.whole_file"),
-            ("trees.scene", "trees.system"),
+            ("trees.scene", "trees.own", "trees.system"),
             (".",),
             (
                 "readers.xml_file",
@@ -48,7 +48,10 @@ ROOMS = {
         {"models", "records", "reference", "engines"},
         [("finding", "explanation", "measurement", "question"), ("fits",), (".",), ("model_files",)],
     ),
-    "checks": ({"models", "records", "reference", "engines", "diagnosis"}, [(".",), ("comparisons",), ("trees",)]),
+    "checks": (
+        {"models", "records", "reference", "engines", "diagnosis", "derivations"},
+        [(".",), ("comparisons",), ("trees",), ("conformance",)],
+    ),
     "studies": (
         {"models", "records", "reference", "engines", "diagnosis", "checks"},
         [(".",), ("bench", "stress")],
@@ -66,11 +69,12 @@ ROOMS = {
             ("grading.differences", "grading.grade_record", "grading.hypotheses", "grading.judge"),
             ("grading.forms",),
             ("grading",),
+            ("robot",),
             ("audit", "lesson", "classroom"),
         ],
     ),
     "reports": ({"models", "records"}, [(".",), ("pages", "terminal")]),
-    "furiko": ({"*"}, [(".",), ("cli",)]),
+    "furiko": ({"*"}, [(".",), ("ci", "cli")]),
 }
 # Where a file of a room must import from a folder above it: what the room's front door (its __init__) names, and
 # renderings that are loaded when they are asked for.

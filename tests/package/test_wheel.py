@@ -10,7 +10,11 @@ import pytest
 
 ROOT = Path(__file__).parent.parent.parent
 LEFT_OUT = ("models/files",)  # written from the catalogue: for people and engines, not for the package
-DATA = {".toml", ".json", ".j2", ".css", ".html", ".typed"}  # what the code reads at run time
+ALONE = (
+    "CHANGELOG.md", "CONTRIBUTING.md", "CITATION.cff", "CODE_OF_CONDUCT.md", "SECURITY.md",
+    "action.yml", ".pre-commit-hooks.yaml", "Containerfile", ".containerignore",
+)  # fmt: skip
+DATA = {".toml", ".json", ".j2", ".css", ".js", ".html", ".yml", ".typed"}  # what the code reads at run time
 
 
 def links():
@@ -27,9 +31,9 @@ def source(tmp_path):
         shutil.copytree(ROOT / name, copy / name, symlinks=True, ignore=shutil.ignore_patterns("__pycache__"))
     for name in ("pyproject.toml", "README.md", "LICENSE", "MANIFEST.in", "Makefile", "constraints.txt"):
         shutil.copy(ROOT / name, copy / name)
-    for name in ("CHANGELOG.md", "CONTRIBUTING.md"):
+    for name in ALONE:
         shutil.copy(ROOT / name, copy / name)
-    for name in ("tests", "docs", "benchmarks", ".ci"):
+    for name in ("tests", "docs", "benchmarks", ".ci", ".github"):
         shutil.copytree(ROOT / name, copy / name, ignore=shutil.ignore_patterns("__pycache__"))
     return copy
 
@@ -43,11 +47,11 @@ def test_wheel_sdist_and_checkout_hold_the_same_files(source, tmp_path):
     through_archive = build(unpacked, tmp_path / "through", "--wheel")
     assert direct == set(expected())
     assert through_archive == direct
-    for name in ("tests", "docs", "benchmarks"):
+    for name in ("tests", "docs", "benchmarks", ".github"):
         there = {path.relative_to(ROOT / name) for path in (ROOT / name).rglob("*") if path.is_file()}
         there = {path for path in there if "__pycache__" not in path.parts and ".asv" not in path.parts}
         assert there <= {path.relative_to(unpacked / name) for path in (unpacked / name).rglob("*")}
-    for name in ("CHANGELOG.md", "CONTRIBUTING.md", "Makefile", "constraints.txt", ".ci/run"):
+    for name in (*ALONE, "Makefile", "constraints.txt", ".ci/run"):
         assert (unpacked / name).is_file()
 
 
@@ -57,7 +61,10 @@ def build(source, out, *kinds):
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     (wheel,) = out.glob("furiko-*.whl")
-    return {name for name in zipfile.ZipFile(wheel).namelist() if ".dist-info/" not in name}
+    names = zipfile.ZipFile(wheel).namelist()
+    scripts = [name for name in names if ".data/" in name]
+    assert [Path(name).name for name in scripts] == ["furiko-ci"]
+    return {name for name in names if ".dist-info/" not in name and name not in scripts}
 
 
 def expected():

@@ -18,6 +18,7 @@ def printed(report, width=None, encoding="utf-8", path=None) -> str:
 
 def table_of(text: str) -> list[str]:
     """The lines of the table, its legend left out."""
+    text = text[re.search("^scene ", text, re.MULTILINE).start() :]
     return text.split("\nε:", maxsplit=1)[0].split("\n✓ agrees   ", maxsplit=1)[0].splitlines()
 
 
@@ -113,18 +114,25 @@ def test_kept_results_are_told(make):
     assert "kept" not in printed(make.report(make.result()))
 
 
-def test_the_verdict_comes_last_and_causes_right_above_it(make):
+def test_the_verdict_comes_first_then_causes_then_the_table(make):
     report = make.report(
         make.result("differs", cause="mass", reason="the mass is wrong"),
         make.result("loose", check="energy", reason="more than rounding"),
         make.result("skipped", check="a", reason="it cannot"),
         make.result("error", check="b", reason="it failed"),
     )
-    text = printed(report)
-    order = ["Skipped", "Failed", "Loose", "Causes", "1 of 2 comparisons differs; 1 failed; 1 is loose; 1 skipped"]
-    places = [text.index(f"\n{title}") for title in order]
+    text = printed(report, path="report.html")
+    verdict = "1 of 2 comparisons differs; 1 failed; 1 is loose; 1 skipped"
+    assert text.startswith(verdict)
+    places = [text.index(f"\n{title}") for title in ("Causes", "Failed", "Loose", "scene ", "Skipped", "Report: ")]
     assert places == sorted(places)
-    assert len(text[places[-1] :].splitlines()) == 2
+    assert text.count(verdict) == 1
+
+
+def test_where_the_verdict_has_scrolled_away_it_is_said_again(make):
+    many = make.report(*(make.result(scene=f"rods-{n}") for n in range(2, 33)))
+    lines = printed(many, path="report.html").splitlines()
+    assert lines[0] == lines[-2] == "All 31 comparisons agree."
 
 
 def test_loose_results_have_their_own_mark_and_say_measured_line_and_why(make):
