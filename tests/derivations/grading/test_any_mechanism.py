@@ -4,6 +4,7 @@ import pytest
 from declared_mechanisms import RIGHT
 from planted_campaign import campaign
 
+from furiko import InvalidInput
 from furiko.derivations.classroom.in_python import grade_text
 
 DAMPED = "springs and dampers between absolute angles"
@@ -49,6 +50,21 @@ def test_a_mistake_is_named_as_it_was_made(name, changes, cause):
 )  # fmt: skip
 def test_units_are_looked_at_first(text, says):
     assert says in grade_text(text).notes[0]
+
+
+@pytest.mark.parametrize("factor", ["57.3", "0.0174533", "(180/3.14159)"])
+def test_degrees_are_named(factor):
+    found = grade_text(f'system = "point-masses"\nlinks = 1\n[equations]\n1 = "l*a1 + {factor}*g*sin(t1) = 0"')
+    assert [finding.cause for finding in found.findings] == ["degrees"]
+
+
+@pytest.mark.parametrize(
+    ("term", "says"),
+    [("g*sin(t1*pi/180)", "radians"), ("m*g*sgn(w1)", "dry friction"), ("\\operatorname{sgn}(w1)", "drive =")],
+)
+def test_what_is_not_read_says_what_to_write(term, says):
+    with pytest.raises(InvalidInput, match=says):
+        grade_text(f'system = "point-masses"\nlinks = 1\n[equations]\n1 = "l*a1 + {term} = 0"')
 
 
 def test_units_are_not_judged_where_lengths_may_be_one():
