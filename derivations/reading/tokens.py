@@ -282,8 +282,11 @@ class _Tokenizer:
     def word(self, at: int) -> tuple[Token, int]:
         line, names = self.line, self.names
         if SIGN.match(line, at) and not names & {"sgn", "sign"}:
-            fail(at, 'the sign of a rate, as of dry friction, is not read; give the friction a name where the mechanism is '
-                 'declared, as in drive = "F", and write F')  # fmt: skip
+            fail(
+                at,
+                "the sign of a rate, as of dry friction, is not read; give the friction a name where the mechanism is "
+                'declared, as in drive = "F", and write F',
+            )
         name = NAME.match(line, at)
         if name and name[0] in names and name[0] not in self.apart:
             return Token("name", name[0], at), name.end()

@@ -64,7 +64,7 @@ def test_degrees_are_named(factor):
 )
 def test_what_is_not_read_says_what_to_write(term, says):
     with pytest.raises(InvalidInput, match=says):
-        grade_text(f'system = "point-masses"\nlinks = 1\n[equations]\n1 = "l*a1 + {term} = 0"')
+        grade_text(f"system = 'point-masses'\nlinks = 1\n[equations]\n1 = 'l*a1 + {term} = 0'")
 
 
 def test_units_are_not_judged_where_lengths_may_be_one():
