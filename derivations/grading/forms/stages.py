@@ -15,9 +15,11 @@ from typing import Any, Literal
 from ...algebra.equivalence import System, compare
 from ...algebra.fingerprint import point_of
 from ...algebra.multiples import is_multiple
+from ...algebra.quotient import Budget
 from ...algebra.trig import CONSTANT_ONE, HALF, Formula
 from ...reading.submission import Submission
 from ...steps.derivation import add, lagrange_rows
+from ...steps.first_order import WORK, FirstOrder, Momenta, substituted, without_momenta
 from ...steps.stages import Component, StageName, Stages
 from ..differences import Scaled, differences_from, lagrangian_scalings, term_finding, terms, without_constants
 from ..grade_record import StageMark, WrongTerm
@@ -193,7 +195,7 @@ class StageJudge:
             case "hamiltonian":
                 return self._hamiltonian(said)
             case "equations":
-                return self._rates() + self._rows(self.stages.equations, self.rows(said))
+                return self._equations(said)
             case "solved":
                 return self._rows(self.stages.solved, list(said.equations) or self.rows(said))
 
@@ -255,13 +257,30 @@ class StageJudge:
             return self._lagrangian("hamiltonian", self.stages.hamiltonian, said)
         return [_whole("hamiltonian", "", "it does not belong to the Lagrangian", "ラグランジアンに対応していません")]
 
-    def _rates(self) -> list[WrongTerm]:
+    def _equations(self, said: Said) -> list[WrongTerm]:
+        """Equations of motion; with momenta, these as they were stated, or as the Lagrangian has them."""
+        expected, written = self.rows(said), self.stages.written
+        if written is None:
+            return self._rows(self.stages.equations, expected)
+        right = [self.space.by_rate(self.lagrangian(said), k) for k in range(self.space.n)]
+        found: list[WrongTerm] = []
+        for momenta in (written.momenta, Momenta(tuple(right), CONSTANT_ONE)):
+            budget = Budget(WORK)
+            slopes = [f for _, f in written.slopes]
+            rows = without_momenta(self.space, written.at, slopes, momenta, budget)
+            labels = [label for label, _ in written.slopes]
+            found = self._rates(written, momenta) + self._rows(tuple(zip(labels, rows, strict=True)), expected)
+            if not found:
+                return []
+        return found
+
+    def _rates(self, written: FirstOrder, momenta: Momenta) -> list[WrongTerm]:
+        values = dict(zip(written.at.momenta, momenta.above, strict=True))
+        weights = dict.fromkeys(values, 1)
         return [
-            _whole(
-                "equations", label, "with the momenta put in, its sides differ", "運動量を代入すると両辺が一致しません"
-            )
-            for label, f in self.stages.rates
-            if f
+            _whole("equations", label, "with the momenta put in, its sides differ", "運動量を代入しても一致しません")
+            for label, f in written.relations
+            if substituted(self.space, f, values, weights, momenta.below, Budget(WORK))
         ]
 
     def _rows(self, given: Sequence[tuple[str, Formula]], expected: list[Formula]) -> list[WrongTerm]:
