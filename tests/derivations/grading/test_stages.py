@@ -105,6 +105,12 @@ def test_a_mistake_at_each_stage_is_named_there(stage, right, wrong, says):
     assert any(says in finding.says for finding in found.findings)
 
 
+def test_rows_that_say_no_acceleration_are_wrong_and_what_is_solved_is_held_to_them():
+    singular = ALL.replace("l2*a2 + l1*a1*cos(t1-t2)", "0").replace("(l2*(m1", "(l1*(m1")
+    _, stages = outcomes(singular)
+    assert (stages["equations"], stages["solved"]) == ("wrong", "wrong")
+
+
 def test_bodies_carried_by_a_wrong_one_are_not_blamed_again():
     swapped = ALL.replace("l1*sin(t1)", "l1*cos(t1)", 2).replace(VELOCITIES, "")  # x of mass 1, and in x of mass 2
     found, stages = outcomes(swapped)
