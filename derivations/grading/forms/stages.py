@@ -6,7 +6,7 @@ though these are wrong, and *wrong* elsewhere: then a mistake was made at this s
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import product
@@ -90,17 +90,22 @@ class StageJudge:
 
     def marks(self) -> tuple[StageMark, ...]:
         """Every stage that is given, judged."""
-        out, said, truth = [], Said(), Said()
+        return tuple(self._marks())
+
+    def is_right(self) -> bool:
+        """Whether no stage is wrong; the first that is ends it."""
+        return all(mark.outcome != "wrong" for mark in self._marks())
+
+    def _marks(self) -> Iterator[StageMark]:
+        said, truth = Said(), Said()
         for stage in self.stages.given:
             findings = self._findings(stage, truth)
             outcome: Outcome = "right"
             if findings:
-                given = self._findings(stage, said)
-                outcome = "wrong" if given else "follows"
-                findings = given
-            out.append(_mark(stage, outcome, findings, self._parts(stage)))
+                findings = self._findings(stage, said) if said != truth else findings
+                outcome = "wrong" if findings else "follows"
+            yield _mark(stage, outcome, findings, self._parts(stage))
             said = self._after(stage, said)
-        return tuple(out)
 
     def only(self, stage: StageName) -> Said:
         """What is stated at one stage, all else being right."""
@@ -351,8 +356,3 @@ def _mark(stage: StageName, outcome: Outcome, findings: Sequence[WrongTerm], par
     }  # fmt: skip
     english, japanese = said[outcome]
     return StageMark(stage, outcome, f"{where}: {english}.", f"{wo}：{japanese}。", tuple(findings), parts)
-
-
-def none_wrong(marks: Sequence[StageMark]) -> bool:
-    """Whether no mistake is made at any stage."""
-    return all(mark.outcome != "wrong" for mark in marks)
