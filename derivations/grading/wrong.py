@@ -17,7 +17,7 @@ from .forms.any_mechanism import named_anywhere
 from .forms.hamilton import first_order_differences
 from .forms.stages import StageJudge
 from .forms.units import units_notes
-from .grade_record import Grade, NamedMistake, StageMark, Verdict
+from .grade_record import Grade, NamedMistake, StageMark, Verdict, WrongTerm
 from .hypotheses import Hypothesis, hypotheses
 from .other_mechanisms import in_relative_angles, right_for
 from .prepared import Prepared, prepare
@@ -66,9 +66,14 @@ def _wrong(s: Submission, *, pinned: bool) -> Grade:
 def _with_cause(s: Submission, h: Hypothesis, found: Grade) -> Grade:
     """The same with the one mistake that explains it, where it is more than the one term that differs."""
     named = named_anywhere(s, h)
-    if not named or (len(found.findings) == 1 and named[0].stage == "equation"):
+    if not named or (len(found.findings) == 1 and _says_no_more(named[0], found.findings[0])):
         return found
     return replace(found, mistakes=named)
+
+
+def _says_no_more(mistake: NamedMistake, term: WrongTerm) -> bool:
+    """Whether a mistake is a slip of the pen in the one term that differs: a sign has many causes, and none is said."""
+    return mistake.stage == "equation" or (term.cause == "sign" and mistake.stage == "derivative")
 
 
 UP_TO = ("position", "velocity", "speed", "energy", "lagrangian")
@@ -96,9 +101,10 @@ def named_in_stages(
         if mistakes and len(mistakes) < 3 and all(x.stage in MADE_AT.get(first, AFTER_LAGRANGIAN) for x in mistakes):
             return mistakes
     mistakes = named_anywhere(made, h)
-    few = len(marks[[mark.stage for mark in marks].index(first)].findings) == 1 and mistakes[:1] and (
-        mistakes[0].stage == "equation")  # fmt: skip
-    return () if few or any(x.stage not in MADE_AT.get(first, AFTER_LAGRANGIAN) for x in mistakes) else mistakes
+    at_stage = all(x.stage in MADE_AT.get(first, AFTER_LAGRANGIAN) for x in mistakes)
+    findings = next(mark.findings for mark in marks if mark.outcome == "wrong")
+    plain_slip = len(findings) == 1 and any(_says_no_more(x, findings[0]) for x in mistakes)
+    return mistakes if at_stage and not plain_slip else ()
 
 
 def if_as_declared(s: Submission) -> tuple[NamedMistake, ...]:
