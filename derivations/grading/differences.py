@@ -119,8 +119,8 @@ def right_rows(s: Submission, rows: Sequence[Formula]) -> Sequence[Formula]:
     right = [space.split(f) for f in rows]
     if m.n > 1 and is_solved(m, [space.split(f) for _, f in s.rows]) and not is_solved(m, right):
         solved = solved_rows(m, right)
-        places = {next(k for k in range(m.n) if unit(k) in row): row for row in solved}
-        return [space.join(places[k]) for k in range(m.n)]
+        if all(unit(k) in row for k, row in enumerate(solved)):  # rows that an author takes as right may be singular
+            return [space.join(row) for row in solved]
     return rows
 
 

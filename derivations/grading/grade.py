@@ -16,8 +16,9 @@ from ..reading.submission import LARGEST_FILE, Submission, table_of
 from ..steps.families import family
 from .differences import row_differences
 from .forms.hamilton import scale_note
-from .forms.stages import StageJudge, none_wrong
-from .grade_record import Grade, StageMark, Verdict
+from .forms.stages import StageJudge
+from .forms.units import units_notes
+from .grade_record import Grade, Verdict
 from .hypotheses import Hypothesis, Said, hypotheses, merged
 from .judge import Judgement, judge
 from .readback import readback
@@ -76,24 +77,21 @@ def _staged(read: Callable[[int], Submission], first: Submission, *, pinned: boo
     for s in readings:
         for h in hypotheses(s, pinned=pinned):
             found = StageJudge(s, h)
-            marks = found.marks()
-            if none_wrong(marks):
-                return _right_stages(s, h, found, marks, slashes=s is not first), s
+            if found.is_right():
+                return _right_stages(s, h, found, slashes=s is not first), s
     h = next(hypotheses(first, pinned=True))
     found = StageJudge(first, h)
     marks = found.marks()
     findings = tuple(term for mark in marks for term in mark.findings)
-    note = found.frame_note
+    notes = [*units_notes(first), *([found.frame_note] if found.frame_note else [])]
     return Grade(
         verdict="wrong", findings=findings, mistakes=named_in_stages(first, h, found, marks), system=first.kind,
         links=first.space.n, reading=readback(first, h), stages=marks,
-        notes=(note[0],) if note else (), notes_ja=(note[1],) if note else (),
+        notes=tuple(en for en, _ in notes), notes_ja=tuple(ja for _, ja in notes),
     ), first  # fmt: skip
 
 
-def _right_stages(
-    s: Submission, h: Hypothesis, found: StageJudge, marks: tuple[StageMark, ...], *, slashes: bool
-) -> Grade:
+def _right_stages(s: Submission, h: Hypothesis, found: StageJudge, *, slashes: bool) -> Grade:
     """No stage is wrong."""
     assert s.stages is not None
     notes = [note for note in (found.frame_note,) if note]
@@ -110,7 +108,7 @@ def _right_stages(
         if wrong_there is not None:
             notes.append((f"If they are not: {wrong_there.says}", f"そうでなければ：{wrong_there.says_ja}"))
     return Grade(
-        verdict=verdict, system=s.kind, links=s.space.n, reading=readback(s, h), stages=marks,
+        verdict=verdict, system=s.kind, links=s.space.n, reading=readback(s, h), stages=found.marks(),
         notes=tuple(en for en, _ in notes), notes_ja=tuple(ja for _, ja in notes),
         assumes=tuple(en for en, _ in assumes), assumes_ja=tuple(ja for _, ja in assumes),
     )  # fmt: skip

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from math import pi
+
+from flint import fmpq
+
 from ..algebra.multiples import divided
 from ..algebra.notation import motion_text, pretty, text
 from ..algebra.symbols import Symbols
@@ -38,9 +42,15 @@ def _factor(space: Space, factor: Formula) -> Description:
         size = factor.number()
         if size == -1:
             return "sign", "the sign is wrong", "符号が逆です"
-        if abs(size.p) == 1 and size > 0:
+        if abs(size.p) == 1 and size > 0 and not _is_degrees(size):
             lost = "factor-half" if size.q == 2 else "factor-wrong"
             return lost, f"it lacks its factor {size.q}", f"{size.q} が足りません"
+        if _is_degrees(size):
+            return (
+                "degrees",
+                "degrees stand for radians: a factor of 180/π or π/180",
+                "度とラジアンが混ざっています（180/π）",
+            )
         known = {"2": "factor-two"}.get(str(size), "factor-wrong")
         return known, f"it has an extra factor {size}", f"余分な {size} が掛かっています"
     if factor.is_monomial() and all(power <= 0 for power in next(space.monomials(factor))[0]):
@@ -48,6 +58,12 @@ def _factor(space: Space, factor: Formula) -> Description:
         return "factor-missing", f"it lacks the factor {lost}", f"{lost} が足りません"
     shown = pretty(text(space, factor))
     return "factor-wrong", f"it has an extra factor {shown}", f"余分な {shown} が掛かっています"
+
+
+def _is_degrees(size: fmpq) -> bool:
+    """Whether a factor is 180/π or its inverse, as far as people write them out."""
+    value = abs(int(size.p) / int(size.q))
+    return any(abs(value / degrees - 1) < 2e-3 for degrees in (180 / pi, pi / 180))
 
 
 def _part(space: Space, found: Formula, expected: Formula) -> Description:

@@ -13,9 +13,11 @@ from ..steps.conventions import Convention
 from ..steps.derivation import NEWTON_STAGES, Mistake
 from .differences import lagrangian_differences, row_differences
 from .explain import Alignment, align, explanations
+from .forms.any_mechanism import named_anywhere
 from .forms.hamilton import first_order_differences
 from .forms.stages import StageJudge
-from .grade_record import Grade, NamedMistake, StageMark, Verdict
+from .forms.units import units_notes
+from .grade_record import Grade, NamedMistake, StageMark, Verdict, WrongTerm
 from .hypotheses import Hypothesis, hypotheses
 from .other_mechanisms import in_relative_angles, right_for
 from .prepared import Prepared, prepare
@@ -30,12 +32,23 @@ USELESS = ("row-empty", "row-repeated")
 
 
 def wrong(s: Submission, *, pinned: bool = False) -> Grade:
-    """Name the mistakes, and list the terms, in the meaning in which fewest are wrong."""
+    """Name the mistakes, and list the terms, in the meaning in which fewest are wrong; units first."""
+    found = _wrong(s, pinned=pinned)
+    units = units_notes(s)
+    return replace(
+        found,
+        notes=(*(en for en, _ in units), *found.notes),
+        notes_ja=(*(ja for _, ja in units), *found.notes_ja),
+    )
+
+
+def _wrong(s: Submission, *, pinned: bool) -> Grade:
     meant = next(hypotheses(s, pinned=True))
     found = Grade(verdict="wrong", links=s.space.n)
     if s.first_order is not None and s.first_order.canonical:
         nearest = meant if pinned else _nearest(s, meant)
-        return replace(_by_terms(s, nearest, found), system=s.kind, reading=readback(s, nearest))
+        found = _with_cause(s, nearest, _by_terms(s, nearest, found))
+        return replace(found, system=s.kind, reading=readback(s, nearest))
     if is_documents(s):
         found = _plainer(s, meant, _by_catalogue(prepare(s)))
     if not found.mistakes and not any(f.cause in USELESS for f in found.findings):
@@ -43,10 +56,24 @@ def wrong(s: Submission, *, pinned: bool = False) -> Grade:
         if nearest is not meant or not found.findings or s.space.n == 1:
             found = _by_terms(s, nearest, found)
             meant = nearest
+        found = _with_cause(s, meant, found)
     other = right_for(s)
     if other is not None:
         found = replace(found, right_for=other[0], right_for_ja=other[1])
     return replace(found, system=s.kind, reading=readback(s, meant))
+
+
+def _with_cause(s: Submission, h: Hypothesis, found: Grade) -> Grade:
+    """The same with the one mistake that explains it, where it is more than the one term that differs."""
+    named = named_anywhere(s, h)
+    if not named or (len(found.findings) == 1 and _says_no_more(named[0], found.findings[0])):
+        return found
+    return replace(found, mistakes=named)
+
+
+def _says_no_more(mistake: NamedMistake, term: WrongTerm) -> bool:
+    """Whether a mistake is a slip of the pen in the one term that differs: a sign has many causes, and none is said."""
+    return mistake.stage == "equation" or (term.cause == "sign" and mistake.stage == "derivative")
 
 
 UP_TO = ("position", "velocity", "speed", "energy", "lagrangian")
@@ -61,17 +88,23 @@ def named_in_stages(
 ) -> tuple[NamedMistake, ...]:
     """The mistakes of the catalogue that explain the first wrong stage, where all before it is right."""
     first = next(mark.stage for mark in marks if mark.outcome == "wrong")
-    if not is_documents(s) or h.variant.given or first not in MADE_AT:
-        return ()
     plain = replace(s, stages=None)
-    if first == "equations":
-        assert s.stages is not None
-        made = replace(plain, rows=s.stages.equations)
+    assert s.stages is not None
+    if first in ("equations", "solved"):
+        made = replace(plain, rows=s.stages.equations if first == "equations" else s.stages.solved)
+    elif first in MADE_AT:
+        made = replace(plain, lagrangian=found.lagrangian(found.only(first)))
     else:
-        said = found.only(first)
-        made = replace(plain, lagrangian=found.lagrangian(said))
-    mistakes = _by_catalogue(prepare(made)).mistakes
-    return mistakes if all(x.stage in MADE_AT[first] for x in mistakes) and len(mistakes) < 3 else ()
+        return ()
+    if is_documents(s) and not h.variant.given:
+        mistakes = _by_catalogue(prepare(made)).mistakes
+        if mistakes and len(mistakes) < 3 and all(x.stage in MADE_AT.get(first, AFTER_LAGRANGIAN) for x in mistakes):
+            return mistakes
+    mistakes = named_anywhere(made, h)
+    at_stage = all(x.stage in MADE_AT.get(first, AFTER_LAGRANGIAN) for x in mistakes)
+    findings = next(mark.findings for mark in marks if mark.outcome == "wrong")
+    plain_slip = len(findings) == 1 and any(_says_no_more(x, findings[0]) for x in mistakes)
+    return mistakes if at_stage and not plain_slip else ()
 
 
 def if_as_declared(s: Submission) -> tuple[NamedMistake, ...]:

@@ -186,9 +186,12 @@ class Evaluation:
         for above, part in parts:
             value = _rational(part)
             if value is None:
+                other = self._linear(part) if above else {}
+                if form is not None and PI in {**form, **other}:
+                    fail(node.at, "an angle times π: degrees? Angles are in radians here, as in sin(t1)")
                 if form is not None or not above:
                     fail(node.at, "inside cos and sin an angle can only be multiplied by a number")
-                form = self._linear(part)
+                form = other
             elif above:
                 factor *= value
             elif value:

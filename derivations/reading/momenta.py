@@ -26,7 +26,7 @@ _INDEX = r"(?:\s*_\s*\{\s*[0-9]\s*\}|_?[0-9]|[₁-₉])?"
 BEFORE = r"(?<![A-Zabce-z\\])(?<![A-Za-z]d)"  # no letter but the d of dp/dt
 PRIMES = r"(?P<primes>['′]*)"
 _GREEK = "|".join(sorted(GREEK, key=len, reverse=True))
-_ANY = r"(?:\s*_?\s*\{(?:[^{}]|\{[^{}]{0,20}\}){1,40}\}|_?\\?[A-Za-z]+_?[0-9]?|_?[0-9]|[θϑφϕψ][₁-₉]?)?"
+_ANY = r"(?:\s*_?\s*\{(?:[^{}]|\{[^{}]{0,20}\}){1,40}\}|_\\?[A-Za-z]+_?[0-9]?|_?[0-9]|[θϑφϕψ][₁-₉]?)?"
 DERIVED = (  # a letter that has a derivative
     rf"(?<![A-Za-z\\])d\s*(?P<x>[pP]){_ANY}\s*/\s*dt(?![A-Za-z])",
     rf"(?<![A-Za-z\\])(?P<x>[pP]){_ANY}['′](?!['′])",

@@ -62,6 +62,7 @@ _SPACE = (
 SPACING = re.compile(rf"(?:{_SPACE}|\\(?:begin|end)\{{(?!\w*matrix|array)[A-Za-z]{{1,20}}\*?\}}|\\\\|&)+")
 IN_MATRIX = re.compile(rf"(?:{_SPACE})+")
 MATRIX = re.compile(r"\\(?P<which>begin|end)\{(?P<name>[pbB]?(?:small)?matrix|array)\}(?:\{[clr| ]{0,20}\})?")
+SIGN = re.compile(r"(?:sgn|sign)(?=\s*[({\\])")
 NUMBER = re.compile(r"(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 ANGLE = rf"(?:\\[A-Za-z]+|(?:var)?theta|omega|(?:var)?phi|psi|alpha|beta|gamma|th|[{''.join(GLYPHS)}]|[A-Za-z])"
 INDEX = rf"(?:_?[0-9]+|_\s*\{{\s*[0-9A-Za-z]+\s*\}}|\{{\s*[0-9]+\s*\}}|_?[{LOWS}]+|_[A-Za-z])"
@@ -280,6 +281,12 @@ class _Tokenizer:
 
     def word(self, at: int) -> tuple[Token, int]:
         line, names = self.line, self.names
+        if SIGN.match(line, at) and not names & {"sgn", "sign"}:
+            fail(
+                at,
+                "the sign of a rate, as of dry friction, is not read; give the friction a name where the mechanism is "
+                'declared, as in drive = "F", and write F',
+            )
         name = NAME.match(line, at)
         if name and name[0] in names and name[0] not in self.apart:
             return Token("name", name[0], at), name.end()

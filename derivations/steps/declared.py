@@ -64,7 +64,7 @@ class Declared:
         forces = [NOTHING] * n
         elastic = NOTHING
         for k, body in enumerate(self.bodies):
-            form = self._own_motion(k, convention)
+            form = self.own_motion(k, convention)
             rate = add(space.w(i).times(c) for i, c in form.items())
             stretch = add(space.q(i).times(c) for i, c in form.items()) - body.rest
             elastic = elastic + body.stiffness.times(HALF) * stretch * stretch
@@ -120,7 +120,7 @@ class Declared:
         hinges = self._hinges(k)
         return convention.direction(hinges, self.space.n) if hinges else Direction((0,) * self.space.n)
 
-    def _own_motion(self, k: int, convention: Convention) -> Form:
+    def own_motion(self, k: int, convention: Convention) -> Form:
         """How far joint k itself has moved, in the coordinates."""
         if self.bodies[k].slide is not None or convention.relative:
             return {k: 1}

@@ -76,36 +76,36 @@ class Mechanism:
     def positions(self) -> tuple[tuple[Formula, Formula], ...]:
         """Of each body's centre of mass: to the right and upwards of the support."""
         vectors = [[s.direction.vector(self.space, s.length) for s in body.way] for body in self.bodies]
-        return tuple((self._valued(add(x for x, _ in way)), self._valued(add(y for _, y in way))) for way in vectors)
+        return tuple((self.valued(add(x for x, _ in way)), self.valued(add(y for _, y in way))) for way in vectors)
 
     @cached_property
     def rotation(self) -> Formula:
         """Σ ½ I ω²."""
-        return self._valued(add(self._kinetic(body)[1] for body in self.bodies))
+        return self.valued(add(self._kinetic(body)[1] for body in self.bodies))
 
     def mass(self, b: int) -> Formula:
         """The mass of a body."""
-        return self._valued(self.bodies[b].mass)
+        return self.valued(self.bodies[b].mass)
 
     @property
     def gravity(self) -> Formula:
         """g, or what stands for it."""
-        return self._valued(self.space.g if self.weight is None else self.weight)
+        return self.valued(self.space.g if self.weight is None else self.weight)
 
     @cached_property
     def springs(self) -> Formula:
         """What springs store."""
-        return self._valued(self.elastic)
+        return self.valued(self.elastic)
 
     @cached_property
     def driven(self) -> tuple[Formula, ...]:
         """The generalised force of each coordinate."""
-        return tuple(self._valued(f) for f in self.forces) or (NOTHING,) * self.space.n
+        return tuple(self.valued(f) for f in self.forces) or (NOTHING,) * self.space.n
 
     @cached_property
     def kinetic(self) -> Formula:
         """T = Σ ½ m v² + ½ I ω²."""
-        return self._valued(add(part for body in self.bodies for part in self._kinetic(body)))
+        return self.valued(add(part for body in self.bodies for part in self._kinetic(body)))
 
     @cached_property
     def potential(self) -> Formula:
@@ -113,7 +113,7 @@ class Mechanism:
         g = self.space.g if self.weight is None else self.weight
         heights = (add(s.direction.vector(self.space, s.length)[1] for s in body.way) for body in self.bodies)
         total = add(body.mass * g * y for body, y in zip(self.bodies, heights, strict=True))
-        return self._valued(total + self.elastic)
+        return self.valued(total + self.elastic)
 
     @cached_property
     def lagrangian(self) -> Formula:
@@ -147,7 +147,8 @@ class Mechanism:
             return self
         return replace(self, values={**self.values, **values})
 
-    def _valued(self, f: Formula) -> Formula:
+    def valued(self, f: Formula) -> Formula:
+        """With the values of those symbols that have some."""
         return self.space.replace(f, self.values) if self.values else f
 
     def _kinetic(self, body: Body) -> tuple[Formula, Formula]:

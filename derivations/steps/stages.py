@@ -34,7 +34,8 @@ class Stages:
 
     ``momenta``: each as the momentum minus what it is said to be. ``hamiltonian``: the Lagrangian that belongs to it,
     in coordinates and rates, or None with ``first_order``, whose rows are those of a Hamiltonian that has none;
-    ``equations`` with momenta are given with these eliminated, and ``rates`` are what remains of those for the rates.
+    ``equations`` with momenta are given with these eliminated, and ``written`` are they before that, with the
+    relations besides ``momenta``, each of which has to hold as well.
     """
 
     positions: dict[Component, Formula] = field(default_factory=dict)
@@ -45,7 +46,7 @@ class Stages:
     momenta: Labelled = ()
     hamiltonian: Formula | None = None
     first_order: FirstOrder | None = None
-    rates: Labelled = ()
+    written: FirstOrder | None = None
     equations: Labelled = ()
     solved: Labelled = ()
 
@@ -63,7 +64,8 @@ class Stages:
             velocities={key: change(f) for key, f in self.velocities.items()}, kinetic=one(self.kinetic),
             potential=one(self.potential), lagrangian=one(self.lagrangian), hamiltonian=one(self.hamiltonian),
             first_order=self.first_order.mapped(change) if self.first_order else None, momenta=rows(self.momenta),
-            rates=rows(self.rates), equations=rows(self.equations), solved=rows(self.solved),
+            written=self.written.mapped(change) if self.written else None, equations=rows(self.equations),
+            solved=rows(self.solved),
         )  # fmt: skip
 
     def has(self, stage: StageName) -> bool:

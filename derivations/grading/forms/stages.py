@@ -6,7 +6,7 @@ though these are wrong, and *wrong* elsewhere: then a mistake was made at this s
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import product
@@ -15,9 +15,11 @@ from typing import Any, Literal
 from ...algebra.equivalence import System, compare
 from ...algebra.fingerprint import point_of
 from ...algebra.multiples import is_multiple
+from ...algebra.quotient import Budget
 from ...algebra.trig import CONSTANT_ONE, HALF, Formula
 from ...reading.submission import Submission
 from ...steps.derivation import add, lagrange_rows
+from ...steps.first_order import WORK, FirstOrder, Momenta, substituted, without_momenta
 from ...steps.stages import Component, StageName, Stages
 from ..differences import Scaled, differences_from, lagrangian_scalings, term_finding, terms, without_constants
 from ..grade_record import StageMark, WrongTerm
@@ -88,17 +90,22 @@ class StageJudge:
 
     def marks(self) -> tuple[StageMark, ...]:
         """Every stage that is given, judged."""
-        out, said, truth = [], Said(), Said()
+        return tuple(self._marks())
+
+    def is_right(self) -> bool:
+        """Whether no stage is wrong; the first that is ends it."""
+        return all(mark.outcome != "wrong" for mark in self._marks())
+
+    def _marks(self) -> Iterator[StageMark]:
+        said, truth = Said(), Said()
         for stage in self.stages.given:
             findings = self._findings(stage, truth)
             outcome: Outcome = "right"
             if findings:
-                given = self._findings(stage, said)
-                outcome = "wrong" if given else "follows"
-                findings = given
-            out.append(_mark(stage, outcome, findings, self._parts(stage)))
+                findings = self._findings(stage, said) if said != truth else findings
+                outcome = "wrong" if findings else "follows"
+            yield _mark(stage, outcome, findings, self._parts(stage))
             said = self._after(stage, said)
-        return tuple(out)
 
     def only(self, stage: StageName) -> Said:
         """What is stated at one stage, all else being right."""
@@ -193,7 +200,7 @@ class StageJudge:
             case "hamiltonian":
                 return self._hamiltonian(said)
             case "equations":
-                return self._rates() + self._rows(self.stages.equations, self.rows(said))
+                return self._equations(said)
             case "solved":
                 return self._rows(self.stages.solved, list(said.equations) or self.rows(said))
 
@@ -255,13 +262,30 @@ class StageJudge:
             return self._lagrangian("hamiltonian", self.stages.hamiltonian, said)
         return [_whole("hamiltonian", "", "it does not belong to the Lagrangian", "ラグランジアンに対応していません")]
 
-    def _rates(self) -> list[WrongTerm]:
+    def _equations(self, said: Said) -> list[WrongTerm]:
+        """Equations of motion; with momenta, these as they were stated, or as the Lagrangian has them."""
+        expected, written = self.rows(said), self.stages.written
+        if written is None:
+            return self._rows(self.stages.equations, expected)
+        right = [self.space.by_rate(self.lagrangian(said), k) for k in range(self.space.n)]
+        found: list[WrongTerm] = []
+        for momenta in (written.momenta, Momenta(tuple(right), CONSTANT_ONE)):
+            budget = Budget(WORK)
+            slopes = [f for _, f in written.slopes]
+            rows = without_momenta(self.space, written.at, slopes, momenta, budget)
+            labels = [label for label, _ in written.slopes]
+            found = self._rates(written, momenta) + self._rows(tuple(zip(labels, rows, strict=True)), expected)
+            if not found:
+                return []
+        return found
+
+    def _rates(self, written: FirstOrder, momenta: Momenta) -> list[WrongTerm]:
+        values = dict(zip(written.at.momenta, momenta.above, strict=True))
+        weights = dict.fromkeys(values, 1)
         return [
-            _whole(
-                "equations", label, "with the momenta put in, its sides differ", "運動量を代入すると両辺が一致しません"
-            )
-            for label, f in self.stages.rates
-            if f
+            _whole("equations", label, "with the momenta put in, its sides differ", "運動量を代入しても一致しません")
+            for label, f in written.relations
+            if substituted(self.space, f, values, weights, momenta.below, Budget(WORK))
         ]
 
     def _rows(self, given: Sequence[tuple[str, Formula]], expected: list[Formula]) -> list[WrongTerm]:
@@ -332,8 +356,3 @@ def _mark(stage: StageName, outcome: Outcome, findings: Sequence[WrongTerm], par
     }  # fmt: skip
     english, japanese = said[outcome]
     return StageMark(stage, outcome, f"{where}: {english}.", f"{wo}：{japanese}。", tuple(findings), parts)
-
-
-def none_wrong(marks: Sequence[StageMark]) -> bool:
-    """Whether no mistake is made at any stage."""
-    return all(mark.outcome != "wrong" for mark in marks)

@@ -11,7 +11,7 @@ from flint import fmpq
 
 from ....models.errors import InvalidInput
 from ...algebra.quotient import Budget, Quotient, TooLarge
-from ...algebra.trig import CONSTANT_ONE, Formula, Space
+from ...algebra.trig import CONSTANT_ONE, Formula, Space, digit
 from ...steps.first_order import (
     MOST_COORDINATES,
     WORK,
@@ -63,6 +63,7 @@ def _hamiltonian(data: dict[str, Any], reader: Reader) -> Submission:
         raise InvalidInput("momenta: with a Hamiltonian they are what q̇ = ∂H/∂p makes them; leave them out")
     written = reader.quotient("hamiltonian", "H", data["hamiltonian"])
     above, below = written.numerator, _product(written, budget)
+    _require_above(space, at, above, "hamiltonian")
     used = space.places(above)
     if used & set(range(2 * space.n)):
         raise InvalidInput("hamiltonian: it has rates; a Hamiltonian is written in coordinates and momenta p1, p2, …")
@@ -110,6 +111,7 @@ def split_equations(
     slopes: list[tuple[str, Formula]] = []
     for label, row in rows:
         f = _whole_numbers(row)
+        _require_above(space, at, f, f"equations.{label}")
         used = space.places(f)
         if used & set(range(n)) and used & {*at.momenta, *at.slopes}:
             raise InvalidInput(f"equations.{label}: accelerations in an equation with momenta; {ADVICE}")
@@ -138,6 +140,12 @@ def _momenta(space: Space, at: Places, relations: Sequence[Formula], budget: Bud
 
 def _labelled(labels: Sequence[str], rows: Sequence[Formula]) -> Labelled:
     return tuple(zip(labels, rows, strict=True))
+
+
+def _require_above(space: Space, at: Places, f: Formula, where: str) -> None:
+    """Raises InvalidInput where a momentum is divided by."""
+    if any(digit(e, place) < 0 for e, _, _ in f.terms for place in (*at.momenta, *at.slopes)):
+        raise InvalidInput(f"{where}: a division by a momentum; {ADVICE}")
 
 
 def _whole_numbers(f: Formula) -> Formula:

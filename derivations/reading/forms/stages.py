@@ -16,12 +16,12 @@ from dataclasses import replace
 from typing import Any
 
 from ....models.errors import InvalidInput
-from ...algebra.quotient import Budget, TooLarge
-from ...algebra.trig import Formula
-from ...steps.first_order import WORK, substituted
+from ...algebra.quotient import TooLarge
+from ...algebra.trig import CONSTANT_ONE, Formula, Space
+from ...steps.first_order import FirstOrder, Labelled
 from ...steps.stages import STAGES, Component, Stages
 from ..submission import Reader, Submission
-from .hamilton import read_hamilton, split_equations
+from .hamilton import places, read_hamilton, split_equations
 
 COMPONENT = re.compile(r"v?(?P<axis>[xyXY])(?P<body>[1-9][0-9]?)?|v(?P<speed>[1-9][0-9]?)?(?:\^2|\*\*2|sq|²)")
 DECORATION = re.compile(r"\\(?:left|right|dot|mathrm|vec)|dot|[{}_\\\s'′()]|d(?=[xyXY])|\bt\b")
@@ -48,6 +48,8 @@ def read_stages(data: dict[str, Any], reader: Reader) -> Submission:
         components["positions"], components["velocities"], energy("kinetic", "T"), energy("potential", "U"),
         energy("lagrangian", "L"),
     )  # fmt: skip
+    if reader.variable is not None and reader.variable.kind == "momentum":
+        _require_rates(reader.evaluation.space, stated)
     try:
         stated = _momenta(data, reader, stated)
     except TooLarge:
@@ -65,6 +67,7 @@ def _momenta(data: dict[str, Any], reader: Reader, stated: Stages) -> Stages:
         stated = replace(stated, hamiltonian=found.lagrangian, first_order=found.first_order)
     if "momenta" in data:
         stated = replace(stated, momenta=tuple(reader.momenta(data["momenta"])))
+        _require_momenta(space, stated.momenta)
     if "equations" not in data:
         return stated
     rows = reader.rows(data["equations"])
@@ -73,15 +76,27 @@ def _momenta(data: dict[str, Any], reader: Reader, stated: Stages) -> Stages:
     made = split_equations(reader, rows, stated.momenta, stated.first_order)
     if made is None:  # rows without momenta
         return replace(stated, equations=rows)
-    if not stated.momenta:  # the relations are what says what the momenta are
-        return replace(stated, equations=made.rows)
-    budget = Budget(WORK)
-    values = dict(zip(made.at.momenta, made.momenta.above, strict=True))
-    rates = tuple(
-        (label, substituted(space, f, values, dict.fromkeys(values, 1), made.momenta.below, budget))
-        for label, f in made.relations
-    )
-    return replace(stated, equations=made.rows, rates=rates)
+    relations = made.relations if stated.momenta else ()  # where they say what the momenta are, they hold
+    written = FirstOrder(made.at, relations, made.slopes, made.momenta)
+    return replace(stated, equations=made.rows, written=written)
+
+
+def _require_momenta(space: Space, momenta: Labelled) -> None:
+    """Raises InvalidInput where one is not a momentum in coordinates and rates."""
+    at = places(space)
+    for name, relation in momenta:
+        own = space.places(relation) & {*at.momenta, *at.slopes}
+        one = len(own) == 1 and own <= set(at.momenta) and space.by_symbol(relation, min(own)) == CONSTANT_ONE
+        if not one or space.places(relation) & set(range(space.n)):
+            raise InvalidInput(f'momenta.{name}: a momentum in coordinates and rates, as in p1 = "m1*l1^2*w1"')
+
+
+def _require_rates(space: Space, stated: Stages) -> None:
+    """Raises InvalidInput where an energy is written in momenta."""
+    at = places(space)
+    for name, f in (("kinetic", stated.kinetic), ("potential", stated.potential), ("lagrangian", stated.lagrangian)):
+        if f is not None and space.places(f) & {*at.momenta, *at.slopes}:
+            raise InvalidInput(f"{name}: it has momenta; write it in coordinates and rates, or give a Hamiltonian")
 
 
 def _components(table: object, where: str, reader: Reader) -> dict[Component, Formula]:

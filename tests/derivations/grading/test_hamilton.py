@@ -106,10 +106,11 @@ def test_momenta_of_another_scale_are_said():
     ("text", "says"),
     [
         (ONE + 'hamiltonian = "m l^2 w1^2/2 - m g l cos(t1)"', "it has rates"),
+        (ONE + 'hamiltonian = "p^2/(2 m l^2) - 1/p"', "hamiltonian: a division by a momentum"),
+        (CART.replace("p_theta cos(theta)/l)", "p_theta cos(theta)/p_x)"), "equations.1: a division by a momentum"),
         (ONE + 'hamiltonian = "p - m g l cos(t1)"', "do not say what each momentum is"),
         (ONE + '[equations]\n1 = "dp/dt = -m g l sin(t1)"', "where 1 and 1 are needed"),
         (MOMENTA.replace('p2 = "m2', '# "'), "1 for the rates or momenta and 2 for the derivatives"),
-        (ONE_H + '\n[momenta]\np = "m l^2 w1"', "leave them out"),
         ('system = "mechanism"\n[[bodies]]\ncoordinate = "x"\njoint = "slide"\nmass = "p"\n'
          '[momenta]\np = "p x\'"\n[equations]\n1 = "dp/dt = 0"', "give the quantity another letter"),
     ],
