@@ -1,0 +1,46 @@
+"""How Sphinx builds the documentation: ``make docs``. Nothing is fetched, and the pages load nothing from elsewhere."""
+
+import sys
+from pathlib import Path
+
+from docutils import nodes
+from docutils.utils.math import MathError, latex2mathml
+from pygments.lexers.special import TextLexer
+from sphinx.util import logging
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import generated  # type: ignore[import-not-found]
+
+project = "furiko"
+author = "The authors of furiko"
+copyright = author
+html_title = "furiko"
+html_theme = "furo"
+html_show_sphinx = False
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.mathjax", "sphinx.ext.napoleon"]
+myst_enable_extensions = ["dollarmath", "deflist"]
+myst_heading_anchors = 3
+exclude_patterns = ["howto/nbgrader"]
+autodoc_member_order = "bysource"
+autodoc_typehints = "description"
+html_math_renderer = "mathml"
+
+
+def visit_math(translator, node):
+    """Mathematics as MathML, which browsers show without a script."""
+    block = isinstance(node, nodes.math_block)
+    try:
+        mathml = latex2mathml.tex2mathml(node.astext().replace("\n", " "), as_block=block)
+    except MathError as error:
+        logging.getLogger(__name__).warning("%s", error, location=node)
+        raise nodes.SkipNode from None
+    translator.body.append(f"<div class='math'>{mathml}</div>" if block else mathml)
+    raise nodes.SkipNode
+
+
+def setup(app):
+    """What this documentation adds to Sphinx."""
+    app.add_html_math_renderer("mathml", (visit_math, None), (visit_math, None))
+    app.add_lexer("mermaid", TextLexer)
+    app.connect("builder-inited", lambda app: generated.write(Path(app.srcdir) / "generated"))
