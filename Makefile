@@ -4,7 +4,7 @@ VENV ?= .venv
 BIN := $(VENV)/bin
 JOBS ?= 2
 
-.PHONY: check test test-slow test-all lint docs models architecture clean
+.PHONY: check test test-slow test-all lint docs notebooks models architecture clean
 
 check: $(VENV)/.check  ## run the catalogue against every engine; writes furiko-report/
 	$(BIN)/furiko check
@@ -26,6 +26,9 @@ lint: $(VENV)/.test  ## ruff, mypy --strict and basedpyright
 docs: $(VENV)/.docs  ## build the documentation into build/docs/; a warning fails, and nothing is fetched
 	$(BIN)/python -m sphinx -W --keep-going --quiet -b html docs build/docs
 	@echo build/docs/index.html
+
+notebooks: $(VENV)/.check  ## run the notebooks in docs/notebooks/, and keep what they print
+	$(BIN)/python docs/notebooks.py
 
 models:  ## write the catalogue's model files and the JSON schemas again
 	$(BIN)/python -m furiko.models.writers.catalogue_files

@@ -3,6 +3,8 @@
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
+import notebooks  # type: ignore[import-not-found]  # beside this file
+
 from furiko.checks.registry import CHECKS
 from furiko.derivations.audit.audit import audit
 from furiko.derivations.audit.audit_record import JudgedEquation
@@ -17,11 +19,12 @@ def write(folder: Path) -> None:
     """Write every page."""
     folder.mkdir(exist_ok=True)
     pages = {"equations": equations, "engines": engines, "checks": checks, "causes": causes, "scenes": scenes}
-    for name, page in {**pages, "schemas": schemas}.items():
-        text = "\n".join(page()) + "\n"
+    texts = {name: "\n".join(page()) for name, page in {**pages, "schemas": schemas}.items()}
+    texts |= {path.stem: "\n".join(notebooks.page(path)) for path in notebooks.FOLDER.glob("*.ipynb")}
+    for name, text in texts.items():
         path = folder / f"{name}.md"
-        if not path.is_file() or path.read_text(encoding="utf-8") != text:
-            path.write_text(text, encoding="utf-8")
+        if not path.is_file() or path.read_text(encoding="utf-8") != f"{text}\n":
+            path.write_text(f"{text}\n", encoding="utf-8")
 
 
 def equations() -> Iterator[str]:
