@@ -164,8 +164,8 @@ def user_cache() -> Cache:
 
 
 def _results_key(task: Task) -> str | None:
-    """None where it is not known what the engine's answers rest on."""
-    info = ENGINES.get(task.engine)
+    """None where it is not known what the engine's answers rest on: a model file may include others, and meshes."""
+    info = None if isinstance(task.scene, TreeScene) and task.scene.model else ENGINES.get(task.engine)
     foundation = package_foundation(info.package, info.module) if info else b""
     if not foundation:
         return None

@@ -115,16 +115,21 @@ class CellJob:
         return Cell(scene, info, cast(AnyShape, Announced(engine, announce)), looked_at, facts)
 
     def _tree_cell(self, scene: TreeScene, info: EngineInfo, announce: Callable[[bool], None]) -> TreeCell:
-        from ..engines import TreeShape, load_tree_engine
+        from ..engines import OWN_EQUATIONS, TreeShape, load_tree_engine
         from ..models.trees.states import tree_states
         from .trees.cell import TreeCell
         from .trees.facts import TreeFacts
 
+        looked_at = tree_states(scene, self.task.random_states)
+        facts = TreeFacts.from_bytes(self.facts)
+        if info.name == OWN_EQUATIONS.name:
+            from .trees.own import own_equations
+
+            own, shape, info = own_equations(scene)
+            return TreeCell(scene, info, shape, looked_at, facts, own.findings)
         announce(True)
         engine = load_tree_engine(self.task.engine, scene.system)
         announce(False)
-        looked_at = tree_states(scene, self.task.random_states)
-        facts = TreeFacts.from_bytes(self.facts)
         return TreeCell(scene, info, cast(TreeShape, Announced(engine, announce)), looked_at, facts)
 
     def _results(self, check: Check, cell: Cell | TreeCell, differs: bool, causes: Causes) -> Any:

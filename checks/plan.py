@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from ..engines import EngineInfo, cannot, engine_info, engine_names, engine_version
+from ..engines import OWN_EQUATIONS, EngineInfo, cannot, engine_info, engine_names, engine_version
 from ..models import AnyScene, InvalidInput, TreeScene, find_scenes
 from ..models.errors import installing, nearest
 from ..records.check import Outcome, Result
@@ -70,11 +70,15 @@ def make_plan(scenes: Sequence[str] | None, engines: Sequence[str] | None, profi
     infos = tuple(
         replace(engine_info(name), name=name) for name in dict.fromkeys(engine_names() if engines is None else engines)
     )
+    if OWN_EQUATIONS not in infos and any(map(_has_own, found)):
+        infos = (*infos, OWN_EQUATIONS)
     tasks: list[Task] = []
     settled: list[Result] = []
     absent = {info.name: _absent(info) for info in infos}
     for scene in found:
         for info in infos:
+            if info == OWN_EQUATIONS and engines is None and not _has_own(scene):
+                continue
             outcome: Outcome = "skipped" if engines is None else "error"
             reasons = {check: reason for check in chosen.checks if (reason := skip(check, scene, info))}
             if absent[info.name]:
@@ -87,6 +91,10 @@ def make_plan(scenes: Sequence[str] | None, engines: Sequence[str] | None, profi
     return Plan(chosen, found, infos, tuple(tasks), tuple(settled))
 
 
+def _has_own(scene: AnyScene) -> bool:
+    return isinstance(scene, TreeScene) and scene.own is not None
+
+
 def random_states(scene: AnyScene, profile: Profile) -> int:
     """How many random states of a scene a run looks at, at most: a state of a tree costs ten times as much."""
     return profile.random_states // 10 if isinstance(scene, TreeScene) else profile.random_states
@@ -97,6 +105,8 @@ def skip(check: str, scene: AnyScene, info: EngineInfo) -> str:
     too_much = cannot(info, scene.system)
     if too_much:
         return too_much
+    if info == OWN_EQUATIONS and not _has_own(scene):
+        return "the scene has no equations of a user's own"
     return CHECKS[check].skipped(scene, info)
 
 

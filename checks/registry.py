@@ -11,6 +11,16 @@ def _no_duration(scene: AnyScene, _info: EngineInfo) -> str:
     return "" if scene.duration else "the scene has no duration: nothing moves in it"
 
 
+def _no_model_file(scene: AnyScene, info: EngineInfo) -> str:
+    if not isinstance(scene, TreeScene):
+        return ""
+    if not scene.model:
+        return "the scene has no model file: engines are given a tree body by body"
+    from ..engines.model_files.robot import ROBOT_READERS  # numpy, which a plan without model files need not wait for
+
+    return "" if info.name in ROBOT_READERS else f"no model file is given to {info.name}"
+
+
 def _no_motion(scene: AnyScene, info: EngineInfo) -> str:
     if isinstance(scene, TreeScene):
         if {"ball", "free"} & scene.system.features:
@@ -35,7 +45,8 @@ CHECKS = {
             module="model_fields",
             meaning="The masses, centres, inertias and joints that the engine compiled are those of the scene.",
             bound="rounding of what the engine's reader computes from the file's numbers",
-            trees="engines are given a tree body by body; what they make of a file is compared by 'furiko diagnose'",
+            trees=OfTrees("model_file", "accelerations"),
+            why_not=_no_model_file,
             explained=True,
         ),
         Check(

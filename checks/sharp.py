@@ -32,7 +32,7 @@ ARTICULATED = 15.0  # of articulated bodies
 TERMS = 15.0
 JOINT_FORCES = 15.0
 ENERGY = 15.0
-STEPS = 10.0  # angles and rates after steps of an explicit scheme
+STEPS = 10.0  # angles and rates after steps of an explicit scheme, or the accelerations' where that is more
 ITERATED = 30.0  # the same of an implicit one, whose tolerance comes besides
 MAXIMAL = 5.0  # accelerations and joint forces of engines in maximal coordinates
 
@@ -115,9 +115,9 @@ def for_accelerations(info: EngineInfo) -> float:
     return ARTICULATED if info.algorithm == "aba" else ACCELERATIONS
 
 
-def for_steps(integrator: Integrator) -> float:
-    """The factor for angles and rates after steps of this integrator."""
-    return ITERATED if integrator.tolerance else STEPS
+def for_steps(info: EngineInfo, integrator: Integrator) -> float:
+    """The factor for angles and rates after steps of this integrator: no smaller than the accelerations' it adds up."""
+    return max(ITERATED if integrator.tolerance else STEPS, for_accelerations(info))
 
 
 def states_for_accelerations(info: EngineInfo, n: int) -> int:

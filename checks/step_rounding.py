@@ -126,6 +126,26 @@ def disturbed(cell: Cell, integrator: Integrator, theta: Array, omega: Array, al
     return Disturbed(accelerations, left, speeds, angles, rates)
 
 
+def in_a_step(candidate: Candidate, by: Disturbed, h: float) -> tuple[Array, Array]:
+    """About what disturbs angles [rad] and rates [rad/s] in one step of ``h`` seconds of a scheme, (B, n) each."""
+    rates = h * (by.accelerations + by.left)
+    if candidate.held:
+        rates = rates + by.speeds + by.rates
+    angles = h / 2 * rates
+    if candidate.held == "positions":
+        angles, rates = angles + by.angles, rates + rate_of_positions(h) * by.angles
+    return angles, rates
+
+
+def rate_of_positions(h: float) -> float:
+    """By how much a rate is off where an angle is held elsewhere [1/s]: γ/(βh).
+
+    The angle has been there in one step of the generalized-α scheme, and the rate follows.
+    """
+    beta, gamma, _, _ = map(float, alpha_parameters(RADIUS))
+    return gamma / (beta * h)
+
+
 def sharp_steps(
     cell: Cell, candidate: Candidate, theta: Array, omega: Array, by: Disturbed, h: float, steps: int = 1
 ) -> Ends:
@@ -140,9 +160,7 @@ def sharp_steps(
     )
     rates = by.rates if held else np.zeros_like(theta)
     if held == "positions":
-        # An angle that is held elsewhere by δ has been there in one step of the scheme: the rate follows by γ/(βh) δ.
-        beta, gamma, _, _ = map(float, alpha_parameters(RADIUS))
-        rates = np.hypot(rates, gamma / (beta * h) * by.angles)
+        rates = np.hypot(rates, rate_of_positions(h) * by.angles)
     # Differences to the parent's angle, and sums along the tree, when coordinates are changed at both ends.
     changed = ONE_ROUNDING * np.sqrt(2.0) * np.stack([cell.amplitude.path_sums(values) for values in state])
     rounding = norm(np.stack([found.rounding, changed, np.stack([np.zeros_like(theta), rates])]), 0)

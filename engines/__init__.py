@@ -12,12 +12,14 @@ from typing import TYPE_CHECKING, Any
 from .info import EngineInfo, Integrator, Quantity, TreeInfo, TreeQuantity
 from .registry import (
     ENGINES,
+    OWN_EQUATIONS,
     cannot,
     engine_info,
     engine_names,
     engine_version,
     load_engine,
     load_tree_engine,
+    plugin_names,
     untested,
 )
 
@@ -38,6 +40,7 @@ _HOMES = {
 
 __all__ = [
     "ENGINES",
+    "OWN_EQUATIONS",
     "AnyShape",
     "BareCall",
     "Engine",
@@ -56,6 +59,7 @@ __all__ = [
     "engine_version",
     "load_engine",
     "load_tree_engine",
+    "plugin_names",
     "untested",
 ]
 

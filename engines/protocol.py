@@ -33,8 +33,8 @@ out, nothing else. ``adaptive`` is needed only where ``info.adaptive`` names sch
 one's coordinates, which are MuJoCo's: ``q`` and ``v`` by joint, in the mechanism's order, not absolute angles. In the
 example below, ``tree=TreeInfo("my_adapter:MyTree", missing={"energy": "…"}, cannot_hold={"ball": "…"})`` would name it.
 
-A complete adapter; ``furiko check -e my_adapter:MyMujoco`` runs it, ``my_adapter.py`` in the current folder
-or on Python's path::
+A complete adapter, ``my_adapter.py``; ``furiko engine-test my_adapter.py`` says what is wrong with it, and
+``furiko check -e my_adapter.py`` runs the engine::
 
     import mujoco
     import numpy as np

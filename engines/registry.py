@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..models import EngineMissing, InvalidInput, System, TreeSystem
 from ..models.errors import installing, nearest
+from . import elsewhere
 from .info import EngineInfo, Integrator, TreeInfo
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ _NOT_READ: Any = {
 _PINOCCHIO: dict[str, Any] = {
     "module": "pinocchio",
     "package": "pin",
-    "tested": ("4.1.0",),
+    "tested": ("4.0.0", "4.1.0"),
     "homepage": "https://github.com/stack-of-tasks/pinocchio",
     "coordinates": "relative",
     "inverse": "rnea",
@@ -144,26 +145,51 @@ ENGINES: dict[str, EngineInfo] = {
 }
 
 
+# Takes part like an engine where a scene has a user's own equations; its answers are theirs, without rounding.
+OWN_EQUATIONS = EngineInfo(
+    name="own equations",
+    formulation="the equations of the scene file, in ball arithmetic",
+    adapter="",
+    module="",
+    package="",
+    homepage="",
+    coordinates="relative",
+    tree=TreeInfo(
+        "",
+        {
+            "energy": "equations of motion give no energies",
+            "trajectory": "equations of motion have no integrator of their own",
+        },
+    ),
+)
+
+
 def engine_names() -> list[str]:
     """The engines that furiko knows, installed or not."""
     return list(ENGINES)
 
 
+def plugin_names() -> list[str]:
+    """The engines that other installed packages bring (:mod:`.elsewhere`), less those that furiko has by that name."""
+    return [name for name in elsewhere.plugin_names() if name not in ENGINES]
+
+
 def engine_info(name: str) -> EngineInfo:
     """An engine's name and capabilities, without importing the engine.
 
-    ``name``: one of :func:`engine_names`, or ``package.module:Class`` for an adapter from elsewhere, a class with an
-    :class:`EngineInfo` as its attribute ``info``. Raises :class:`InvalidInput` where there is none such.
+    ``name``: one of :func:`engine_names`, or of an adapter from elsewhere, a class with an :class:`EngineInfo` as its
+    attribute ``info``: one of :func:`plugin_names`, ``package.module:Class``, ``path/to/file.py`` or
+    ``path/to/file.py:Class``. Raises :class:`InvalidInput` where there is none such.
     """
     if name in ENGINES:
         return ENGINES[name]
-    if ":" not in name:
-        hint = nearest(name, ENGINES) or f"; there are {', '.join(ENGINES)}, or package.module:Class"
+    if name == OWN_EQUATIONS.name:
+        return OWN_EQUATIONS
+    if not elsewhere.is_elsewhere(name) and name not in plugin_names():
+        known = [*ENGINES, *plugin_names()]
+        hint = nearest(name, known) or f"; there are {', '.join(known)}, package.module:Class, or a file, ./adapter.py"
         raise InvalidInput(f"engine: no engine is called {name!r}{hint}")
-    info = getattr(_adapter(name), "info", None)
-    if not isinstance(info, EngineInfo):
-        raise InvalidInput(f"engine: {name} has no attribute 'info' that is a furiko.engines.EngineInfo")
-    return info
+    return elsewhere.info_of(name)
 
 
 def engine_version(name: str) -> str:
@@ -219,7 +245,7 @@ def load_engine(name: str, system: System) -> AnyShape:
     if why_not is not None:
         raise InvalidInput(why_not)
     _require(info)
-    adapter = _adapter(info.adapter if name in ENGINES else name)
+    adapter = elsewhere.adapter(info.adapter if name in ENGINES else name)
     return AnyShape(adapter(system), info, system.n)
 
 
@@ -233,19 +259,7 @@ def load_tree_engine(name: str, system: TreeSystem) -> TreeShape:
         raise InvalidInput(why_not or "")
     _require(info)
     mechanism = system.mechanism()
-    return TreeShape(_adapter(info.tree.adapter)(mechanism), info, mechanism)
-
-
-def _adapter(path: str) -> Any:
-    module, _, attribute = path.partition(":")
-    try:
-        return getattr(importlib.import_module(module), attribute)
-    except ImportError as error:
-        own = isinstance(error, ModuleNotFoundError) and error.name in (module, module.partition(".")[0])
-        where = "; it is looked for in the current folder by the command line, and on PYTHONPATH" if own else ""
-        raise InvalidInput(f"engine: {path}: cannot import {module!r}: {error}{where}") from None
-    except (AttributeError, ValueError, TypeError):
-        raise InvalidInput(f"engine: {path}: the module {module!r} has no class {attribute!r}") from None
+    return TreeShape(elsewhere.adapter(info.tree.adapter)(mechanism), info, mechanism)
 
 
 def _require(info: EngineInfo) -> None:

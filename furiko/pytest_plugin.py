@@ -32,7 +32,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--furiko", action="store_true", help="add a test for each scene and engine")
     group.addoption("--furiko-scene", action="append", default=[], metavar="GLOB|FILE.toml", help="only these scenes")
     group.addoption(
-        "--furiko-engine", action="append", default=[], metavar="NAME|module:Class", help="only these engines"
+        "--furiko-engine", action="append", default=[], metavar="NAME|FILE.py|module:Class", help="only these engines"
     )
     group.addoption("--furiko-profile", default="quick", metavar="smoke|quick|full", help="how much is checked")
     group.addoption(
@@ -207,7 +207,7 @@ def _runs(config: pytest.Config) -> Runs:
 
     profile: str = config.getoption("furiko_profile") or "quick"
     engines = config.getoption("furiko_engine") or [name for name in engine_names() if engine_version(name)]
-    if any(":" in name for name in engines) and os.getcwd() not in sys.path:
+    if any(":" in name or name.endswith(".py") for name in engines) and os.getcwd() not in sys.path:
         sys.path.append(os.getcwd())  # as the command line does
     if not engines:
         raise pytest.UsageError("--furiko: no engine is installed: pip install 'furiko[mujoco]'")

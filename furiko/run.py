@@ -65,6 +65,7 @@ def check(
     begun = time.monotonic()
     given = None if scenes is None else [str(scene) for scene in scenes]
     plan = make_plan(given, engines, profile)
+    _readings(plan.scenes)
     _require_an_engine(plan.engines)
     cache = user_cache() if use_cache else Cache(None)
     results: list[Result] = []
@@ -101,6 +102,18 @@ def check(
     if unwritten:
         raise ReportNotWritten("; ".join(unwritten), report)
     return report
+
+
+def _readings(scenes: Sequence[AnyScene]) -> None:
+    """Read users' own equations before anything runs. Raises :class:`InvalidInput` with the scene in front."""
+    for scene in scenes:
+        if isinstance(scene, TreeScene) and scene.own is not None:
+            from .derivations.robot.reading import read_robot  # exact algebra, which other scenes need none of
+
+            try:
+                read_robot(scene.system, scene.own).motion()
+            except InvalidInput as error:
+                raise InvalidInput(f"{scene.name}: {error}") from None
 
 
 def _require_an_engine(engines: Sequence[EngineInfo]) -> None:
@@ -192,6 +205,11 @@ def scene_entry(scene: AnyScene, plan: Plan, source: str, *, asked: bool = False
         from .reference.outline import outline
 
         tree = scene.system
+        if scene.own is not None:
+            from .derivations.robot.reading import read_robot
+
+            read = read_robot(tree, scene.own)
+            common["own"] = [*read.said, *read.typeset]
         return SceneEntry(
             **common,
             lengths=[],

@@ -134,7 +134,8 @@ def read_scene(path: Path) -> AnyScene:
 def scene_from_toml(text: str, name: str, folder: Path = Path()) -> AnyScene:
     """The scene that a TOML text describes; ``folder``: where its model file is. Raises :class:`InvalidInput`."""
     tables = parse_toml(text)
-    if isinstance(tables.get("system"), dict) and tables["system"].get("kind") == "tree":
+    given = tables.get("system")
+    if (isinstance(given, dict) and given.get("kind") == "tree") or (given is None and "model" in tables):
         from .trees.tables import tree_scene  # the documents' scenes need none of it
 
         return tree_scene(tables, name, folder)

@@ -33,6 +33,7 @@ class SceneEntry(msgspec.Struct, frozen=True, kw_only=True):
     source: str = ""  # what to pass to `furiko check` to run it again: a name or a file's path
     asked: bool = False  # the user named it: a run in which nothing of it was compared is incomplete
     joints: list[str] = []  # of a tree: each joint's name and kind
+    own: list[str] = []  # how a user's own equations were read: joints, angles, what was taken from the model, rows
     outline: list[tuple[float, float, float, float]] = []  # of a tree, seen along y: lines x, z to x, z [m]
 
 
@@ -146,6 +147,19 @@ class KnownDifference(msgspec.Struct, frozen=True, kw_only=True):
     results: list[tuple[str, str, str]] = []
 
 
+class Alone(msgspec.Struct, frozen=True, kw_only=True):
+    """Which of three is alone in a scene with a user's own equations: these, the model, or engines.
+
+    ``nobody``: all agree; ``several``: equations and engines differ from the theory. ``names``: of the engines that
+    are alone; ``says``: in sentences, with the causes.
+    """
+
+    scene: str
+    who: Literal["nobody", "equations", "model", "engine", "several"]
+    names: list[str]
+    says: str
+
+
 class CheckReport(msgspec.Struct, frozen=True, kw_only=True):
     """One run of ``furiko check``: what ``--json`` prints."""
 
@@ -154,3 +168,4 @@ class CheckReport(msgspec.Struct, frozen=True, kw_only=True):
     footer: Footer | None  # None: the run was cut off
     diagnoses: list[Diagnosis] = []
     known: list[KnownDifference] = []  # one an entry of the file of known differences
+    alone: list[Alone] = []  # one a scene with a user's own equations

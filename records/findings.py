@@ -9,6 +9,8 @@ from typing import Any, Literal
 
 import msgspec
 
+from .errors import Error
+
 # --- grade
 
 
@@ -34,6 +36,17 @@ class NamedMistake(msgspec.Struct, frozen=True, kw_only=True):
     says: str
     says_ja: str
     also: list[str]  # further mistakes that lead to the same equations
+
+
+class StageMark(msgspec.Struct, frozen=True, kw_only=True):
+    """One stage of a derivation that is stated stage by stage."""
+
+    stage: str
+    outcome: Literal["right", "follows", "wrong"]  # follows: from earlier stages that are wrong; not wrong again
+    says: str
+    says_ja: str
+    findings: list[WrongTerm]
+    of: int  # how many terms the right stage has
 
 
 class GradeReading(msgspec.Struct, frozen=True, kw_only=True):
@@ -64,6 +77,7 @@ class GradeDocument(msgspec.Struct, frozen=True, kw_only=True):
     reading: GradeReading
     right_for: str  # another mechanism that wrong equations are right for; empty: none known
     right_for_ja: str
+    stages: list[StageMark]  # empty unless the derivation is stated stage by stage
 
 
 # --- audit
@@ -224,3 +238,18 @@ class DiagnoseDocument(msgspec.Struct, frozen=True, kw_only=True):
     mechanism: MechanismEntry | None  # None: not a planar tree of hinges
     spatial: SpatialEntry
     notes: list[str]
+
+
+class DiagnosedModel(msgspec.Struct, frozen=True, kw_only=True):
+    """One file of several: what was found, or why there is no answer."""
+
+    model: str
+    status: int  # the exit status of ``furiko diagnose`` with this file alone
+    diagnosis: DiagnoseDocument | None
+    error: Error | None
+
+
+class DiagnosedModels(msgspec.Struct, frozen=True, kw_only=True):
+    """The document of ``furiko diagnose --json`` with several files, in the order in which they were given."""
+
+    models: list[DiagnosedModel]

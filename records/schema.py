@@ -12,7 +12,7 @@ from typing import Any
 
 import msgspec
 
-from . import bench, check, classroom, errors, findings, listings, stress
+from . import bench, check, classroom, conformance, errors, findings, listings, stress
 
 FOLDER = Path(__file__).parent / "schemas"
 
@@ -22,6 +22,7 @@ SCHEMAS: dict[str, tuple[str, Any]] = {
     "check-report": ("furiko check --json", check.CheckReport),
     "scenes": ("furiko scenes --json", list[listings.SceneRow]),
     "engines": ("furiko engines --json", list[listings.EngineRow]),
+    "engine-test": ("furiko engine-test --json", conformance.EngineTest),
     "cache": ("furiko cache --json", listings.CacheContents),
     "bench": (f"furiko bench --json, and bench.json, format {bench.FORMAT}", bench.Bench),
     "stress": ("furiko stress --json", stress.StressSummary),
@@ -29,6 +30,7 @@ SCHEMAS: dict[str, tuple[str, Any]] = {
     "class": ("furiko grade --problem --json, and class.json", classroom.ClassDocument),
     "audit": ("furiko audit --json", findings.AuditDocument),
     "diagnose": ("furiko diagnose --json", findings.DiagnoseDocument),
+    "diagnose-several": ("furiko diagnose --json with several files", findings.DiagnosedModels),
     "error": ("every furiko command with --json that fails", errors.ErrorDocument),
 }
 

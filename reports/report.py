@@ -9,8 +9,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from ..records.check import OUTCOMES, Diagnosis, EngineEntry, Footer, Header, Outcome, Result, SceneEntry
+from ..records.check import OUTCOMES, Alone, Diagnosis, EngineEntry, Footer, Header, Outcome, Result, SceneEntry
 from ..records.exit_status import AGREES, DIFFERS, INCOMPLETE
+from .alone import alone_in
 from .causes import Causes, CheckGroup, group_causes
 from .words import Word, count, few, figure, last_line, listed, one_line, tally, word
 
@@ -267,14 +268,22 @@ class Report:
         return sorted(found.items(), key=lambda item: -len(item[1]))
 
     @cached_property
+    def alone(self) -> tuple[Alone, ...]:
+        """Of each scene with a user's own equations: which of them, the model and the engines is alone."""
+        return alone_in(self)
+
+    @cached_property
     def outliers(self) -> tuple[str, ...]:
         """Sentences: where only one engine differs from all others, or all engines differ from the equations.
 
-        The equations and at least two engines vote on each scene and check. Any other split blames nobody.
+        The equations and at least two engines vote on each scene and check. Any other split blames nobody. Of scenes
+        with a user's own equations the sentences are those of :attr:`alone`.
         """
+        own = {alone.scene for alone in self.alone}
         votes: dict[tuple[str, str], dict[Outcome, list[str]]] = {}
         for result in self.results:
-            votes.setdefault((result.scene, result.check), {}).setdefault(result.outcome, []).append(result.engine)
+            if result.scene not in own:
+                votes.setdefault((result.scene, result.check), {}).setdefault(result.outcome, []).append(result.engine)
         lone: dict[str, list[str]] = {}
         for (scene, _), vote in votes.items():
             differing, agreeing = vote.get("differs", []), vote.get("agrees", [])
@@ -282,7 +291,7 @@ class Report:
                 lone.setdefault(differing[0], []).append(scene)
             elif len(differing) >= 2 and not agreeing:
                 lone.setdefault("", []).append(scene)
-        return tuple(
+        return tuple(alone.says for alone in self.alone) + tuple(
             f"Only {engine} differs in {few(scenes, 'scene')}: the equations and the other engines agree."
             if engine
             else f"All engines differ from the equations in {few(scenes, 'scene')}."
@@ -298,10 +307,15 @@ class Report:
         return next((engine for engine in self.header.engines if engine.name == name), None)
 
     def again(self, scene: str) -> str:
-        """The command line that runs this scene again."""
+        """The command line that runs this scene again, on all engines, and keeps nothing of an earlier run."""
         entry = self.scene(scene)
         words = ["furiko", "check", (entry.source if entry else "") or scene]
-        return shlex.join([*words, "--profile", self.header.profile])
+        return shlex.join([*words, "--profile", self.header.profile, "--no-cache"])
+
+    @staticmethod
+    def engine_option(engine: str) -> str:
+        """What to write behind :meth:`again` for one engine alone."""
+        return shlex.join(["-e", engine])
 
     @cached_property
     def _miscounted(self) -> tuple[tuple[str, int, int], ...]:

@@ -41,7 +41,8 @@ def prepare_reports() -> None:
 def write_reports(directory: str | Path, report: Report, known: Known | None = None) -> tuple[Path, ...]:
     """Write the page, the summary and the JUnit file of a run into its folder; returns their paths.
 
-    With ``known`` the summary has its known differences apart, and in the JUnit file they are skipped, not failed.
+    With ``known`` the page and the summary have its known differences apart, and in the JUnit file they are skipped,
+    not failed.
     Each is written completely or not at all. Raises :class:`InvalidInput` with the paths of those that cannot be
     written, after the others have been.
     """
@@ -52,7 +53,7 @@ def write_reports(directory: str | Path, report: Report, known: Known | None = N
     folder = Path(directory)
     paths, failures = [], []
     renderings: dict[str, Callable[[], str]] = {
-        PAGE: lambda: to_html(report),
+        PAGE: lambda: to_html(report, known),
         SUMMARY: lambda: to_markdown(report, known),
         JUNIT: lambda: to_junit(report, known),
     }

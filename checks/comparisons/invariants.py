@@ -30,7 +30,7 @@ from ...reference.integration.richardson import amplified, at_step_zero
 from ...reference.integration.variation import fastest_rate, lyapunov_time
 from ...reference.rounding.bounds import EPSILON, Amplitudes, allowed
 from ..cell import Cell
-from ..step_rounding import acceleration_error
+from ..step_rounding import acceleration_error, joints_apart, rate_of_positions
 from .energy import energy_amplitudes
 
 Array = NDArray[np.float64]
@@ -89,12 +89,21 @@ def begin(cell: Cell, system: DocumentSystem, engine: AnyShape, theta: Array, om
     step = 2.0 ** math.floor(math.log2(SHORT / fastest)) if fastest > 0 else SHORT
     time, alpha = step * STEPS, literal_accelerations(system, theta, omega)
     rates = float(np.abs(omega).max() + time * np.abs(alpha).max())
+    steps = STEPS << (RUNS - 1)
     off = {
-        integrator.name: EPSILON * (STEPS << (RUNS - 1)) * rates
+        integrator.name: EPSILON * steps * rates
         + time * float(acceleration_error(cell, integrator, theta[None], omega[None], alpha[None])[0])
+        + _by_joints(cell, integrator, theta, time / steps)
         for integrator in cell.info.integrators
     }
     return Start(system, engine, cell.amplitude_of(system), theta, omega, step, math.exp(time * fastest), off)
+
+
+def _by_joints(cell: Cell, integrator: Integrator, theta: Array, h: float) -> float:
+    """Error of the rates [rad/s] by the rounding of joints that are held together, in steps of ``h`` seconds."""
+    if cell.info.coordinates != "maximal":
+        return 0.0
+    return float(rate_of_positions(h) * joints_apart(cell, integrator, theta[None])[0])
 
 
 @dataclass(frozen=True)

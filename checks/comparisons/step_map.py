@@ -26,12 +26,11 @@ from numpy.typing import NDArray
 
 from ...engines import Integrator
 from ...records.check import Result
-from ...reference.integration.schemes import RADIUS, alpha_parameters
 from ...reference.integration.variation import fastest_rate
 from ...reference.rounding.bounds import EPSILON
 from .. import sharp
 from ..cell import Cell, quotient, worst
-from ..step_rounding import acceleration_error, conversion, disturbed, joints_apart, sharp_steps
+from ..step_rounding import acceleration_error, conversion, disturbed, joints_apart, rate_of_positions, sharp_steps
 from ..textbook import MAXIMAL, Candidate, candidates
 
 Array = NDArray[np.float64]
@@ -141,7 +140,7 @@ def sharp_line(
     error = (got - np.stack(textbook.end(candidate), axis=1)).astype(np.float64)
     rounding, left = (values.swapaxes(0, 1) for values in (size.rounding, size.left))
     states = cell.states.at(np.arange(len(cell.states))[-STATES:])
-    return sharp.line(error, rounding, sharp.for_steps(integrator), states, len(states), left)
+    return sharp.line(error, rounding, sharp.for_steps(cell.info, integrator), states, len(states), left)
 
 
 @dataclass(frozen=True)
@@ -185,9 +184,7 @@ def rounding_bounds(
     angles = h * rates + sums * conversion(cell, turns)
     if candidate.coordinates == MAXIMAL:
         apart = joints_apart(cell, integrator, steps.theta)
-        # Where positions are held, the rates follow by γ/(βh) times that.
-        beta, gamma, _, _ = map(float, alpha_parameters(RADIUS))
-        angles, rates = angles + apart, rates + gamma / (beta * h) * apart
+        angles, rates = angles + apart, rates + rate_of_positions(h) * apart
     return np.stack([angles, rates])[..., None]
 
 

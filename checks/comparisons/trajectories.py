@@ -44,6 +44,7 @@ from ..step_rounding import (
     Disturbed,
     conversion,
     disturbed,
+    in_a_step,
     iterations_error,
     joints_apart,
     rounding_error,
@@ -230,39 +231,47 @@ def sharp_line(cell: Cell, integrator: Integrator, ladder: Ladder, passed: Passe
     """The coarsest run's angles against those of the textbook scheme that it is, after the same steps.
 
     The two have the scheme's error in common, and rounding is all that is between them: by what it is in the states
-    that the motion passes, sampled along the run. None where no scheme of the order does as the first step does, which
-    is for the step map to say, or steps are too long for one of them.
+    that the motion passes, sampled along the run. Where the first step is that of several schemes, which part later,
+    the run may be any one's. None where no scheme of the order does as the first step does, which is for the step map
+    to say, or steps are too long for one of them.
     """
     theta, omega = passed.theta[:1], passed.omega[:1]
     if cell.info.coordinates == "maximal" and theta.size > LARGEST_MAXIMAL:
         return None
     steps = min(ladder.steps, sharp.steps_together(integrator, cell.scene.system.n))
     by = disturbed(cell, integrator, passed.theta[:2], passed.omega[:2], passed.alpha[:2]).worst()
-    candidate = scheme_of(cell, integrator, theta, omega, ladder.step, by)
-    if candidate is None:
-        return None
-    try:
-        found = sharp_steps(cell, candidate, theta, omega, by, ladder.step, steps)
-    except ArithmeticError:
-        return None
-    end = ladder.ends[0] if steps == ladder.steps else run(cell, integrator, steps * ladder.step, steps)
-    error = (end[:1] - found.exact[0]).astype(np.float64)
+    alike = schemes_of(cell, integrator, theta, omega, ladder.step, by)
+    end = ladder.ends[0] if steps == ladder.steps or not alike else run(cell, integrator, steps * ladder.step, steps)
     state = States((f"after {steps} steps of {ladder.step:.3g} s",), theta, omega)
-    return sharp.line(error, found.rounding[0], sharp.for_steps(integrator), state, 1, found.left[0])
+    factor = sharp.for_steps(cell.info, integrator)
+    lines = []
+    for candidate in alike:
+        try:
+            found = sharp_steps(cell, candidate, theta, omega, by, ladder.step, steps)
+        except ArithmeticError:
+            return None
+        error = (end[:1] - found.exact[0]).astype(np.float64)
+        lines.append(sharp.line(error, found.rounding[0], factor, state, 1, found.left[0]))
+        if not lines[-1].loose:
+            break
+    return min(lines, key=lambda line: line.quotient, default=None)
 
 
-def scheme_of(
+def schemes_of(
     cell: Cell, integrator: Integrator, theta: Array, omega: Array, h: float, by: Disturbed
-) -> Candidate | None:
-    """The textbook scheme of the integrator's order whose step from a state (1, n) is the nearest to the engine's.
+) -> list[Candidate]:
+    """Textbook schemes of the integrator's order whose step from a state (1, n) may be the engine's, nearest first.
 
     Each entry is held against about what disturbs it in a step: schemes of one order may differ in an angle that is
-    exact to its last digit by less than others' rates are off by.
+    exact to its last digit by less than others' rates are off by. Near rest several do the same to rounding: all that
+    are within the line's factor of it, in angles that may be differences of larger ones, are kept beside the nearest.
+    None, where no step is the engine's to most of its digits.
     """
     got = run(cell, integrator, h, 1)
-    off_rates = h * (by.accelerations + by.left) + by.speeds + by.rates
-    besides = np.concatenate([h / 2 * off_rates + by.angles, off_rates])
-    best: tuple[float, Candidate] | None = None
+    factor = sharp.for_steps(cell.info, integrator)
+    in_rates = h * (by.accelerations + by.left) + by.speeds + by.rates
+    in_angles = h / 2 * in_rates + by.angles
+    found: list[Nearness] = []
     for candidate in candidates(cell, omega, literal=False):
         if candidate.scheme.order == integrator.order:
             try:
@@ -270,10 +279,39 @@ def scheme_of(
             except ArithmeticError:
                 continue
             apart = np.abs(got - end)
-            if (apart < ALIKE * (np.abs(end) + h * np.abs(end).max())).all():
-                off = float((apart / np.maximum(EPSILON * np.abs(end) + besides, TINY)).max())
-                best = (off, candidate) if best is None or off < best[0] else best
-    return best[1] if best else None
+            off = EPSILON * np.abs(end) + np.concatenate([in_angles, in_rates])
+            widest = EPSILON * cell.amplitude.path_sums(end) + np.concatenate(in_a_step(candidate, by, h))
+            found.append(
+                Nearness(
+                    candidate,
+                    alike=bool((apart < ALIKE * (np.abs(end) + h * np.abs(end).max())).all()),
+                    off=_times(apart, off),
+                    least=_times(apart, np.maximum(off, widest)),
+                )
+            )
+    nearest = min((one for one in found if one.alike), key=lambda one: one.off, default=None)
+    if nearest is None:
+        return []
+    others = (one for one in found if one is not nearest and one.least <= factor)
+    return [one.candidate for one in (nearest, *sorted(others, key=lambda one: one.off))]
+
+
+@dataclass(frozen=True)
+class Nearness:
+    """How near a scheme's first step is to an engine's.
+
+    ``alike``: to most digits; ``off``: in units of what disturbs each entry, ``least`` where that is the difference of
+    larger ones.
+    """
+
+    candidate: Candidate
+    alike: bool
+    off: float
+    least: float
+
+
+def _times(apart: Array, off: Array) -> float:
+    return float((apart / np.maximum(off, TINY)).max())
 
 
 def measured_error(cell: Cell, theta: Array, omega: Array, alpha: Array) -> float:

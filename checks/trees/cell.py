@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...diagnosis.explanation import Explanation
+from ...diagnosis.explanation import Explanation, together
 from ...diagnosis.finding import Finding
 from ...engines import EngineInfo, Integrator, TreeShape
 from ...models import TreeScene
@@ -26,13 +27,19 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class TreeCell:
-    """``states`` are those in which quantities are compared; ``facts`` the truth in them."""
+    """``states`` are those in which quantities are compared; ``facts`` the truth in them.
+
+    ``findings``: why answers differ, asked once and only if one does; ``in_file``: what was found in the engine's
+    reading of the scene's model file.
+    """
 
     scene: TreeScene
     info: EngineInfo
     engine: TreeShape
     states: TreeStates
     facts: TreeFacts
+    findings: Callable[[], list[Finding]] = list
+    in_file: list[Finding] = field(default_factory=list)
 
     @cached_property
     def mechanism(self) -> SpatialMechanism:
@@ -53,8 +60,12 @@ class TreeCell:
 
     @property
     def explanation(self) -> Explanation:
-        """No cause is looked for in a tree: what an engine makes of a file is the matter of ``furiko diagnose``."""
-        return Explanation()
+        """What is known of why answers differ: of a user's own equations, and of an engine's reading of a file."""
+        return together([*self._found, *self.in_file])
+
+    @cached_property
+    def _found(self) -> list[Finding]:
+        return self.findings()
 
     def motion_causes(self, integrator: Integrator) -> list[Finding]:
         """No cause is looked for in a tree."""

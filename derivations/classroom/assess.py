@@ -13,7 +13,8 @@ from ..algebra.trig import digits
 from ..grading.differences import authors
 from ..grading.grade import graded
 from ..grading.grade_record import Grade
-from ..reading.submission import Submission, read_table, table_of
+from ..reading.derivation import read_derivation
+from ..reading.submission import Submission, table_of
 from .feedback import feedback
 from .marks import Part, marks
 from .problem import Problem
@@ -73,7 +74,7 @@ def assess(problem: Problem, who: str, data: dict[str, Any]) -> Assessment:
     held = problem.held(data)
 
     def read(slashes: int) -> Submission:
-        return problem.checked(read_table(held, slashes))
+        return problem.checked(read_derivation(held, slashes))
 
     first = read(0)
     _require_form(problem, first)
@@ -84,7 +85,11 @@ def assess(problem: Problem, who: str, data: dict[str, Any]) -> Assessment:
     solution = right_answer(problem, s)
     total = float(problem.points.total)
     points = round(sum(part.points for part in parts), 6)
-    made = Assessment(who, grade.verdict, points, total, parts, solution=solution, grade=grade)
+    outcome = grade.verdict
+    if outcome == "correct" and any(part.outcome == "missing" for part in parts):
+        outcome = "undecided"
+        grade = replace(grade, verdict=outcome)
+    made = Assessment(who, outcome, points, total, parts, solution=solution, grade=grade)
     shown = solution if problem.shows_solution or problem.hints == 4 else ()
     lines, lines_ja = feedback(problem.hints, grade, parts, points, total, shown)
     return replace(made, feedback=lines, feedback_ja=lines_ja)
@@ -93,23 +98,43 @@ def assess(problem: Problem, who: str, data: dict[str, Any]) -> Assessment:
 def right_answer(problem: Problem, s: Submission) -> tuple[tuple[str, str], ...]:
     """The right rows, or the right Lagrangian, in the submission's coordinates and symbols."""
     truth = problem.truth(s).mechanism
+    if s.stages is not None:
+        energies = (("T", truth.kinetic), ("U", truth.potential))
+        rows = tuple((str(i), f"{pretty(authors(s, text(s.space, row)))} = 0") for i, row in enumerate(truth.rows, 1))
+        return (*((name, pretty(authors(s, text(s.space, f)))) for name, f in energies), *rows)
     if s.lagrangian is not None:
         return (("L", pretty(authors(s, text(s.space, truth.lagrangian)))),)
     return tuple((str(i), pretty(authors(s, text(s.space, row))) + " = 0") for i, row in enumerate(truth.rows, 1))
 
 
+KNOWN = {
+    "equations": "the equations of motion", "solved": "the equations solved for the accelerations",
+    "lagrangian": "the Lagrangian", "hamiltonian": "the Hamiltonian", "energies": "the energies T and U",
+    "positions": "the positions or velocities",
+}  # fmt: skip
+
+
 def _require_form(problem: Problem, s: Submission) -> None:
+    form = _form(s)
+    if form == "solved" and "solved" not in problem.forms and "equations" in problem.forms:
+        form = "equations"  # they are equations of motion too
+    if form not in problem.forms and not problem.points.stages:
+        asked = " or ".join(KNOWN[name] for name in problem.forms)
+        raise InvalidInput(f"this problem asks for {asked}; {KNOWN[form]} is something else")
+
+
+def _form(s: Submission) -> str:
+    """What a submission ends in."""
+    if s.stages is not None:
+        last = s.stages.given[-1]
+        if {"kinetic", "potential"} <= set(s.stages.given) and last in ("potential", "momenta"):
+            return "energies"
+        return last if last in KNOWN else "positions"
+    if s.first_order is not None:
+        return "hamiltonian" if s.first_order.hamiltonian else "equations"
     if s.lagrangian is not None:
-        form = "lagrangian"
-    else:
-        form = "solved" if _is_solved(s) else "equations"
-        if form == "solved" and "solved" not in problem.forms and "equations" in problem.forms:
-            form = "equations"  # they are equations of motion too
-    if form not in problem.forms:
-        known = {"equations": "the equations of motion", "solved": "the equations solved for the accelerations",
-                 "lagrangian": "the Lagrangian"}  # fmt: skip
-        asked = " or ".join(known[name] for name in problem.forms)
-        raise InvalidInput(f"this problem asks for {asked}; {known[form]} is something else")
+        return "lagrangian"
+    return "solved" if _is_solved(s) else "equations"
 
 
 def _is_solved(s: Submission) -> bool:

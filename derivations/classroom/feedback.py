@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from ..algebra.notation import pretty
 from ..grading.grade_record import Grade
-from .marks import Part
+from .marks import TITLES, Part
 from .problem import shown_points
 
 ROW, TERM, CAUSE, SOLUTION = 1, 2, 3, 4
@@ -26,9 +26,10 @@ def feedback(
     japanese[0] += f"{_points(of)} 点中 {_points(points)} 点。"
     if level >= ROW and grade.verdict != "correct":
         for part in parts:
-            if part.terms or part.name.startswith("row") or part.outcome != "right":
+            if part.terms or len(parts) > 1 or part.outcome != "right":
                 en, ja = OUTCOMES[part.outcome]
                 worth = f" ({_points(part.points)} of {_points(part.of)})" if part.of else ""
+                en, ja = _followed(part, grade) or (en, ja)
                 english.append(f"{part.name[0].upper()}{part.name[1:]}: {en}{worth}.")
                 japanese.append(f"{part.name_ja}：{ja}{worth}。")
             if level >= TERM:
@@ -50,10 +51,20 @@ def feedback(
     return tuple(english), tuple(japanese)
 
 
+def _followed(part: Part, grade: Grade) -> tuple[str, str] | None:
+    """A stage that is right only in so far as it follows from an earlier one."""
+    for mark in grade.stages:
+        if mark.outcome == "follows" and TITLES[mark.stage][0] == part.name:
+            return "follows from your earlier stages, which are wrong", "前の段階から正しく導かれている"
+    return None
+
+
 def causes(grade: Grade, parts: Sequence[Part]) -> list[tuple[str, str]]:
     """Why it is wrong, in English and Japanese: the mistakes that are named, else what is wrong with each term."""
     if grade.mistakes:
-        return [(mistake.says, mistake.says_ja) for mistake in grade.mistakes]
+        named = [(mistake.says, mistake.says_ja) for mistake in grade.mistakes]
+        wrong = [mark for mark in grade.stages if mark.outcome == "wrong"]
+        return named + [(term.says, term.says_ja) for mark in wrong[1:] for term in mark.findings]
     return [(term.says, term.says_ja) for part in parts for term in part.terms]
 
 

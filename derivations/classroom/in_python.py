@@ -9,8 +9,9 @@ from typing import Any, overload
 from ...models.errors import InvalidInput
 from ..grading.grade import graded
 from ..grading.grade_record import Grade
+from ..reading.derivation import read_derivation
 from ..reading.pinned import Pinned
-from ..reading.submission import Submission, read_table, table_of
+from ..reading.submission import Submission, table_of
 from .assess import Assessment, assess
 from .problem import Problem, problem_of, read_problem
 
@@ -40,7 +41,7 @@ def grade_text(
         return assess(_problem(problem), "", data)
 
     def read(slashes: int) -> Submission:
-        s = read_table(data, slashes)
+        s = read_derivation(data, slashes)
         if pinned is not None:
             pinned.check(s)
         return s

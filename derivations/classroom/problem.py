@@ -5,10 +5,11 @@
     links = 2
     angles = "absolute"          # with from, sense: what is given is pinned, the rest is left to the submission
     equal = ["masses"]           # m without an index may stand for all masses; "lengths" likewise
-    forms = ["equations"]        # what is taken as an answer: "equations", "solved", "lagrangian"
+    forms = ["equations"]        # what is taken as an answer: also "solved", "lagrangian", "hamiltonian", "energies"
     [points]
     total = 10
     rows = [4, 6]                # left out: each row the same
+    stages = { kinetic = 3, potential = 2, equations = 5 }   # in place of rows: a derivation stated stage by stage
     each_term = 1                # off for a wrong term; each_mistake = 2: off for a mistake, whatever terms it hits
     [feedback]
     hints = 2                    # 0 right or wrong, 1 which row, 2 which term, 3 the cause, 4 the solution
@@ -33,11 +34,13 @@ from ...models.readers.toml_text import parse_toml
 from ..grading.hypotheses import Hypothesis, hypotheses
 from ..reading.declaration import PRESETS
 from ..reading.submission import ORIGINS, WORDS, Submission, read_table
+from ..steps.stages import STAGES, StageName
 
 LARGEST_FILE = 100_000  # bytes
 PINNED = ("system", "links", "bodies", "angles", "from", "sense")
 FIELDS = (*PINNED, "title", "equal", "forms", "points", "feedback", "limits")
-FORMS = ("equations", "solved", "lagrangian")
+FORMS = ("equations", "solved", "lagrangian", "hamiltonian", "energies", "positions")
+ASKED = ("equations", "solved", "lagrangian", "hamiltonian", "energies")  # unless forms says otherwise
 EQUAL = ("lengths", "masses")
 MOST_POINTS = 10_000
 MOST_SECONDS = 600.0
@@ -47,12 +50,13 @@ LEVELS = ("right or wrong", "which row", "which term", "the cause", "the solutio
 
 @dataclass(frozen=True)
 class Points:
-    """What is worth how much. ``rows``: of each right row; empty: each the same."""
+    """What is worth how much. ``rows``: of each right row; empty: each the same; ``stages``: of each that is asked."""
 
     total: Fraction = Fraction(1)
     rows: tuple[Fraction, ...] = ()
     each_term: Fraction | None = None
     each_mistake: Fraction | None = None
+    stages: tuple[tuple[StageName, Fraction], ...] = ()
 
     def sentence(self) -> str:
         """How points are taken off, in plain words."""
@@ -63,6 +67,10 @@ class Points:
             )
         worth = "its points divided by the number of its terms" if self.each_term is None else shown_points(
             self.each_term)  # fmt: skip
+        if self.stages:
+            worth = worth.replace("its points divided by the number of its terms", "its points divided by its terms")
+            return (f"A stage loses {worth} for each term that is wrong; what follows correctly from an earlier stage "
+                    "that is wrong loses nothing. A stage that is not there has no points.")  # fmt: skip
         return (f"A row (or the Lagrangian) loses {worth} for each term that is wrong, missing or too many, and never "
                 "more than it is worth. A row that is not there has no points.")  # fmt: skip
 
@@ -74,7 +82,7 @@ class Problem:
     pinned: dict[str, Any]
     title: str = ""
     equal: frozenset[str] = frozenset()
-    forms: tuple[str, ...] = ("equations", "solved", "lagrangian")
+    forms: tuple[str, ...] = ASKED
     points: Points = field(default_factory=Points)
     hints: int = 3
     shows_solution: bool = False
@@ -140,7 +148,7 @@ def problem_of(data: dict[str, Any]) -> Problem:
     pinned = {name: data[name] for name in PINNED if name in data}
     if "system" not in pinned:
         raise InvalidInput("system: a problem names its mechanism")
-    equal, forms = data.get("equal", []), data.get("forms", list(FORMS))
+    equal, forms = data.get("equal", []), data.get("forms", list(ASKED))
     _choice(equal, EQUAL, "equal")
     _choice(forms, FORMS, "forms")
     if not forms:
@@ -171,19 +179,25 @@ def _points(data: Any, links: int) -> Points:
         data = {"total": data}
     if not isinstance(data, dict):
         raise InvalidInput("points: a number, or a table [points]")
-    _known(data, ("total", "rows", "each_term", "each_mistake"), "points.")
-    rows = data.get("rows", [])
+    _known(data, ("total", "rows", "stages", "each_term", "each_mistake"), "points.")
+    rows, by_stage = data.get("rows", []), data.get("stages", {})
+    if not isinstance(by_stage, dict):
+        raise InvalidInput("points.stages: a table, as in { kinetic = 3, equations = 5 }")
+    _known(by_stage, STAGES, "points.stages.")
+    if rows and by_stage:
+        raise InvalidInput("points: rows or stages; the equations are a stage")
     if not isinstance(rows, list) or (rows and len(rows) != links):
         raise InvalidInput(f"points.rows: a list of {links} numbers, one a row of the equations of motion")
     each = {
         name: _number(data[name], f"points.{name}") if name in data else None for name in ("each_term", "each_mistake")
     }
     worth = tuple(_number(x, "points.rows") for x in rows)
-    parts = sum(worth)
+    stages = tuple((name, _number(by_stage[name], f"points.stages.{name}")) for name in STAGES if name in by_stage)
+    parts = sum(worth) + sum(x for _, x in stages)
     total = _number(data["total"], "points.total") if "total" in data else Fraction(parts or 1)
     if parts and parts != total:
         raise InvalidInput(f"points.total: {shown_points(total)}, and its parts are {shown_points(Fraction(parts))}")
-    return Points(total, worth, each["each_term"], each["each_mistake"])
+    return Points(total, worth, each["each_term"], each["each_mistake"], stages)
 
 
 def shown_points(points: Fraction) -> str:

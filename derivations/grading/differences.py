@@ -17,7 +17,7 @@ from flint import fmpq
 from ..algebra.multiples import divided
 from ..algebra.notation import pretty, text
 from ..algebra.symbols import symbols_of
-from ..algebra.trig import CONSTANT_ONE, COS, NOTHING, ONE, Formula, Key, Space, unit
+from ..algebra.trig import CONSTANT_ONE, COS, NOTHING, ONE, Formula, Key, Space, digit, unit
 from ..reading.submission import Submission
 from ..steps.mechanism import Mechanism
 from ..steps.solved_form import is_solved, solved_rows
@@ -29,13 +29,14 @@ Term = tuple[int, int, int]  # packed motion (and coordinates outside waves), wa
 Terms = dict[Term, Formula]
 
 
-def terms(space: Space, f: Formula, apart: bool = False) -> Terms:
+def terms(space: Space, f: Formula, apart: bool = False, beside: Sequence[int] = ()) -> Terms:
     """The coefficient of each product of motion and wave: in parameters, and in coordinates outside of waves, since
-    rows are divided by those too; ``apart``: the latter are told apart as well.
+    rows are divided by those too; ``apart``: the latter are told apart as well; ``beside``: and the symbols there.
     """
     parts: dict[Term, dict[Key, fmpq]] = {}
     for (e, h, s), c in f.terms.items():
         q = space.motion(e) + (space.outside(e) if apart else 0)
+        q += sum(digit(e, place) * unit(place) for place in beside)
         parts.setdefault((q, h, s), {})[e - q, 0, COS] = c
     return {key: Formula(part) for key, part in parts.items()}
 
@@ -80,17 +81,22 @@ def scalings(given: Terms, right: Terms) -> list[Scaled]:
 
 def row_differences(s: Submission, mechanism: Mechanism) -> tuple[WrongTerm, ...]:
     """The wrong terms of all rows, each row at the factor that accuses fewest."""
+    return differences_from(s, mechanism.rows)
+
+
+def differences_from(s: Submission, rows: Sequence[Formula]) -> tuple[WrongTerm, ...]:
+    """The same where these rows are right."""
     return tuple(
         term_finding(s, scaled, key, label, f"Row {label}", f"第{label}行")
-        for label, scaled in aligned(s, mechanism)
+        for label, scaled in aligned(s, rows)
         for key in scaled.wrong
     )
 
 
-def aligned(s: Submission, mechanism: Mechanism) -> list[tuple[str, Scaled]]:
+def aligned(s: Submission, rows: Sequence[Formula]) -> list[tuple[str, Scaled]]:
     """Each given row with the right row that it is meant to be: label, and both at the best factor."""
     space = s.space
-    rights = [terms(space, f) for f in right_rows(s, mechanism)]
+    rights = [terms(space, f) for f in right_rows(s, rows)]
     pairs = []
     for r, (label, f) in enumerate(s.rows):
         given = terms(space, f)
@@ -107,15 +113,15 @@ def aligned(s: Submission, mechanism: Mechanism) -> list[tuple[str, Scaled]]:
     return [out[r] for r in sorted(out)]
 
 
-def right_rows(s: Submission, mechanism: Mechanism) -> Sequence[Formula]:
+def right_rows(s: Submission, rows: Sequence[Formula]) -> Sequence[Formula]:
     """The right rows, solved for the accelerations where the author solved them."""
     space, m = s.space, symbols_of("rod-chain", s.space.n)
-    right = [space.split(f) for f in mechanism.rows]
+    right = [space.split(f) for f in rows]
     if m.n > 1 and is_solved(m, [space.split(f) for _, f in s.rows]) and not is_solved(m, right):
         solved = solved_rows(m, right)
         places = {next(k for k in range(m.n) if unit(k) in row): row for row in solved}
         return [space.join(places[k]) for k in range(m.n)]
-    return mechanism.rows
+    return rows
 
 
 def lagrangian_differences(s: Submission, mechanism: Mechanism) -> tuple[tuple[WrongTerm, ...], list[Said]]:

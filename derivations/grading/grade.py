@@ -10,15 +10,18 @@ from pathlib import Path
 from ...models.errors import InvalidInput
 from ...models.readers.bounded_file import read_text, shown
 from ..algebra.fingerprint import RandomPoint
+from ..reading.derivation import read_derivation
 from ..reading.pinned import Pinned
-from ..reading.submission import LARGEST_FILE, Submission, read_table, table_of
+from ..reading.submission import LARGEST_FILE, Submission, table_of
 from ..steps.families import family
 from .differences import row_differences
-from .grade_record import Grade, Verdict
-from .hypotheses import Hypothesis, Said, merged
+from .forms.hamilton import scale_note
+from .forms.stages import StageJudge, none_wrong
+from .grade_record import Grade, StageMark, Verdict
+from .hypotheses import Hypothesis, Said, hypotheses, merged
 from .judge import Judgement, judge
 from .readback import readback
-from .wrong import if_as_declared, wrong
+from .wrong import if_as_declared, named_in_stages, wrong
 
 
 def grade(source: str | os.PathLike[str], *, pinned: Pinned | None = None) -> Grade:
@@ -39,7 +42,7 @@ def grade_text(toml: str, *, pinned: Pinned | None = None) -> Grade:
     data = table_of(toml)
 
     def read(slashes: int) -> Submission:
-        s = read_table(data, slashes)
+        s = read_derivation(data, slashes)
         if pinned is not None:
             pinned.check(s)
         return s
@@ -53,6 +56,8 @@ def graded(read: Callable[[int], Submission], *, pinned: bool) -> tuple[Grade, S
     ``read``: reads it, with slashes as in :class:`Slashes`; ``pinned``: nothing is assumed.
     """
     first = read(0)
+    if first.stages is not None:
+        return _staged(read, first, pinned=pinned)
     readings = [(first, judge(first, pinned=pinned))]
     if first.doubtful and readings[0][1].hypothesis is None:
         for mode in (1, 2, 3):
@@ -61,11 +66,63 @@ def graded(read: Callable[[int], Submission], *, pinned: bool) -> tuple[Grade, S
     right = [(s, j) for s, j in readings if j.hypothesis is not None]
     if right:
         s, judgement = min(right, key=lambda pair: len(pair[1].assumes))
-        return _right(s, judgement, slashes=s is not first), s
+        return _right(s, judgement, slashes=s is not first, pinned=pinned), s
     return wrong(first, pinned=pinned), first
 
 
-def _right(s: Submission, judgement: Judgement, *, slashes: bool) -> Grade:
+def _staged(read: Callable[[int], Submission], first: Submission, *, pinned: bool) -> tuple[Grade, Submission]:
+    """A derivation that is stated stage by stage, in the meaning in which no stage is wrong, else in the declared."""
+    readings = [first, *(read(mode) for mode in (1, 2, 3) if first.doubtful)]
+    for s in readings:
+        for h in hypotheses(s, pinned=pinned):
+            found = StageJudge(s, h)
+            marks = found.marks()
+            if none_wrong(marks):
+                return _right_stages(s, h, found, marks, slashes=s is not first), s
+    h = next(hypotheses(first, pinned=True))
+    found = StageJudge(first, h)
+    marks = found.marks()
+    findings = tuple(term for mark in marks for term in mark.findings)
+    note = found.frame_note
+    return Grade(
+        verdict="wrong", findings=findings, mistakes=named_in_stages(first, h, found, marks), system=first.kind,
+        links=first.space.n, reading=readback(first, h), stages=marks,
+        notes=(note[0],) if note else (), notes_ja=(note[1],) if note else (),
+    ), first  # fmt: skip
+
+
+def _right_stages(
+    s: Submission, h: Hypothesis, found: StageJudge, marks: tuple[StageMark, ...], *, slashes: bool
+) -> Grade:
+    """No stage is wrong."""
+    assert s.stages is not None
+    notes = [note for note in (found.frame_note,) if note]
+    assumes = [*h.assumes, *([_slashes(s)] if slashes else [])]
+    rows = s.stages.equations or s.stages.solved
+    verdict: Verdict = "correct"
+    if rows and len(rows) < s.space.n:
+        verdict = "undecided"
+        notes.append((f"The given equations are right, but they are {len(rows)} of {s.space.n}.",
+                      f"書かれている式は正しいですが、{s.space.n} 本中 {len(rows)} 本です。"))  # fmt: skip
+    if h.convention != s.convention:
+        declared = StageJudge(s, next(hypotheses(s, pinned=True))).marks()
+        wrong_there = next((mark for mark in declared if mark.outcome == "wrong"), None)
+        if wrong_there is not None:
+            notes.append((f"If they are not: {wrong_there.says}", f"そうでなければ：{wrong_there.says_ja}"))
+    return Grade(
+        verdict=verdict, system=s.kind, links=s.space.n, reading=readback(s, h), stages=marks,
+        notes=tuple(en for en, _ in notes), notes_ja=tuple(ja for _, ja in notes),
+        assumes=tuple(en for en, _ in assumes), assumes_ja=tuple(ja for _, ja in assumes),
+    )  # fmt: skip
+
+
+def _slashes(s: Submission) -> Said:
+    examples = ", ".join(f"{x} as {_with_brackets(x)}" for x in s.doubtful[:3])
+    return (f"all that stands at once behind a slash is below it: {examples}",
+            f"斜線の直後に続く文字はすべて分母にある：{examples}")  # fmt: skip
+
+
+def _right(s: Submission, judgement: Judgement, *, slashes: bool, pinned: bool) -> Grade:
     """Right, or right as far as it goes."""
     h, comparison = judgement.hypothesis, judgement.comparison
     assert h is not None
@@ -81,17 +138,20 @@ def _right(s: Submission, judgement: Judgement, *, slashes: bool) -> Grade:
             "The rows determine the accelerations only while the system moves: a rate is a factor of them.",
             "各式に角速度が掛かっているので、加速度が決まるのは動いている間だけです。",
         ))  # fmt: skip
+    notes += scale_note(s, h.mechanism)
     if s.kind == "rod-chain" and h.variant.choices.density and h.variant.assumes:
         notes += _of_independent_masses(s, h)
     assumes = list(h.assumes)
     if slashes:
-        examples = ", ".join(f"{x} as {_with_brackets(x)}" for x in s.doubtful[:3])
-        assumes.append((f"all that stands at once behind a slash is below it: {examples}",
-                        f"斜線の直後に続く文字はすべて分母にある：{examples}"))  # fmt: skip
+        assumes.append(_slashes(s))
     verdict: Verdict = "correct"
     if comparison.answer == "incomplete":
-        verdict = "undecided"
-        notes.append(_incomplete(s, h))
+        given = _given_motions(s, assume=not pinned)
+        if given is None:
+            verdict = "undecided"
+            notes.append(_incomplete(s, h))
+        else:
+            assumes += given
     mistakes = if_as_declared(s) if verdict == "correct" and _other_zero(s, h) else ()
     return Grade(
         verdict=verdict, system=s.kind, links=s.space.n, reading=readback(s, h), mistakes=mistakes,
@@ -120,6 +180,21 @@ def _with_brackets(text: str) -> str:
 def _other_zero(s: Submission, h: Hypothesis) -> bool:
     """Whether it is right with angles from elsewhere alone: then gravity may be wrong in place of them."""
     return h.convention.origin != s.convention.origin and h.convention.relative == s.convention.relative
+
+
+def _given_motions(s: Submission, *, assume: bool) -> list[Said] | None:
+    """What is assumed where the rows that are not there belong to coordinates whose motion is given; None elsewhere."""
+    rows = [f for _, f in s.rows]
+    if s.mechanism is None or not rows:
+        return None
+    if len(rows) == s.space.n - len(s.mechanism.given):
+        return []
+    free = s.mechanism.free_drives(rows)
+    if not assume or len(rows) != s.space.n - len(free):
+        return None
+    names = " and ".join(s.mechanism.coordinates[k] for k in free)
+    return [(f"the motion of {names} is given: its own equation, which is not here, would say what drives it",
+             f"{names} の運動が与えられている（その式は駆動力を定めるだけなので省かれている）")]  # fmt: skip
 
 
 def _incomplete(s: Submission, h: Hypothesis) -> Said:

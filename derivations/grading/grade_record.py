@@ -8,6 +8,7 @@ from typing import Any, Literal
 
 from ..algebra.mathml import mathml
 from ..algebra.notation import pretty
+from ..steps.stages import StageName
 
 Verdict = Literal["correct", "wrong", "undecided"]
 EXIT_STATUS: dict[Verdict, int] = {"correct": 0, "wrong": 1, "undecided": 1}
@@ -40,6 +41,21 @@ class NamedMistake:
     says: str
     says_ja: str
     also: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class StageMark:
+    """One stage of a derivation that is stated stage by stage. ``of``: how many terms the right stage has.
+
+    ``outcome``: "right"; "follows" from earlier stages that are wrong, and so not wrong again; or "wrong".
+    """
+
+    stage: StageName
+    outcome: Literal["right", "follows", "wrong"]
+    says: str
+    says_ja: str
+    findings: tuple[WrongTerm, ...] = ()
+    of: int = 0
 
 
 @dataclass(frozen=True)
@@ -80,6 +96,7 @@ class Grade:
     reading: Reading = Reading()
     right_for: str = ""  # another mechanism that these are the right equations of
     right_for_ja: str = ""
+    stages: tuple[StageMark, ...] = ()  # of a derivation that is stated stage by stage
 
     def to_dict(self) -> dict[str, Any]:
         """For JSON."""
@@ -114,6 +131,7 @@ def _english(d: Grade) -> str:
     for mistake in d.mistakes:
         also = f" (or, with the same equations: {', '.join(mistake.also)})" if mistake.also else ""
         lines.append(f"  {mistake.says}  [{mistake.cause}, made in the {STAGES_EN[mistake.stage]}]{also}")
+    lines += [f"  {mark.says}" for mark in d.stages]
     for f in d.findings:
         said = "" if d.mistakes and any(f.says == m.says for m in d.mistakes) else f"  {f.says}"
         row = f" of row {f.row}" if f.row and " in row " not in f.term else ""
@@ -149,6 +167,7 @@ def _japanese(d: Grade) -> str:
     for mistake in d.mistakes:
         also = f"（同じ式になる別の誤り：{'、'.join(mistake.also)}）" if mistake.also else ""
         lines.append(f"  {mistake.says_ja}  [{mistake.cause}、{STAGES_JA[mistake.stage]}の段階]{also}")
+    lines += [f"  {mark.says_ja}" for mark in d.stages]
     for f in d.findings:
         said = "" if any(f.says_ja == m.says_ja for m in d.mistakes) else f"  {f.says_ja}"
         row = f"第{f.row}行 " if f.row else ""
@@ -184,7 +203,7 @@ def _html(grade: Grade) -> str:
         rows = "".join(f"<li>{escape(label)}: {mathml(line)}</li>" for label, line in r.equations)
         parts.insert(1, f"<ul>{rows}</ul>")
     said = [m.says for m in grade.mistakes] + ([f"Right for {grade.right_for}."] if grade.right_for else [])
-    said += list(grade.notes)
+    said += [mark.says for mark in grade.stages] + list(grade.notes)
     parts += [f"<p>{escape(line)}</p>" for line in said]
     terms = "".join(
         f"<li>{escape(f.says)} Found {mathml(pretty(f.found))}, expected {mathml(pretty(f.expected))}.</li>"

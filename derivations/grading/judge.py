@@ -65,8 +65,14 @@ class Judge:
         given = self.given(h)
         if self.s.lagrangian is None:
             return compare(given, h.mechanism.system)
-        rows = _given_rows(self, h)
-        return Comparison("same" if one_scale(self.space, rows, h.mechanism.rows) else "different")
+        moved = self.s.mechanism.given if self.s.mechanism else ()  # as given: it has no row
+        rows, free, forced = (
+            [row for k, row in enumerate(x) if k not in moved]
+            for x in (_given_rows(self, h), h.mechanism.free_rows, h.mechanism.rows)
+        )
+        # T - U has no forces; those that have a potential, as a constant drive F has -F x, may be in U as well
+        right = one_scale(self.space, rows, free) or one_scale(self.space, rows, forced)
+        return Comparison("same" if right else "different")
 
 
 def one_scale(space: Space, rows: Sequence[Formula], right: Sequence[Formula]) -> bool:

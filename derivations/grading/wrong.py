@@ -13,7 +13,9 @@ from ..steps.conventions import Convention
 from ..steps.derivation import NEWTON_STAGES, Mistake
 from .differences import lagrangian_differences, row_differences
 from .explain import Alignment, align, explanations
-from .grade_record import Grade, NamedMistake, Verdict
+from .forms.hamilton import first_order_differences
+from .forms.stages import StageJudge
+from .grade_record import Grade, NamedMistake, StageMark, Verdict
 from .hypotheses import Hypothesis, hypotheses
 from .other_mechanisms import in_relative_angles, right_for
 from .prepared import Prepared, prepare
@@ -31,6 +33,9 @@ def wrong(s: Submission, *, pinned: bool = False) -> Grade:
     """Name the mistakes, and list the terms, in the meaning in which fewest are wrong."""
     meant = next(hypotheses(s, pinned=True))
     found = Grade(verdict="wrong", links=s.space.n)
+    if s.first_order is not None and s.first_order.canonical:
+        nearest = meant if pinned else _nearest(s, meant)
+        return replace(_by_terms(s, nearest, found), system=s.kind, reading=readback(s, nearest))
     if is_documents(s):
         found = _plainer(s, meant, _by_catalogue(prepare(s)))
     if not found.mistakes and not any(f.cause in USELESS for f in found.findings):
@@ -42,6 +47,31 @@ def wrong(s: Submission, *, pinned: bool = False) -> Grade:
     if other is not None:
         found = replace(found, right_for=other[0], right_for_ja=other[1])
     return replace(found, system=s.kind, reading=readback(s, meant))
+
+
+UP_TO = ("position", "velocity", "speed", "energy", "lagrangian")
+MADE_AT: dict[str, tuple[str, ...]] = {  # at which stages of the catalogue a mistake of a stated stage is made
+    "positions": ("position",), "velocities": ("velocity", "speed"), "kinetic": ("velocity", "speed", "energy"),
+    "potential": ("energy", "position"), "lagrangian": UP_TO, "hamiltonian": UP_TO, "equations": AFTER_LAGRANGIAN,
+}  # fmt: skip
+
+
+def named_in_stages(
+    s: Submission, h: Hypothesis, found: StageJudge, marks: Sequence[StageMark]
+) -> tuple[NamedMistake, ...]:
+    """The mistakes of the catalogue that explain the first wrong stage, where all before it is right."""
+    first = next(mark.stage for mark in marks if mark.outcome == "wrong")
+    if not is_documents(s) or h.variant.given or first not in MADE_AT:
+        return ()
+    plain = replace(s, stages=None)
+    if first == "equations":
+        assert s.stages is not None
+        made = replace(plain, rows=s.stages.equations)
+    else:
+        said = found.only(first)
+        made = replace(plain, lagrangian=found.lagrangian(said))
+    mistakes = _by_catalogue(prepare(made)).mistakes
+    return mistakes if all(x.stage in MADE_AT[first] for x in mistakes) and len(mistakes) < 3 else ()
 
 
 def if_as_declared(s: Submission) -> tuple[NamedMistake, ...]:
@@ -79,6 +109,8 @@ def _by_terms(s: Submission, h: Hypothesis, found: Grade) -> Grade:
     """The terms that differ, in the author's coordinates, symbols and scale."""
     assumes = tuple(en for en, _ in h.assumes), tuple(ja for _, ja in h.assumes)
     found = replace(found, assumes=assumes[0], assumes_ja=assumes[1])
+    if s.first_order is not None and s.first_order.canonical:
+        return replace(found, findings=first_order_differences(s, h.mechanism, h.variant.given))
     if s.lagrangian is None:
         return replace(found, findings=row_differences(s, h.mechanism), notes=(), notes_ja=())
     terms, notes = lagrangian_differences(s, h.mechanism)
@@ -101,6 +133,8 @@ def _nearest(s: Submission, meant: Hypothesis) -> Hypothesis:
 
 
 def _count(s: Submission, h: Hypothesis) -> int:
+    if s.first_order is not None and s.first_order.canonical:
+        return len(first_order_differences(s, h.mechanism, h.variant.given))
     if s.lagrangian is not None:
         return len(lagrangian_differences(s, h.mechanism)[0])
     return len(row_differences(s, h.mechanism))

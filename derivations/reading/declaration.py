@@ -6,14 +6,16 @@
     [[bodies]]
     name = "pole"; coordinate = "theta"; joint = "hinge"; on = "cart"; length = "l"; mass = "m"
 
-Every quantity is an expression in the author's own names. Left out: ``on`` is the body before, ``centre`` the length of
+Every quantity is an expression in the author's own names; ``motion = "given"`` of a support that is moved, whose own
+equation is not asked for. Left out: ``on`` is the body before, ``centre`` the length of
 a body on a hinge (a point mass at its end) and 0 on a slide, everything else nothing.
 """
 
 from __future__ import annotations
 
 import re
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ...models.errors import InvalidInput, nearest
@@ -21,7 +23,8 @@ from ..algebra.trig import NOTHING, Formula, Space
 from ..steps.declared import Declared, Joined, pivot_to_centre
 from .evaluation import Evaluation
 from .layout import laid_out
-from .meaning import Meaning
+from .meaning import Meaning, momentum_symbols
+from .momenta import Variable, has_momenta, variable
 from .names import GREEK, WRITTEN, base_and_index, is_joined, plain_name, spelling, splits
 from .parser import parse_expression
 from .tokens import LONGEST_LINE
@@ -29,7 +32,7 @@ from .vocabulary import ANGLES, FUNCTIONS, LETTERS, Vocabulary
 
 MOST_BODIES = 8
 QUANTITIES = ("mass", "length", "centre", "inertia", "at", "spring", "rest", "damping", "drive")
-FIELDS = ("name", "on", "coordinate", "joint", "along", "about", *QUANTITIES)
+FIELDS = ("name", "on", "coordinate", "joint", "along", "about", "motion", *QUANTITIES)
 FRACTION = re.compile(r"\\(?:[dt]?frac|cdot|times|left|right|over|pi)(?![A-Za-z])|[0-9.]+(?:[eE][+-]?[0-9]+)?")
 GLYPHS_APART = {"vartheta": "theta", "th": "theta", "varphi": "phi"}  # one letter, unless both are used
 TAKEN = ("g", "t", "pi", *FUNCTIONS)
@@ -53,8 +56,18 @@ PRESETS: dict[str, list[dict[str, str]]] = {
 }  # fmt: skip
 
 
-def declared(data: dict[str, Any]) -> tuple[Declared, dict[str, Formula], Vocabulary] | None:
-    """The mechanism that a file declares, its symbols, and the words of its coordinates; None where it names one."""
+@dataclass(frozen=True)
+class Own:
+    """A mechanism that a file declares, its symbols, the words of its coordinates, and a variable of its author's."""
+
+    mechanism: Declared
+    symbols: dict[str, Formula]
+    words: Vocabulary
+    variable: Variable | None
+
+
+def declared(data: dict[str, Any], texts: Sequence[str] = ()) -> Own | None:
+    """The mechanism that a file declares; None where it names one. ``texts``: its lines of mathematics."""
     system = data.get("system")
     if isinstance(system, str) and system in PRESETS and "bodies" not in data:
         bodies: object = [_with_rest(body, data) for body in PRESETS[system]]
@@ -75,15 +88,18 @@ def declared(data: dict[str, Any]) -> tuple[Declared, dict[str, Formula], Vocabu
             if not isinstance(value, str) or len(value) > 200:
                 raise InvalidInput(f"bodies {place}: {name}: a text in quotes is needed, got {value!r:.40}")
     names, apart = _names(bodies)
-    space = Space.general(len(bodies), tuple(names))
-    symbols = {name: space.own(name) for name in names}
     coordinates = tuple(_coordinate(b, place) for place, b in enumerate(bodies, 1))
+    taken = frozenset({*names, *(base for base, _ in coordinates), *map(str, data.get("define", {}))})
+    names += [_reaction(k) for k, body in enumerate(bodies) if _is_given(body, k)]
+    letter = variable(texts, len(bodies), momenta=has_momenta(data), coordinates=coordinates, taken=taken)
+    space = Space.general(len(bodies), (*names, *momentum_symbols(letter, len(bodies))))
+    symbols = {name: space.own(name) for name in names}
     plain = [base + index for base, index in coordinates]
     if len(set(plain)) < len(plain) or set(plain) & set(names):
         raise InvalidInput("bodies: every coordinate needs a name of its own")
     words = _words(coordinates, frozenset(names), apart)
     made = tuple(_body(b, place, bodies, symbols, space, words) for place, b in enumerate(bodies))
-    return Declared(space, made, tuple(plain)), symbols, words
+    return Own(Declared(space, made, tuple(plain)), symbols, words, letter)
 
 
 RESTS = ("l0", "L0", "r0", "R0", "l", "L", "a")
@@ -180,17 +196,34 @@ def _body(
             raise InvalidInput(f"bodies {place + 1}: {field}: a sum in a denominator")
         return found.numerator
 
+    given = _is_given(body, place)
     length, mass = value("length"), value("mass")
     centre = value("centre", length if joint == "hinge" else NOTHING)
     inertia = value("inertia")
     if body.get("about") == "pivot":
         inertia = pivot_to_centre(inertia, mass, centre)
     return Joined(
-        names[place], names.index(on) if on != "support" else -1,
+        names[place], names.index(on) if on in names[:place] else -1,  # a body may be called "support" itself
         None if joint == "hinge" else along,  # type: ignore[arg-type]
         mass, length, centre, inertia, value("at") if "at" in body else None, value("spring"), value("rest"),
-        value("damping"), value("drive"),
+        value("damping"), symbols[_reaction(place)] if given else value("drive"), given,
     )  # fmt: skip
+
+
+def _reaction(place: int) -> str:
+    """The name of the force that brings a given motion about."""
+    return f"reaction{place + 1}"
+
+
+def _is_given(body: dict[str, str], place: int) -> bool:
+    """Whether a body's motion is given. Raises InvalidInput where the file says that otherwise than so."""
+    if "motion" not in body:
+        return False
+    if body["motion"] != "given":
+        raise InvalidInput(f"bodies {place + 1}: motion: 'given', or leave it out")
+    if "drive" in body:
+        raise InvalidInput(f"bodies {place + 1}: a drive besides a given motion; its drive is what the motion needs")
+    return True
 
 
 def _words(coordinates: tuple[tuple[str, str], ...], names: frozenset[str], apart: frozenset[str]) -> Vocabulary:

@@ -10,7 +10,7 @@ from ..algebra.quotient import Budget, Quotient, number
 from ..algebra.trig import COS, SIN, Formula
 from .matrices import Grid, added, inverse, multiplied, scaled
 from .meaning import WORDS, Meaning
-from .parser import Call, Inverse, Matrix, Name, Node, Number, Power, Product, Sum, Symbol
+from .parser import Call, Inverse, Matrix, Name, Node, Number, Power, Product, Root, Sum, Symbol
 from .tokens import fail
 
 LARGEST_ANGLE_FACTOR = 16  # cos(16 θ) at most: harmonics stay small, and nobody writes more
@@ -69,6 +69,8 @@ class Evaluation:
                 return Grid(tuple(tuple(self.scalar(entry) for entry in row) for row in rows))
             case Inverse(base=base, at=at):
                 return self._power(base, -1, at)
+            case Root(at=at):
+                return fail(at, "a square root; it is read where it is squared, as in w0^2 with w0 = sqrt(g/l)")
 
     def _signed(self, value: Value, sign: int) -> Value:
         return value if sign > 0 else scaled(value, number(-1), self.budget)
@@ -81,6 +83,9 @@ class Evaluation:
         return self.meaning.own(text, at)
 
     def _power(self, base: Node, exponent: int, at: int) -> Value:
+        root = self.definitions.get(base.text) if isinstance(base, Name) else base
+        if isinstance(root, Root) and exponent % 2 == 0:
+            return self._power(root.base, exponent // 2, at)
         value = self.value(base)
         self.budget.at = at
         if isinstance(value, Grid):

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from ..algebra.quotient import Quotient
 from ..algebra.trig import Formula, Space
+from .momenta import Variable
 from .tokens import fail
 
 WORDS = {
@@ -19,6 +20,13 @@ MASSLESS = ("n-leg", "point-masses")
 def own_symbols(n: int) -> tuple[str, ...]:
     """Moments of inertia and distances of centres of mass, which stay the author's."""
     return (*(f"I{k}" for k in range(1, n + 1)), *(f"lc{k}" for k in range(1, n + 1)))
+
+
+def momentum_symbols(letter: Variable | None, n: int) -> tuple[str, ...]:
+    """Names of momenta and of their derivatives, where a file has some."""
+    if letter is None or letter.kind != "momentum":
+        return ()
+    return (*(f"{letter.letter}{k}" for k in range(1, n + 1)), *(f"{letter.letter}{k}'" for k in range(1, n + 1)))
 
 
 @dataclass
@@ -48,7 +56,7 @@ class Meaning:
             fail(at, f"angle number {index}, but links = {n}")
         return max(index, 1) - 1
 
-    def symbol(self, letter: str, index: int, at: int) -> Quotient:  # noqa: PLR0911 -- one for each kind of symbol
+    def symbol(self, letter: str, index: int, at: int) -> Quotient:  # noqa: PLR0911, PLR0912 -- one for each kind of symbol
         """A symbol outside cos and sin. Raises InvalidInput, with the column, where it has no meaning here."""
         space = self.space
         if letter == "t":
@@ -63,6 +71,8 @@ class Meaning:
                 fail(at, "rho is the line density of a rod chain; other systems have masses m1, m2, …")
             self.used.add(("r", 0))
             return Quotient(space.rho, {}, 1)
+        if letter in "PD":
+            return self._momentum(letter, index, at)
         if self.kind == "mechanism" and letter not in "wa":
             name = letter.replace("c", "lc") + (str(index) if index else "")
             if name in self.named:
@@ -83,6 +93,14 @@ class Meaning:
             case "c":
                 return Quotient(space.own(f"lc{place + 1}"), {}, 1)
         return Quotient({"w": space.w, "a": space.a, "l": space.l, "m": space.m}[letter](place), {}, 1)
+
+    def _momentum(self, letter: str, index: int, at: int) -> Quotient:
+        n = self.space.n
+        if index > n or (not index and n > 1):
+            fail(at, f"momentum number {index}, but there are {n}" if index else
+                 f"this momentum has no index; which of the {n} is it?")  # fmt: skip
+        names = self.space.extra[-2 * n :]
+        return Quotient(self.space.own(names[max(index, 1) - 1 + (n if letter == "D" else 0)]), {}, 1)
 
     def _coordinate(self, index: int, at: int) -> Quotient:
         if self.kind != "mechanism":

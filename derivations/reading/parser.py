@@ -6,7 +6,7 @@ product   = factor { ["*"|"/"] factor }              side by side is a product; 
 factor    = ("+"|"-") factor | primary [ "^" whole number ]
 primary   = number | symbol | "(" sum ")" | call | "\\frac" group group
           | "[" rows "]" | "\\begin{bmatrix}" rows "\\end{bmatrix}"
-call      = ("cos"|"sin"|"tan") [ "^" whole number ] ( "(" sum ")" | [number] symbol )
+call      = ("cos"|"sin"|"tan") [ "^" whole number ] ( "(" sum ")" | [number] symbol ) | "sqrt" "(" sum ")"
 """
 
 from __future__ import annotations
@@ -98,7 +98,15 @@ class Inverse:
     at: int
 
 
-Node = Number | Symbol | Sum | Product | Power | Call | Name | Matrix | Inverse
+@dataclass(frozen=True)
+class Root:
+    """A square root, of which only even powers are read."""
+
+    base: Node
+    at: int
+
+
+Node = Number | Symbol | Sum | Product | Power | Call | Name | Matrix | Inverse | Root
 
 
 @dataclass
@@ -361,6 +369,10 @@ class _Parser:
             if self.next.kind != "open":
                 fail(self.next.at, "inv needs a matrix in brackets, as in inv(M)")
             return Inverse(self.group(depth), function.at)
+        if function.text == "sqrt":
+            if self.next.kind != "open" or self.next.text == "[":
+                fail(self.next.at, "a square root needs brackets or braces, as in sqrt(g/l) or \\sqrt{g/l}")
+            return Root(self.group(depth), function.at)
         exponent = 1
         if self.next.kind == "operator" and self.next.text.startswith("^"):
             exponent = self.exponent(self.advance())

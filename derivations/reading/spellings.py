@@ -13,6 +13,7 @@ ANGLE = (
     r"(?:\\(?:var)?(?:theta|phi)(?![A-Za-z])|\\(?:psi|alpha|beta|gamma)(?![A-Za-z])|theta|phi|psi|alpha|beta|gamma"
     r"|th(?![a-z])|[θϑφϕψαβγ𝜃]|(?<![A-Za-z\\])[qxyrst](?![A-Za-z]))"
 )
+RATE = r"(?:\\omega(?![A-Za-z])|omega|ω|(?<![A-Za-z\\])w(?![A-Za-z]))"
 INDEX = (
     r"(?:\s*_\s*\{\s*[0-9A-Za-z]{1,3}\s*\}|_(?!dd?(?:ot)?(?![A-Za-z])|acc|vel)[0-9A-Za-z]|[0-9]{1,2}"
     r"|[A-Z](?![A-Za-z])|[₀-₉]{1,2})?"
@@ -34,6 +35,8 @@ RULES = [
     rf"(?P<x>(?:theta|phi|psi|th|[θφϕψ]|(?<![A-Za-z])[qx]){INDEX})_?d(?P<two>d)?(?:ot)?(?![A-Za-z0-9])",
     r"(?P<x>theta|phi|psi|th)_?d(?P<two>d)?ot_?(?P<index>[0-9]{1,2})?(?![A-Za-z])",
     rf"(?P<x>{ANGLE}{INDEX})_?d(?P<two>d)?ot(?![A-Za-z0-9])",
+    rf"(?P<x>{RATE}{INDEX})_?dot(?![A-Za-z0-9])",
+    rf"(?<![A-Za-z]){D}\s*(?P<x>{RATE}{INDEX})\s*{OF_TIME}?\s*/\s*{D}\s*t(?![A-Za-z])",
     rf"(?P<x>(?:theta|phi|psi|th|[θφϕψ]|(?<![A-Za-z])[a-z]){INDEX})_?(?:vel|(?P<two>acc))(?![A-Za-z0-9])",
 ]
 PATTERNS = [re.compile(rule) for rule in RULES]

@@ -17,12 +17,15 @@ from ..algebra.symbols import KINDS, Symbols, symbols_of
 from ..algebra.trig import Formula, Space
 from ..steps.conventions import Convention
 from ..steps.declared import Declared
+from ..steps.first_order import FirstOrder
 from ..steps.mechanism import Origin
+from ..steps.stages import STAGES, Stages
 from .declaration import PRESETS, declared
 from .evaluation import Evaluation
 from .layout import equations_of, laid_out
 from .matrices import Grid, added
-from .meaning import Meaning, own_symbols
+from .meaning import Meaning, momentum_symbols, own_symbols
+from .momenta import Variable, has_momenta, variable, with_variable
 from .names import base_and_index, plain_name
 from .parser import Slashes, parse_equation, parse_expression
 from .srepr import from_srepr
@@ -33,19 +36,7 @@ from .vocabulary import FUNCTIONS, Vocabulary, vocabulary
 LARGEST_FILE = 200_000  # characters; a chain of twenty rods, every sum multiplied out, has 150 000
 MOST_LINKS = 20
 MOST_DEFINITIONS = 40
-FIELDS = (
-    "system",
-    "links",
-    "bodies",
-    "angles",
-    "from",
-    "sense",
-    "equations",
-    "lagrangian",
-    "define",
-    "title",
-    "author",
-)
+FIELDS = ("system", "links", "bodies", "angles", "from", "sense", *STAGES, "define", "title", "author")
 ANGLES = ("absolute", "relative")
 SYSTEMS = (*KINDS, "rods", "point-masses", "links")
 WORDS: dict[str, tuple[str, int]] = {  # usual names, with how many links they have
@@ -85,6 +76,8 @@ class Submission:
     defined: tuple[tuple[str, str], ...] = ()  # the file's own names, as they were read
     source: str = ""  # all lines of mathematics, as they were written
     mechanism: Declared | None = None  # where the file declares it body by body
+    first_order: FirstOrder | None = None  # a Hamiltonian, or equations with momenta, as they were written
+    stages: Stages | None = None  # a derivation stated stage by stage; then there is nothing else
 
     @property
     def relative(self) -> bool:
@@ -98,6 +91,8 @@ class Submission:
         lagrangian = None if self.lagrangian is None else space.rename(self.lagrangian, places)
         return replace(
             self, rows=rows, lagrangian=lagrangian,
+            first_order=self.first_order.mapped(lambda f: space.rename(f, places)) if self.first_order else None,
+            stages=self.stages.mapped(lambda f: space.rename(f, places)) if self.stages else None,
             equal_lengths=self.equal_lengths or 2 * n + 1 in places,
             equal_masses=self.equal_masses or 3 * n + 1 in places,
         )  # fmt: skip
@@ -132,11 +127,20 @@ def table_of(text: str) -> dict[str, Any]:
 
 
 def read_table(data: dict[str, Any], slashes: int = 0) -> Submission:
-    """Read the fields of a derivation."""
+    """Read the fields of a derivation: equations of motion or a Lagrangian; other forms are read in ``derivation``."""
+    known_fields(data)
+    return read_fields(data, opened(data, slashes))
+
+
+def known_fields(data: dict[str, Any]) -> None:
+    """Raises InvalidInput where a field is not known."""
     for name in data:
         if name not in FIELDS:
             raise InvalidInput(f"{name!r:.40}: no such field{nearest(name, FIELDS)}; known are {', '.join(FIELDS)}")
-    reader = opened(data, slashes)
+
+
+def read_fields(data: dict[str, Any], reader: Reader) -> Submission:
+    """Equations of motion, or a Lagrangian."""
     has_equations, has_lagrangian = "equations" in data, "lagrangian" in data
     if has_equations == has_lagrangian:
         raise InvalidInput('give either [equations], one row each, or lagrangian = "…"')
@@ -147,22 +151,25 @@ def read_table(data: dict[str, Any], slashes: int = 0) -> Submission:
 
 def opened(data: dict[str, Any], slashes: int = 0) -> Reader:
     """A reader for the lines of these fields: mechanism, convention and the file's own names are read."""
-    own = declared(data)
-    kind, n = _system(data) if own is None else ("mechanism", len(own[0].bodies))
+    texts = list(_texts(data))
+    own = declared(data, texts)
+    kind, n = _system(data) if own is None else ("mechanism", len(own.mechanism.bodies))
     convention = _convention(data, n)
     defined = data.get("define", {})
     if not isinstance(defined, dict) or len(defined) > MOST_DEFINITIONS:
         raise InvalidInput(f'define: a table of at most {MOST_DEFINITIONS} names is needed, as in M = "m1 + m2"')
     if own is None:
-        words = vocabulary(_texts(data), n, frozenset(map(str, defined)))
-        meaning = Meaning(kind, Space.general(n, own_symbols(n)))
+        names = frozenset(map(str, defined))
+        letter = variable(texts, n, momenta=has_momenta(data), taken=names)
+        words = with_variable(vocabulary(texts, n, names), letter)
+        meaning = Meaning(kind, Space.general(n, (*own_symbols(n), *momentum_symbols(letter, n))))
     else:
-        mechanism, symbols, words = own
-        meaning = Meaning(kind, mechanism.space, symbols)
+        letter, words = own.variable, with_variable(own.words, own.variable)
+        meaning = Meaning(kind, own.mechanism.space, own.symbols)
     reader = Reader(
         meaning, words, Slashes(slashes), convention,
-        frozenset(name for name in ("angles", "from", "sense") if name in data), "\n".join(_texts(data)),
-        None if own is None else own[0],
+        frozenset(name for name in ("angles", "from", "sense") if name in data), "\n".join(texts),
+        None if own is None else own.mechanism, letter,
     )  # fmt: skip
     reader.define(defined)
     return reader
@@ -201,17 +208,28 @@ def _convention(data: dict[str, Any], n: int) -> Convention:
 
 def _texts(data: dict[str, Any]) -> Iterable[str]:
     """All lines of mathematics in a file."""
-    for table in ("define", "equations"):
+    for table in ("define", "positions", "velocities", "momenta", "equations", "solved"):
         found = data.get(table)
         entries = found.values() if isinstance(found, dict) else found if isinstance(found, list) else ()
         yield from (entry.translate(FULL_WIDTH) for entry in entries if isinstance(entry, str))
-    if isinstance(data.get("lagrangian"), str):
-        yield LAGRANGIAN.sub("", data["lagrangian"]).translate(FULL_WIDTH)
+        if table == "momenta" and isinstance(found, dict):
+            yield from (name.translate(FULL_WIDTH) for name in found)
+    for name, left in LEFT_SIDE.items():
+        if isinstance(data.get(name), str):
+            yield left.sub("", data[name]).translate(FULL_WIDTH)
 
 
-LAGRANGIAN = re.compile(
-    r"^\s*(?:L|\\mathcal\s*\{?\s*L\s*\}?|\\mathscr\s*\{?\s*L\s*\}?|ℒ|𝓛)\s*(?:\([^=()]{0,200}\)\s*)?(?:=\s*T\s*[-−]\s*[UV]\s*)?="
-)
+_OF = r"\s*(?:\([^=()]{0,200}\)\s*)?"
+LEFT_SIDE = {  # what people write in front of an energy
+    "kinetic": re.compile(rf"^\s*(?:[TK]|KE|E_?\{{?k\}}?|\\mathcal\s*\{{?\s*T\s*\}}?){_OF}="),
+    "potential": re.compile(rf"^\s*(?:[UV]|PE|E_?\{{?p\}}?|\\mathcal\s*\{{?\s*[UV]\s*\}}?){_OF}="),
+    "lagrangian": re.compile(
+        rf"^\s*(?:L|\\mathcal\s*\{{?\s*L\s*\}}?|\\mathscr\s*\{{?\s*L\s*\}}?|ℒ|𝓛){_OF}(?:=\s*T\s*[-−]\s*[UV]\s*)?="
+    ),
+    "hamiltonian": re.compile(
+        rf"^\s*(?:H|\\mathcal\s*\{{?\s*H\s*\}}?|\\mathscr\s*\{{?\s*H\s*\}}?|ℋ){_OF}(?:=\s*T\s*\+\s*[UV]\s*)?="
+    ),
+}
 
 
 class Reader:
@@ -219,11 +237,12 @@ class Reader:
 
     def __init__(
         self, meaning: Meaning, words: Vocabulary, slashes: Slashes, convention: Convention, stated: frozenset[str],
-        source: str, mechanism: Declared | None,
+        source: str, mechanism: Declared | None, letter: Variable | None = None,
     ) -> None:  # fmt: skip
         self.evaluation = Evaluation(meaning)
         self.words, self.slashes = words, slashes
         self.convention, self.stated, self.source, self.mechanism = convention, stated, source, mechanism
+        self.variable = letter
         self.lines: list[tuple[str, str]] = []
         self.defined: list[tuple[str, str]] = []
         self.doubtful: list[str] = []
@@ -268,22 +287,27 @@ class Reader:
             base, index = base[: figures.start()], figures[0]
         counted = self.words.kind(base) is not None and base not in self.words.fixed and base != "g"
         numbers = self.words.numbers.get(base)
-        taken = index in numbers if numbers else index.isdigit() and int(index[:6]) <= n
+        taken = index in numbers if numbers else index.isdigit() and 1 <= int(index[:6]) <= n
         if short in own or (counted and taken):
             raise InvalidInput(f"define.{name!s:.40}: already has a meaning")
 
     def _expression(self, line: object) -> Any:
-        written = _line(line)
+        written = self.written(line)
         node = parse_expression(written, self.names, self.words, self.slashes)
         self._doubts(written)
         return node
+
+    def written(self, line: object) -> str:
+        """The line without layout, and with one spelling for the author's own variables."""
+        plain = _line(line)
+        return self.variable.rewritten(plain) if self.variable else plain
 
     def _doubts(self, written: str) -> None:
         self.doubtful += [written[start:end] for start, end in self.slashes.doubtful]
         self.slashes.doubtful.clear()
 
-    def rows(self, table: object) -> tuple[tuple[str, Formula], ...]:
-        """The equations of motion; one in matrices is as many as it has rows."""
+    def rows(self, table: object, name: str = "equations") -> tuple[tuple[str, Formula], ...]:
+        """The rows of the field ``name``; one in matrices is as many as it has rows."""
         n = self.evaluation.space.n
         if isinstance(table, list):
             table = {str(i): line for i, line in enumerate(table, 1)}
@@ -292,22 +316,39 @@ class Reader:
             several = equations_of(_line(line)) if isinstance(line, str) and len(line) <= LONGEST_LINE else []
             table = {str(i): row for i, row in enumerate(several, 1)} if len(several) > 1 else table
         if not isinstance(table, dict) or not table:
-            raise InvalidInput('equations: a table of rows is needed, as in 1 = "m1*l1^2*a1 = -m1*g*l1*sin(t1)"')
-        if len(table) > n:
-            raise InvalidInput(f"equations: {len(table)} rows for {n} angles; one row for each angle is needed")
+            raise InvalidInput(f'{name}: a table of rows is needed, as in 1 = "m1*l1^2*a1 = -m1*g*l1*sin(t1)"')
+        most = n if self.variable is None and len(table) != 2 * n else 2 * n  # of first order: two for each angle
+        if len(table) > most:
+            raise InvalidInput(f"{name}: {len(table)} rows for {n} angles; one row for each angle is needed")
         rows: list[tuple[str, Formula]] = []
         for label, line in table.items():
-            where = f"equations.{label!s:.40}"
+            where = f"{name}.{label!s:.40}"
             found, text = _located(where, self._row, line)
             self.lines.append((str(label)[:40], text))
             labels = [str(label)[:40]] if len(found) == 1 else [str(len(rows) + k) for k in range(1, len(found) + 1)]
             rows += zip(labels, found, strict=True)
-            if len(rows) > n:
+            if len(rows) > most:
                 raise InvalidInput(f"{where}: {len(rows)} rows for {n} angles; one row for each angle is needed")
+        if len(rows) > n and (self.variable is None or self.variable.kind == "rate"):
+            rows = [(label, f) for label, f in rows if f]  # θ̇ = ω, where both are the rate
+            if len(rows) > n:
+                raise InvalidInput(f"{name}: {len(rows)} rows for {n} angles; one row for each angle is needed")
         return tuple(rows)
 
+    def momenta(self, table: object) -> list[tuple[str, Formula]]:
+        """What each momentum is said to be, as (its name, the momentum minus that)."""
+        n = self.evaluation.space.n
+        if not isinstance(table, dict) or not 1 <= len(table) <= n:
+            raise InvalidInput('momenta: a table of one for each coordinate is needed, as in p1 = "m1*l1^2*w1"')
+        rows = []
+        for name, line in table.items():
+            found, text = _located(f"momenta.{name!s:.20}", self._row, f"{name} = {line}")
+            self.lines.append((str(name)[:20], text.partition(" = ")[2]))
+            rows += [(str(name)[:20], f) for f in found]
+        return rows
+
     def _row(self, line: object) -> tuple[list[Formula], str]:
-        written = _line(line)
+        written = self.written(line)
         left, right = parse_equation(written, self.names, self.words, self.slashes)
         self._doubts(written)
         value, other = self.evaluation.value(left), self.evaluation.value(right)
@@ -320,18 +361,28 @@ class Reader:
 
     def lagrangian(self, line: object) -> Formula:
         """The Lagrangian."""
+        return self.formula("lagrangian", "L", line)
+
+    def formula(self, where: str, label: str, line: object) -> Formula:
+        """An expression without a sum in a denominator. ``label``: under which it is said back."""
+        value = self.quotient(where, label, line)
+        if value.denominator:
+            raise InvalidInput(f"{where}: column 1: a sum in a denominator; here there is none")
+        return value.numerator
+
+    def quotient(self, where: str, label: str, line: object) -> Quotient:
+        """An expression; what people write in front of an energy is left out."""
 
         def read() -> Quotient:
-            written = LAGRANGIAN.sub(lambda m: " " * len(m[0]), _line(line))
+            written = self.written(line)
+            if where in LEFT_SIDE:
+                written = LEFT_SIDE[where].sub(lambda m: " " * len(m[0]), written)
             node = parse_expression(written, self.names, self.words, self.slashes)
             self._doubts(written)
-            self.lines.append(("L", self.typesetter.equation((node,))))
+            self.lines.append((label, self.typesetter.equation((node,))))
             return self.evaluation.scalar(node)
 
-        value = _located("lagrangian", read)
-        if value.denominator:
-            raise InvalidInput("lagrangian: column 1: a sum in a denominator; a Lagrangian has none")
-        return value.numerator
+        return _located(where, read)
 
 
 def _line(line: object) -> str:

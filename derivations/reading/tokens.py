@@ -52,8 +52,8 @@ def fail(at: int, message: str) -> NoReturn:
     raise InvalidInput(f"column {at + 1}: {message}")
 
 
-INDEXED = "twalmIc"
-FASTER = {"t": "w", "w": "a"}  # what a dot makes of a letter
+INDEXED = "twalmIcPD"
+FASTER = {"t": "w", "w": "a", "P": "D"}  # what a dot makes of a letter
 
 _SPACE = (
     r"\s|\\[,;:!>\s]|\\(?:left|right|[bB]igg?[lrm]?|quad|qquad|displaystyle|mathrm|rm|nonumber|limits)(?![A-Za-z])"

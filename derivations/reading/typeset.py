@@ -3,11 +3,24 @@
 from __future__ import annotations
 
 from ..algebra.notation import SUBSCRIPTS, SUPERSCRIPTS
-from .parser import Call, Inverse, Matrix, Name, Node, Number, Power, Product, Sum, Symbol
+from .parser import Call, Inverse, Matrix, Name, Node, Number, Power, Product, Root, Sum, Symbol
 from .vocabulary import Vocabulary
 
 LONGEST = 600  # characters that are said back of one line
-LETTERS = {"t": "θ", "w": "θ̇", "a": "θ̈", "l": "l", "m": "m", "g": "g", "r": "ρ", "I": "I", "c": "l_c", "p": "π"}
+LETTERS = {
+    "t": "θ",
+    "w": "θ̇",
+    "a": "θ̈",
+    "l": "l",
+    "m": "m",
+    "g": "g",
+    "r": "ρ",
+    "I": "I",
+    "c": "l_c",
+    "p": "π",
+    "P": "p",
+    "D": "p\u0307",
+}
 DOTS = {"w": "\u0307", "a": "\u0308"}
 
 
@@ -26,6 +39,10 @@ class Typesetter:
         for written, meant in words.said:
             if meant == "angle":
                 self._angles(written)
+            elif meant == "momentum":
+                self.letters |= {"P": written, "D": written + DOTS["w"]}
+            elif meant == "rate of the angle":
+                self.letters |= {"w": written, "a": written + DOTS["w"]}
             elif meant.startswith("θ") and meant[1:].isdigit():
                 self.single[int(meant[1:])] = (written, "")
             elif meant in self.letters and not written.startswith("index"):
@@ -65,6 +82,8 @@ class Typesetter:
                 return f"{function} {inner}" if isinstance(argument, Symbol) else f"{function}({inner})"
             case Matrix(rows=rows):
                 return "[" + "; ".join(", ".join(self.text(entry) for entry in row) for row in rows) + "]"
+            case Root(base=base):
+                return f"√{self.text(base, 3)}"
             case Inverse(base=base):
                 return self.text(base, 3) + "⁻¹"
 

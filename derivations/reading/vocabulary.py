@@ -21,7 +21,8 @@ LETTERS = {
     "l": "l", "ℓ": "l", "\\ell": "l", "m": "m", "g": "g",
     "rho": "r", "ρ": "r", "\\rho": "r", "I": "I", "pi": "p", "π": "p", "\\pi": "p",
 }  # fmt: skip
-FUNCTIONS = {"cos": "cos", "sin": "sin", "tan": "tan", "\\cos": "cos", "\\sin": "sin", "\\tan": "tan", "inv": "inv"}
+FUNCTIONS = {"cos": "cos", "sin": "sin", "tan": "tan", "\\cos": "cos", "\\sin": "sin", "\\tan": "tan", "inv": "inv",
+             "sqrt": "sqrt", "\\sqrt": "sqrt"}  # fmt: skip
 # Families of letters that are angles where they are used: the likeliest first, which is also their order.
 ANGLES: dict[str, tuple[str, ...]] = {
     "α": ("\\alpha", "alpha", "α"),
@@ -37,7 +38,7 @@ LETTER_INDEX = re.compile(
     rf"{GREEK}\s*\}}?\s*(?:_\s*\{{?\s*(?P<low>[A-Za-z]{{1,2}})(?![A-Za-z])|(?P<direct>[A-Z]{{1,2}})(?![a-z]))"
 )
 WORDS = re.compile(
-    r"\\[A-Za-z]+|theta|omega|alpha|beta|gamma|phi|psi|rho|pi|cos|sin|tan|inv|lambda|Derivative|diff|array|Matrix|Eq"
+    r"\\[A-Za-z]+|theta|omega|alpha|beta|gamma|phi|psi|rho|pi|cos|sin|tan|inv|sqrt|lambda|Derivative|diff|array|Matrix|Eq"
 )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -36,6 +37,13 @@ class Joined:
     rest: Formula = NOTHING
     damping: Formula = NOTHING
     drive: Formula = NOTHING
+    given: bool = False  # its motion is given; its drive is whatever brings that about
+
+    @property
+    def quantities(self) -> tuple[Formula, ...]:
+        """All but the drive."""
+        own = (self.mass, self.length, self.centre, self.inertia, self.stiffness, self.rest, self.damping)
+        return own if self.at is None else (*own, self.at)
 
 
 @dataclass(frozen=True)
@@ -64,6 +72,25 @@ class Declared:
                 forces[i] = forces[i] + (body.drive - body.damping * rate).times(c)
         return Mechanism(space, tuple(placed), elastic, tuple(forces))
 
+    @property
+    def given(self) -> tuple[int, ...]:
+        """The coordinates whose motion is given."""
+        return tuple(k for k, body in enumerate(self.bodies) if body.given)
+
+    def free_drives(self, rows: Sequence[Formula]) -> tuple[int, ...]:
+        """The coordinates that an own force drives which these rows, and the other bodies, never mention.
+
+        Their equations only say what that force is, so that rows without them hold for every motion of theirs.
+        """
+        found = []
+        for k, body in enumerate(self.bodies):
+            places = self.space.places(body.drive)
+            others = [f for j, x in enumerate(self.bodies) for f in (*x.quantities, *(() if j == k else (x.drive,)))]
+            alone = body.drive.is_monomial() and len(places) == 1
+            if alone and not any(places & self.space.places(f) for f in (*others, *rows)):
+                found.append(k)
+        return tuple(found)
+
     def sentence(self) -> tuple[str, str]:
         """What it is, in English and Japanese."""
         english, japanese = [], []
@@ -73,8 +100,10 @@ class Declared:
             way = {"right": "to the right", "up": "upwards", "down": "downwards", "link": f"along {carrier}"}
             moves = f"hinged on {carrier}" if body.slide is None else f"sliding {way[body.slide]} on {carrier}"
             joint = "回転" if body.slide is None else "直動"
-            english.append(f"{body.name} {moves} ({coordinate})")
-            japanese.append(f"{ja} に{joint}関節で付く {body.name}（{coordinate}）")
+            given = ", its motion given" if body.given else ""
+            english.append(f"{body.name} {moves} ({coordinate}{given})")
+            given = "、運動は与えられる" if body.given else ""
+            japanese.append(f"{ja} に{joint}関節で付く {body.name}（{coordinate}{given}）")
         return "; ".join(english), "；".join(japanese)
 
     def _chain(self, k: int) -> list[int]:

@@ -73,6 +73,36 @@ class Mechanism:
     values: dict[int, Formula] = field(default_factory=dict, compare=False)  # symbols that stand for formulas
 
     @cached_property
+    def positions(self) -> tuple[tuple[Formula, Formula], ...]:
+        """Of each body's centre of mass: to the right and upwards of the support."""
+        vectors = [[s.direction.vector(self.space, s.length) for s in body.way] for body in self.bodies]
+        return tuple((self._valued(add(x for x, _ in way)), self._valued(add(y for _, y in way))) for way in vectors)
+
+    @cached_property
+    def rotation(self) -> Formula:
+        """Σ ½ I ω²."""
+        return self._valued(add(self._kinetic(body)[1] for body in self.bodies))
+
+    def mass(self, b: int) -> Formula:
+        """The mass of a body."""
+        return self._valued(self.bodies[b].mass)
+
+    @property
+    def gravity(self) -> Formula:
+        """g, or what stands for it."""
+        return self._valued(self.space.g if self.weight is None else self.weight)
+
+    @cached_property
+    def springs(self) -> Formula:
+        """What springs store."""
+        return self._valued(self.elastic)
+
+    @cached_property
+    def driven(self) -> tuple[Formula, ...]:
+        """The generalised force of each coordinate."""
+        return tuple(self._valued(f) for f in self.forces) or (NOTHING,) * self.space.n
+
+    @cached_property
     def kinetic(self) -> Formula:
         """T = Σ ½ m v² + ½ I ω²."""
         return self._valued(add(part for body in self.bodies for part in self._kinetic(body)))
@@ -93,9 +123,12 @@ class Mechanism:
     @cached_property
     def rows(self) -> tuple[Formula, ...]:
         """d/dt ∂L/∂q̇_i - ∂L/∂q_i - Q_i for each coordinate, each to be zero."""
-        rows = lagrange_rows(self.space, self.lagrangian)
-        forces = [self._valued(f) for f in self.forces]
-        return tuple(row - forces[i] if forces else row for i, row in enumerate(rows))
+        return tuple(row - force for row, force in zip(self.free_rows, self.driven, strict=True))
+
+    @cached_property
+    def free_rows(self) -> tuple[Formula, ...]:
+        """The same without forces: Lagrange's equations of T - U alone."""
+        return tuple(lagrange_rows(self.space, self.lagrangian))
 
     @cached_property
     def parameters(self) -> frozenset[int]:

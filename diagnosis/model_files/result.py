@@ -105,6 +105,11 @@ class Diagnosis:
         lines += [f"  note: {note}" for note in self.notes]
         return "\n".join(lines)
 
+    def brief(self) -> str:
+        """Verdict and headline, and what was found in a line each: one file of several."""
+        lines = [f"{self.model}: {self.verdict}: {self.headline}"]
+        return "\n".join(lines + [f"  {finding.cause}: {finding.says}" for finding in self.findings])
+
     def described(self) -> str:
         """The mechanism that was read, in a few words."""
         if self.mechanism is not None:

@@ -17,10 +17,11 @@ from ...models.readers.model_file import ModelFile, read_model
 from ...models.readers.rules import Rules, mistakes_in
 from ...models.spatial_mechanism import SpatialMechanism
 from ..finding import Finding
-from .fields import FieldDifference, field_differences
+from .fields import field_differences
 from .free_armature import armature_finding, armature_in_body_axes
 from .measures import Measured, measured, worst
 from .misreadings import explain_reading
+from .numbers import FieldDifference
 from .same_frame import frames_kept, moved_back, rounded
 from .simulation import simulation_findings
 from .wording import MOST_PLACES, Places, field_findings, mistake_finding

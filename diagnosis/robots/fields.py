@@ -3,33 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
-from ...models.readers.mjcf.inertials import POINT_MASS_BOUND
 from ...models.spatial_mechanism import WORLD, Array, SpatialMechanism
 from .moving_links import MovingLink, SeenJoint, coordinates_of, moving_links
-
-# Readers turn frames into one another, diagonalise tensors and add up meshes: 1e-14 of the sizes where both are right.
-# What is written with ten digits or fewer is far beyond this.
-SAME = 1e-11
-EPSILON = 2.0**-52
-NUMBERS = ("armature", "damping", "friction", "stiffness")  # of a joint, zero where it is ideal
-
-
-@dataclass(frozen=True)
-class FieldDifference:
-    """One number, vector or tensor that differs: the ``cause`` it is called, ``where``, what was ``found`` and what
-    was ``expected``, the ``unit``, and ``size``: the difference over the largest such number of the mechanism."""
-
-    cause: str
-    where: str
-    field: str
-    found: object
-    expected: object
-    unit: str
-    size: float
+from .numbers import (
+    SAME,
+    FieldDifference,
+    apart,
+    inertial_differences,
+    joint_numbers,
+    largest_length,
+    plain,
+    uncertain_tensor,
+)
+from .own_frames import own_frame_differences
 
 
 def field_differences(
@@ -43,30 +32,49 @@ def field_differences(
     """What ``found`` has otherwise than ``expected``, joints that are missing first, then link by link from the root.
 
     Links are recognised by the name of their last joint. Both are seen in the reference configuration of ``expected``;
-    a frame that is placed otherwise is named where it is, not again in the links that it carries. ``limits``: whether
-    ranges of joints count; ``ignored``: numbers of joints that do not (``friction`` …). ``mesh_axes``: of a mesh that
-    ``found`` keeps in its principal axes, the largest product of inertia that these leave, over the largest moment.
+    a frame that is placed otherwise is named where it is, not again in the links that it carries. Where both have the
+    same bodies and fewer numbers differ in the bodies' own frames, it is these (:mod:`.own_frames`).
+
+    ``limits``: whether ranges of joints count; ``ignored``: numbers of joints that do not (``friction`` …).
+    ``mesh_axes``: of a mesh that ``found`` keeps in its principal axes, the largest product of inertia that these
+    leave, over the largest moment.
     """
-    return list(_differences(found, expected, limits, frozenset(ignored), mesh_axes))
-
-
-def _differences(
-    found: SpatialMechanism, expected: SpatialMechanism, limits: bool, ignored: frozenset[str], mesh_axes: float
-) -> Iterator[FieldDifference]:
     theirs = moving_links(found, coordinates_of(expected, expected.reference, found))
     ours = moving_links(expected)
+    length, left_out = largest_length(ours), frozenset(ignored)
+    differences = [*_joints(theirs, ours)]
+    if "gravity" not in left_out:
+        differences += _gravity(found.gravity, expected.gravity)
+    seen = _of_links(theirs, ours, length, limits, left_out, mesh_axes)
+    if seen:
+        written = own_frame_differences(found, expected, length, limits=limits, ignored=left_out, mesh_axes=mesh_axes)
+        # Both lists are complete: the shorter one says what is wrong, and the longer one what follows from it.
+        seen = written if written and len(written) <= len(seen) else seen
+    return differences + seen
+
+
+def _of_links(
+    theirs: tuple[MovingLink, ...],
+    ours: tuple[MovingLink, ...],
+    length: float,
+    limits: bool,
+    ignored: frozenset[str],
+    mesh_axes: float,
+) -> list[FieldDifference]:
+    """What the links have otherwise, whatever frames the readings use."""
     known = {link.key: link for link in theirs}
-    yield from _joints(theirs, ours)
-    if "gravity" not in ignored:
-        yield from _gravity(found.gravity, expected.gravity)
-    scale = _Scale(ours)
+    found: list[FieldDifference] = []
     for link in ours:
         other = known.get(link.key)
-        if other is not None and _kinds(other) == _kinds(link):
-            turn = _turn(theirs, other, ours, link)
-            yield from _placement(other, link, turn, scale)
-            yield from _joint_numbers(other, link, limits, ignored)
-            yield from _inertial(other, link, turn, scale, mesh_axes)
+        if other is None or _kinds(other) != _kinds(link):
+            continue
+        turn = _turn(theirs, other, ours, link)
+        found += _placement(other, link, turn, length)
+        for one, seen in zip(other.joints, link.joints, strict=True):
+            found += joint_numbers(one.joint, seen.joint, limits, ignored)
+        uncertain = uncertain_tensor(mesh_axes, link.meshes)
+        found += inertial_differences(other.inertial, link.inertial, f"link {link.name!r}", turn, length, uncertain)
+    return found
 
 
 def _joints(theirs: tuple[MovingLink, ...], ours: tuple[MovingLink, ...]) -> Iterator[FieldDifference]:
@@ -106,15 +114,6 @@ def _kinds(link: MovingLink) -> list[tuple[str, str]]:
     return [(seen.joint.name, seen.joint.kind) for seen in link.joints]
 
 
-class _Scale:
-    """The sizes that differences are held against: of the whole mechanism, so that a tiny link is not over-read."""
-
-    def __init__(self, links: tuple[MovingLink, ...]) -> None:
-        arms = [float(np.linalg.norm(seen.arm)) for link in links for seen in link.joints]
-        centres = [float(np.linalg.norm(link.inertial.centre)) for link in links]
-        self.length = max([*arms, *centres], default=0.0) or 1.0
-
-
 def _turn(theirs: tuple[MovingLink, ...], other: MovingLink, ours: tuple[MovingLink, ...], link: MovingLink) -> Array:
     """The rotation that takes the other reading's world axes, as its parent link has them, to ours."""
     if WORLD in {link.parent, other.parent}:
@@ -122,23 +121,18 @@ def _turn(theirs: tuple[MovingLink, ...], other: MovingLink, ours: tuple[MovingL
     return np.asarray(ours[link.parent].turned @ theirs[other.parent].turned.T)
 
 
-def _differs(found: Array, expected: Array, turn: Array, scale: float) -> float:
-    """How far two vectors are apart over ``scale``, in the world or as the parent link has them, if that is less."""
-    return float(min(np.linalg.norm(found - expected), np.linalg.norm(turn @ found - expected))) / scale
-
-
-def _placement(other: MovingLink, link: MovingLink, turn: Array, scale: _Scale) -> Iterator[FieldDifference]:
+def _placement(other: MovingLink, link: MovingLink, turn: Array, length: float) -> Iterator[FieldDifference]:
     for theirs, ours in zip(other.joints, link.joints, strict=True):
         where = f"joint {ours.joint.name!r}"
-        size = _differs(theirs.axis, ours.axis, turn, 1.0)
+        size = apart(theirs.axis, ours.axis, turn)
         if size > SAME:
             if np.linalg.norm(theirs.axis + ours.axis) <= SAME:
-                yield FieldDifference("angle-convention", where, "axis", _list(theirs.axis), _list(ours.axis), "", size)
+                yield FieldDifference("angle-convention", where, "axis", plain(theirs.axis), plain(ours.axis), "", size)
                 continue
-            yield FieldDifference("joint-axis", where, "axis", _list(theirs.axis), _list(ours.axis), "", size)
-        size = _differs(theirs.arm, ours.arm, turn, scale.length)
+            yield FieldDifference("joint-axis", where, "axis", plain(theirs.axis), plain(ours.axis), "", size)
+        size = apart(theirs.arm, ours.arm, turn) / length
         if size > SAME and not _turned_axis_only(theirs, ours):
-            yield FieldDifference("joint-placement", where, "place", _list(theirs.arm), _list(ours.arm), "m", size)
+            yield FieldDifference("joint-placement", where, "place", plain(theirs.arm), plain(ours.arm), "m", size)
 
 
 def _turned_axis_only(theirs: SeenJoint, ours: SeenJoint) -> bool:
@@ -150,84 +144,10 @@ def _turned_axis_only(theirs: SeenJoint, ours: SeenJoint) -> bool:
     )
 
 
-UNITS_TURNING = {"armature": "kg m²", "damping": "N m s/rad", "friction": "N m", "stiffness": "N m/rad"}
-UNITS_SLIDING = {"armature": "kg", "damping": "N s/m", "friction": "N", "stiffness": "N/m"}
-CAUSE_OF = {"friction": "dry-friction"}
-
-
-def _joint_numbers(
-    other: MovingLink, link: MovingLink, limits: bool, ignored: frozenset[str]
-) -> Iterator[FieldDifference]:
-    for theirs, ours in zip(other.joints, link.joints, strict=True):
-        where, units = f"joint {ours.joint.name!r}", UNITS_SLIDING if ours.joint.kind == "slide" else UNITS_TURNING
-        for name in NUMBERS:
-            found, wanted = getattr(theirs.joint, name), getattr(ours.joint, name)
-            size = abs(found - wanted) / max(abs(found), abs(wanted), 1e-300)
-            if name not in ignored and size > SAME:
-                yield FieldDifference(CAUSE_OF.get(name, name), where, name, found, wanted, units[name], size)
-        spring = ours.joint.stiffness and theirs.joint.stiffness and ours.joint.kind in ("hinge", "slide")
-        if spring and "stiffness" not in ignored:
-            found, wanted = theirs.joint.springref, ours.joint.springref
-            if abs(found - wanted) > SAME * max(abs(wanted), 1.0):
-                unit = "m" if ours.joint.kind == "slide" else "rad"
-                yield FieldDifference("spring-reference", where, "springref", found, wanted, unit, abs(found - wanted))
-        if limits and not _same_limits(theirs.joint.limits, ours.joint.limits):
-            found_, wanted_ = theirs.joint.limits or "none", ours.joint.limits or "none"
-            yield FieldDifference("joint-limit", where, "limits", str(found_), str(wanted_), "", 1.0)
-
-
-def _same_limits(found: tuple[float, float] | None, expected: tuple[float, float] | None) -> bool:
-    if found is None or expected is None:
-        return found is expected
-    return bool(np.allclose(found, expected, rtol=SAME, atol=SAME))
-
-
-def _inertial(
-    other: MovingLink, link: MovingLink, turn: Array, scale: _Scale, mesh_axes: float
-) -> Iterator[FieldDifference]:
-    theirs, ours, where = other.inertial, link.inertial, f"link {link.name!r}"
-    heavy = max(abs(theirs.mass), abs(ours.mass))
-    if abs(theirs.mass - ours.mass) > SAME * heavy:
-        size = abs(theirs.mass - ours.mass) / heavy
-        yield FieldDifference("mass", where, "mass", theirs.mass, ours.mass, "kg", size)
-    if ours.mass and theirs.mass:
-        length = max(scale.length, 1e-300)
-        size = _differs(theirs.centre, ours.centre, turn, length)
-        if size > SAME:
-            yield FieldDifference(
-                "com-displaced", where, "centre of mass", _list(theirs.centre), _list(ours.centre), "m", size
-            )
-    largest = max(float(np.abs(theirs.tensor).max()), float(np.abs(ours.tensor).max()))
-    # A tensor about the centre of mass is a difference of larger ones where bodies are fixed together.
-    rounding = 64 * EPSILON * heavy * scale.length**2
-    # Three products of inertia of at most e each make up a tensor of the norm 2 e, whatever the axes.
-    rounding += 2 * mesh_axes * link.meshes
-    if not ours.tensor.any():  # a point mass, which MuJoCo compiles with as much
-        rounding += 2 * POINT_MASS_BOUND
-    if largest:
-        apart = min(
-            float(np.abs(theirs.tensor - ours.tensor).max()),
-            float(np.abs(turn @ theirs.tensor @ turn.T - ours.tensor).max()),
-        )
-        if apart > SAME * largest + rounding:
-            found, wanted = _six(theirs.tensor), _six(ours.tensor)
-            yield FieldDifference("inertia", where, "inertia", found, wanted, "kg m²", apart / largest)
-
-
 def _gravity(found: Array, expected: Array) -> Iterator[FieldDifference]:
     apart, size = float(np.linalg.norm(found - expected)), float(np.linalg.norm(expected))
     if apart <= SAME * max(size, 1e-300):
         return
     turned = abs(float(np.linalg.norm(found)) - size) <= SAME * size
     cause = "gravity-turned" if turned else "gravity"
-    yield FieldDifference(cause, "gravity", "gravity", _list(found), _list(expected), "m/s²", apart / max(size, 1e-300))
-
-
-def _list(values: Array) -> list[float]:
-    return [float(value) for value in values]
-
-
-def _six(tensor: Array) -> list[float]:
-    """xx, yy, zz, xy, xz, yz."""
-    t = tensor
-    return [float(v) for v in (t[0, 0], t[1, 1], t[2, 2], t[0, 1], t[0, 2], t[1, 2])]
+    yield FieldDifference(cause, "gravity", "gravity", plain(found), plain(expected), "m/s²", apart / max(size, 1e-300))

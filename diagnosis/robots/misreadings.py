@@ -13,7 +13,8 @@ from dataclasses import dataclass
 from ...models import InvalidInput
 from ...models.readers.rules import Rules, with_mistakes
 from ...models.spatial_mechanism import SpatialMechanism
-from .fields import FieldDifference, field_differences
+from .fields import field_differences
+from .numbers import FieldDifference
 
 Read = Callable[[Rules], SpatialMechanism]  # the file, read with these mistakes
 

@@ -49,11 +49,13 @@ def _moved_back(body: RigidBody, said: Inertial | None, reach: float) -> RigidBo
         centre = said.centre
     tensor = held.tensor
     # An angle of twice the quaternion's part about each of three axes: products of inertia up to so much of what the
-    # moments differ by, and moments to the second order.
-    gap = float(np.ptp(np.diag(held.tensor)))
-    if not off_diagonal.any() and np.abs(said.tensor - held.tensor).max() <= 4 * reach * gap:
+    # moments differ by, and moments by its square.
+    gap, rounding = float(np.ptp(np.diag(held.tensor))), ROUNDING * np.abs(held.tensor).max()
+    change = np.abs(said.tensor - held.tensor)
+    moments = np.diag(change).max()
+    if not off_diagonal.any() and moments <= 16 * reach**2 * gap + rounding and change.max() <= 4 * reach * gap:
         tensor = said.tensor
-    turned = np.abs(tensor - held.tensor).max() > ROUNDING * np.abs(held.tensor).max()
+    turned = np.abs(tensor - held.tensor).max() > rounding
     if np.array_equal(centre, held.centre) and not turned:
         return body
     return replace(body, inertial=Inertial(held.mass, centre, tensor))

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from ..finding import Finding
-from .fields import FieldDifference
+from .numbers import FieldDifference
 
 MOST_PLACES = 6  # named in one finding
 # What to write so that all engines read the file alike, by the mistake that is made otherwise.

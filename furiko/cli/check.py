@@ -108,6 +108,7 @@ def check(
                 footer=report.footer,
                 diagnoses=list(report.diagnoses),
                 known=list(accounted.differences),
+                alone=list(report.alone),
             )
         )
     else:

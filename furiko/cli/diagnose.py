@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..records.exit_status import AGREES
+from .failures import Failure, failure_of
 from .options import engine_names, json_option, scene_names
-from .output import print_json, print_text
+from .output import print_failure, print_json, print_text
+from .process import stopped
 
 if TYPE_CHECKING:
     from ..diagnosis.model_files.result import Diagnosis
+    from ..models.readers.model_file import ModelFile
 
 
 @click.command()
-@click.argument("model", type=click.Path(path_type=Path))
+@click.argument("models", metavar="MODEL...", nargs=-1, required=True, type=click.Path(path_type=Path))
 @click.option(
     "--against",
     metavar="SCENE|FILE",
@@ -51,26 +56,50 @@ if TYPE_CHECKING:
     help="Write the answer as one HTML page, with the mechanism drawn.",
 )
 @json_option
-def diagnose(
-    model: Path,
-    against: str | None,
-    engines: tuple[str, ...],
-    meshes: tuple[Path, ...],
-    limits: bool,
-    fix: Path | None,
-    out: Path | None,
-    as_json: bool,
-) -> int:
-    """Check how engines read an MJCF or URDF file; say why they differ."""
-    from ..diagnosis.model_files.diagnose import diagnose as diagnose_file
+def diagnose(models: tuple[Path, ...], fix: Path | None, out: Path | None, as_json: bool, **how: Any) -> int:
+    """Check how engines read an MJCF or URDF file; say why they differ.
 
-    found = diagnose_file(model, against, engines or None, meshes=meshes, limits=limits, isolated=True)
+    Several files are answered one after the other, in short; the exit status is the highest of theirs.
+    """
+    asked = _Asked(**how)
+    if len(models) == 1:
+        return _one(models[0], asked, fix, out, as_json)
+    if fix is not None or out is not None:
+        raise click.UsageError(f"{'--fix' if fix is not None else '--out'} is for one MODEL, {len(models)} are given")
+    return _several(models, asked, as_json)
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """The options that say how files are looked at."""
+
+    against: str | None
+    engines: tuple[str, ...]
+    meshes: tuple[Path, ...]
+    limits: bool
+
+    def answer(self, file: ModelFile) -> Diagnosis:
+        from ..diagnosis.model_files.diagnose import diagnose as diagnose_file
+
+        engines = self.engines or None
+        return diagnose_file(file, self.against, engines, meshes=self.meshes, limits=self.limits, isolated=True)
+
+
+def _read(model: Path, asked: _Asked) -> ModelFile:
+    from ..models.readers.model_file import read_model
+
+    return read_model(model, meshes=asked.meshes)
+
+
+def _one(model: Path, asked: _Asked, fix: Path | None, out: Path | None, as_json: bool) -> int:
+    file = _read(model, asked)
+    found = asked.answer(file)
     if fix is not None:
         from ..diagnosis.model_files.fix import write_fixed
 
-        write_fixed(model, fix, meshes)
+        write_fixed(file, fix)
     if out is not None:
-        _write_page(found, model, meshes, out)
+        _write_page(found, file, out)
     if as_json:
         print_json(found.to_json())
     else:
@@ -78,14 +107,47 @@ def diagnose(
     return found.exit_status
 
 
-def _write_page(found: Diagnosis, model: Path, meshes: tuple[Path, ...], out: Path) -> None:
+def _several(models: tuple[Path, ...], asked: _Asked, as_json: bool) -> int:
+    """Each file in short, as soon as it is answered; one that cannot be is told, and the others are answered."""
+    worst, entries = AGREES, []
+    for model in models:
+        found = _answered(model, asked)
+        worst = max(worst, found.status if isinstance(found, Failure) else found.exit_status)
+        if as_json:
+            entries.append(_entry(model, found))
+        elif isinstance(found, Failure):
+            print_failure(found.message)
+        else:
+            print_text(found.brief())
+    if as_json:
+        print_json({"models": entries})
+    return worst
+
+
+def _answered(model: Path, asked: _Asked) -> Diagnosis | Failure:
+    try:
+        found: Diagnosis | Failure = asked.answer(_read(model, asked))
+    except Exception as error:
+        found = failure_of(error)
+    if signalled := stopped():  # an engine's own code has made another exception of it
+        raise signalled
+    return found
+
+
+def _entry(model: Path, found: Diagnosis | Failure) -> dict[str, Any]:
+    entry: dict[str, Any] = {"model": str(model), "diagnosis": None, "error": None}
+    if isinstance(found, Failure):
+        what, where, help_ = found.parts()
+        return entry | {"status": found.status, "error": {"what": what, "where": where, "help": help_}}
+    return entry | {"status": found.exit_status, "diagnosis": found.to_json()}
+
+
+def _write_page(found: Diagnosis, file: ModelFile, out: Path) -> None:
     from ..diagnosis.finding import CAUSES
-    from ..models.readers.model_file import read_model
     from ..models.trees.system import tree_of
     from ..models.writers.whole_file import replace_file
     from ..reference.outline import outline
     from ..reports.pages.diagnose_page import to_diagnosis_page
 
-    mechanism = read_model(model, meshes=meshes).spatial
-    lines = outline(mechanism, tree_of(mechanism).reference, across_least=True) if mechanism is not None else []
+    lines = outline(file.spatial, tree_of(file.spatial).reference, across_least=True)
     replace_file(out, to_diagnosis_page(found.to_json(), found.described(), CAUSES, lines).encode())

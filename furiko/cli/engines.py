@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import click
@@ -19,10 +20,10 @@ if TYPE_CHECKING:
 @json_option
 def engines(as_json: bool) -> int:
     """List the engines, their versions, and what they cannot compute."""
-    from ..engines import engine_info, engine_names, engine_version, untested
+    from ..engines import engine_info, engine_names, engine_version, plugin_names, untested
     from ..models.errors import installing
 
-    infos = [engine_info(name) for name in engine_names()]
+    infos = [replace(engine_info(name), name=name) for name in [*engine_names(), *plugin_names()]]
     if as_json:
         print_json([_row(info, engine_version(info.name)) for info in infos])
     else:

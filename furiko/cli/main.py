@@ -18,8 +18,8 @@ from .process import OutputFailed, flush, open_standard_streams, stopped
 
 COMPLETION = "_FURIKO_COMPLETE"  # set by a shell that asks for completions
 
-# The command NAME is the function NAME in the file NAME.py. Its line in `furiko --help` is the first line of its own
-# help (a test compares them); it is repeated here so that `furiko --help` imports no command.
+# The command NAME is the function NAME in the file NAME.py, with _ for -. Its line in `furiko --help` is the first line
+# of its own help (a test compares them); it is repeated here so that `furiko --help` imports no command.
 COMMANDS = {
     "audit": "Check the documents' 57 equations against first principles.",
     "bench": "Measure time against error, for engines and for furiko itself.",
@@ -27,6 +27,7 @@ COMMANDS = {
     "check": "Check engines against the documents' equations.",
     "diagnose": "Check how engines read an MJCF or URDF file; say why they differ.",
     "diff": "Compare two runs of check.",
+    "engine-test": "Test an adapter, step by step, before its engine is judged.",
     "engines": "List the engines, their versions, and what they cannot compute.",
     "export": "Write a scene's mechanism as an MJCF or URDF file.",
     "grade": "Grade a derivation: correct, or which term is wrong and why.",
@@ -43,7 +44,8 @@ class _Commands(click.Group):
         """The command itself; None where no command has this name."""
         if cmd_name not in self.commands:
             return None
-        command: click.Command = getattr(import_module(f".{cmd_name}", __package__), cmd_name)
+        name = cmd_name.replace("-", "_")
+        command: click.Command = getattr(import_module(f".{name}", __package__), name)
         return command
 
     def resolve_command(

@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import TypeVar
 
 import click
 from click.shell_completion import CompletionItem
@@ -13,9 +14,13 @@ from click.shell_completion import CompletionItem
 REPORT_FOLDER = Path("furiko-report")
 
 
-def _found_here(_context: click.Context, _parameter: click.Parameter, names: tuple[str, ...]) -> tuple[str, ...]:
+Names = TypeVar("Names", str, tuple[str, ...])
+
+
+def found_here(_context: click.Context, _parameter: click.Parameter, names: Names) -> Names:
     """The names; for an adapter from elsewhere the current folder is on Python's path, after all else."""
-    if any(":" in name for name in names) and os.getcwd() not in sys.path:
+    each = (names,) if isinstance(names, str) else names
+    if any(":" in name or name.endswith(".py") for name in each) and os.getcwd() not in sys.path:
         sys.path.append(os.getcwd())
     return names
 
@@ -30,8 +35,9 @@ def scene_names(_context: click.Context, _parameter: click.Parameter, incomplete
 def engine_names(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
     """What a shell offers for an engine."""
     from ..engines import engine_names as known
+    from ..engines import plugin_names
 
-    return [CompletionItem(name) for name in known() if name.startswith(incomplete)]
+    return [CompletionItem(name) for name in [*known(), *plugin_names()] if name.startswith(incomplete)]
 
 
 def words(*known: str) -> Callable[..., list[CompletionItem]]:
@@ -45,11 +51,11 @@ engine_option = click.option(
     "-e",
     "engines",
     multiple=True,
-    metavar="NAME|module:Class",
-    callback=_found_here,
+    metavar="NAME|FILE.py|module:Class",
+    callback=found_here,
     shell_complete=engine_names,
-    help="Run only this engine, or a class of your own, looked for in the current folder too "
-    "(an example is in furiko.engines.protocol); may be repeated.",
+    help="Run only this engine, or an adapter of your own: a file, or a class in a module, looked for in the current "
+    "folder too (an example is in furiko.engines.protocol); may be repeated.",
 )
 report_folder_option = click.option(
     "--out",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from .own import OwnEquations
 from .system import TreeSystem, Vector
 
 NAMED_STATES = ("reference", "small", "whirling")
@@ -16,6 +17,8 @@ class TreeScene:
 
     ``q`` (nq,), ``v`` (nv,): the state that a trajectory starts from, or None where the file gives none; ``duration``
     [s], 0 for no trajectory; ``random``, ``named``: further states (:func:`furiko.models.trees.states.tree_states`).
+    ``model``: the path of the model file that the mechanism was read from, empty where the scene file has it itself;
+    ``own``: the user's own equations of it.
     """
 
     name: str
@@ -28,6 +31,8 @@ class TreeScene:
     tags: tuple[str, ...] = ()
     equations: tuple[str, ...] = ()
     description: str = ""
+    model: str = ""
+    own: OwnEquations | None = None
 
     @property
     def starts(self) -> bool:

@@ -24,8 +24,9 @@ A file with everything that it may have::
     v = { track = [0.5] }                # the others at rest
     duration = 2.0
 
-In the place of links ``model = "file.xml"`` names an MJCF or URDF file, beside the scene file or below it. Coordinates
-are those of :mod:`furiko.models.spatial_mechanism`. ``limits`` bound the random states of a scene, and act on nothing.
+In the place of links ``model = "file.xml"`` names an MJCF or URDF file, beside the scene file or below it; at the top
+of the file it stands for the whole [system]. A user's own equations are those of :mod:`.own`. Coordinates are those of
+:mod:`furiko.models.spatial_mechanism`. ``limits`` bound the random states of a scene, and act on nothing.
 """
 
 from __future__ import annotations
@@ -39,6 +40,7 @@ import msgspec
 
 from ..errors import InvalidInput, nearest
 from ..readers.toml_fields import fitted
+from .own import own_equations, split_off
 from .scene import NAMED_STATES, RANDOM_STATES, TreeScene
 from .system import COORDINATES, RATES, Kind, TreeJoint, TreeLink, TreeSystem, Vector
 
@@ -101,6 +103,7 @@ class _File(msgspec.Struct, forbid_unknown_fields=True):
 
 def tree_scene(tables: dict[str, Any], name: str, folder: Path) -> TreeScene:
     """The scene that a file's tables describe; ``folder``: where it is. Raises :class:`InvalidInput`."""
+    tables, own = split_off(tables)
     file = fitted(tables, _File)
     system = _system(file.system, folder, gravity_given="gravity" in tables["system"])
     samples = file.samples
@@ -131,6 +134,8 @@ def tree_scene(tables: dict[str, Any], name: str, folder: Path) -> TreeScene:
         tags=tuple(file.tags),
         equations=tuple(file.equations),
         description=file.description,
+        model="" if file.system.model is None else str((folder / file.system.model).resolve()),
+        own=own_equations(own, system),
     )
 
 

@@ -1,140 +1,84 @@
-"""The page of a check, ``report.html``: one file that opens from disk, fetches nothing and runs nothing."""
+"""The page of a check, ``report.html``: one file that opens from disk and fetches nothing.
+
+What a reader needs first is in the markup: the verdict, the causes, what is known, each engine in a line; it is the
+page without JavaScript, and on paper. All else is data, from which the page's own script makes what is looked at.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cached_property
+import base64
+import hashlib
+from functools import cache
 
-from ...records.check import Result, SceneEntry
-from ..report import Report, TableCell, against, group_line
-from ..words import GLYPHS, LEGEND, Word, count, last_line, word
-from .error_plots import ErrorPlot, HorizonPlot, draw_errors, draw_horizons
-from .mechanism_drawing import MechanismDrawing, draw_mechanism
-from .rendering import environment, render
-
-DRAWN = ("traceback", "errors over time")  # details that the page shows elsewhere
+from ..causes import group_by_check
+from ..known import Known
+from ..report import Report, group_line
+from ..words import GLYPHS, LEGEND, Word, figure, word
+from .check_data import WORDS, page_data
+from .rendering import TEMPLATES, environment, render
 
 PAGE = "report.html.j2"
-PARTS = ("marks", "facts", "causes", "overview", "reasons", "scene", "plot")  # it includes these
+PARTS = ("facts", "causes", "by_engine", "reasons", "browse", "loose")  # it includes these
+MOST_LISTED = 40  # lines of a list in the markup; the table has all results
+SCRIPTS = ("formula.js", "check.js")
 
 
-@dataclass(frozen=True)
-class SceneView:
-    """One scene, as the page shows it; ``anchor`` is a number of the page's own, because a name may hold anything."""
+def to_html(report: Report, known: Known | None = None) -> str:
+    """The whole page as text; nothing from the stream is markup. ``known``: its known differences."""
+    from markupsafe import Markup
 
-    report: Report
-    name: str
-    anchor: str
-
-    @cached_property
-    def entry(self) -> SceneEntry | None:
-        """The header's entry; None where only results name the scene."""
-        return self.report.scene(self.name)
-
-    @cached_property
-    def cells(self) -> list[TableCell]:
-        """One for each engine."""
-        return [self.report.table[self.name, engine] for engine in self.report.engines]
-
-    @cached_property
-    def results(self) -> list[Result]:
-        """All results, engine by engine."""
-        return [result for cell in self.cells for result in cell.results]
-
-    @cached_property
-    def words(self) -> list[Word]:
-        """The outcomes that occur, and ``loose``."""
-        found = {word(result) for result in self.results}
-        return [name for name in GLYPHS if name in found]
-
-    @cached_property
-    def horizons(self) -> tuple[HorizonPlot, ...]:
-        """Errors over time, predicted and measured, where a run followed them."""
-        return draw_horizons(self.results)
-
-    @property
-    def lyapunov_time(self) -> float | None:
-        """Seconds in which a small difference grows e-fold, where some check found it."""
-        times = [result.details.get("Lyapunov time") for result in self.results]
-        return next((time for time in times if isinstance(time, float)), None)
-
-    @cached_property
-    def checks(self) -> list[str]:
-        """The checks of this scene, in the same order for all scenes."""
-        found = {result.check for result in self.results}
-        return [check for check in self.report.checks if check in found]
-
-    @property
-    def further(self) -> list[tuple[str, list[str], list[Result]]]:
-        """Each check, the names of its further figures (a traceback is none), and its results."""
-        return [(check, _keys(found), found) for check in self.checks if (found := self.of(check))]
-
-    def of(self, check: str) -> list[Result]:
-        """The results of one check, engine by engine."""
-        return [result for result in self.results if result.check == check]
-
-    @cached_property
-    def rows(self) -> list[tuple[str, list[list[Result]]]]:
-        """Each check, with its results for each engine."""
-        return [
-            (check, [[r for r in cell.results if r.check == check] for cell in self.cells]) for check in self.checks
-        ]
-
-    @cached_property
-    def mechanism(self) -> MechanismDrawing | None:
-        """The drawing of the mechanism."""
-        return draw_mechanism(self.entry) if self.entry and (self.entry.lengths or self.entry.outline) else None
-
-    @cached_property
-    def errors(self) -> ErrorPlot | None:
-        """Its errors relative to their bounds."""
-        return draw_errors(self.results, self.report.engines)
-
-    @property
-    def again(self) -> str:
-        """The command line that runs this scene again."""
-        return self.report.again(self.name)
-
-    @property
-    def equations(self) -> list[tuple[str, str]]:
-        """Name and, where the stream gives it, text of each equation: ``name: text``."""
-        named = [equation.partition(": ") for equation in (self.entry.equations if self.entry else ())]
-        return [(name, text) for name, _, text in named]
-
-
-def to_html(report: Report) -> str:
-    """The whole page as text; everything from the stream is escaped."""
+    script = _script()
     return render(
         PAGE,
+        ("style.css", "check.css"),
         report=report,
-        scenes=[SceneView(report, name, f"s{i}") for i, name in enumerate(report.scenes, start=1)],
+        known=known,
+        mark=_mark(report, known),
+        by_engine=_by_engine(report),
         glyphs=GLYPHS,
         legend=LEGEND,
-        in_words=_in_words,
         group_line=group_line,
+        words=WORDS,
+        loose=group_by_check(report.loose),
+        untested=list(dict.fromkeys(engine.untested for engine in report.header.engines if engine.untested)),
+        most=MOST_LISTED,
+        data=Markup(page_data(report, known)),
+        script=Markup(script),
+        script_digest=_digest(script),
     )
 
 
 def load_templates() -> None:
     """Compile the page's templates ahead of their use; they are kept."""
+    _script()
     for name in (PAGE, *(f"{part}.html.j2" for part in PARTS)):
         environment().get_template(name)
 
 
-def _in_words(cell: TableCell) -> str:
-    """The tooltip of a table cell: its deciding check, and how many others were skipped."""
-    worst = cell.worst
-    if worst is None:
-        return f"{cell.scene} × {cell.engine}: no result"
-    said = f"{cell.scene} × {cell.engine}: {worst.check} {word(worst)}"
-    if worst.measured is not None:
-        said += f", {against(worst)}"
-    elif worst.reason:
-        said += f", {last_line(worst.reason)[:200]}"
-    skipped = sum(result.outcome == "skipped" for result in cell.results)
-    return said + (f"; {count(skipped, 'check')} skipped" if skipped and cell.outcome != "skipped" else "")
+@cache
+def _script() -> str:
+    return "\n".join((TEMPLATES / name).read_text(encoding="utf-8") for name in SCRIPTS)
 
 
-def _keys(results: Sequence[Result]) -> list[str]:
-    return [key for key in dict.fromkeys(key for result in results for key in result.details) if key not in DRAWN]
+def _digest(script: str) -> str:
+    """What the page's policy names: a browser runs this script and no other."""
+    return base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+
+
+def _mark(report: Report, known: Known | None) -> Word:
+    status = report.exit_status if known is None else known.exit_status_of(sharp=False, strict=False)
+    marks: dict[int, Word] = {0: "agrees", 1: "differs"}
+    return marks.get(status, "error")
+
+
+def _by_engine(report: Report) -> list[tuple[str, str, dict[Word, int], str]]:
+    """Each engine: its name, its package, the number of results of each word, its worst error where it agrees."""
+    found = []
+    for name in report.engines:
+        results = [result for scene in report.scenes for result in report.table[scene, name].results]
+        counts = {outcome: sum(word(result) == outcome for result in results) for outcome in WORDS}
+        errors = [r.measured for r in results if r.unit == "ε" and r.measured is not None]
+        entry = report.engine(name)
+        package = f"{entry.package} {entry.version or 'not installed'}" if entry else ""
+        found.append((name, package, counts, f"{figure(max(errors))} ε" if errors else ""))
+    return found

@@ -49,6 +49,9 @@ def print_report(
     _print_loose(report, console)
     console.line()
     _print_table(report, console)
+    for scene in report.header.scenes:
+        if scene.own:
+            console.line(one_line(f"\n{scene.name}: your equations: {'; '.join(scene.own)}", 2000))
     _print_reasons(report, "skipped", "Skipped", console)
     console.line()
     for sentence in dict.fromkeys(engine.untested for engine in report.header.engines if engine.untested):

@@ -65,6 +65,32 @@ def test_diagnose_names_an_armature(tmp_path):
     assert any("armature" in note for note in json.loads(alone.stdout)["notes"])
 
 
+def test_of_several_files_a_bad_one_does_not_spoil_the_others(tmp_path):
+    link = '<inertial pos="0 0 -1" mass="{}" diaginertia="1 1 1"/>'
+    body = f'<body name="a"><joint name="j" axis="0 1 0"/>{link.format(1)}</body>'
+    (tmp_path / "good.xml").write_text(f"<mujoco><worldbody>{body}</worldbody></mujoco>")
+    (tmp_path / "bad.xml").write_text("<mujoco><worldbody>")
+    two = body + body.replace('"a"', '"b"').replace('"j"', '"k"')  # Pinocchio reads the first body of the world
+    (tmp_path / "two.xml").write_text(f"<mujoco><worldbody>{two}</worldbody></mujoco>")
+    engines = ("-e", "mujoco", "-e", "pinocchio-aba")
+    done = run(tmp_path, "diagnose", "bad.xml", "good.xml", "two.xml", *engines)
+    first, second, third = done.stdout.splitlines()
+    assert first == "good.xml: agrees: mujoco and pinocchio-aba do what the file says"
+    assert second.startswith("two.xml: differs: ")
+    assert third.startswith("  first-root-only: ")
+    assert (done.returncode, [line.startswith("furiko: bad.xml") for line in done.stderr.splitlines()]) == (2, [True])
+    as_json = run(tmp_path, "diagnose", "two.xml", "good.xml", *engines, "--json")
+    models = json.loads(as_json.stdout)["models"]
+    assert (as_json.returncode, [(m["model"], m["status"]) for m in models]) == (1, [("two.xml", 1), ("good.xml", 0)])
+    alone = json.loads(run(tmp_path, "diagnose", "good.xml", *engines, "--json").stdout)
+    assert models[1]["diagnosis"] == alone
+
+
+def test_a_page_of_several_files_is_bad_usage(tmp_path):
+    done = run(tmp_path, "diagnose", "a.xml", "b.xml", "--out", "page.html")
+    assert (done.returncode, done.stderr) == (2, "furiko: --out is for one MODEL, 2 are given\n")
+
+
 ENTITY = '<!DOCTYPE x [<!ENTITY a "b">]><mujoco>&a;</mujoco>'
 
 

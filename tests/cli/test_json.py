@@ -43,6 +43,7 @@ def printed(tmp_path, monkeypatch, capfd):
         ("cache", ["cache", "--clear"]),
         ("grade", ["grade", "derivation.toml"]),
         ("diagnose", ["diagnose", "model.xml"]),
+        ("diagnose-several", ["diagnose", "model.xml", "no-such-file.xml", "-e", "mujoco"]),
         ("stress", ["stress", "--axis", "long-rods", "-e", "document", "--budget", "5", "--out", "stress"]),
         pytest.param("audit", ["audit"], marks=pytest.mark.slow),
     ],
@@ -58,7 +59,7 @@ def test_a_document_is_valid_and_fully_described(printed, name, arguments):
 def undescribed(document, known, where=""):
     """Places in the document that its record does not have. An engine's settings go by the engine's own names."""
     if isinstance(document, dict):
-        own_names = where.startswith("/engines/") and where.count("/") == 2 and "status" in document
+        own_names = where.rpartition("/")[0].endswith("/engines") and "status" in document
         missing = [] if own_names else [f"{where}/{key}" for key in document.keys() - known.keys()]
         shared = document.keys() & known.keys()
         return missing + [place for key in shared for place in undescribed(document[key], known[key], f"{where}/{key}")]
@@ -68,7 +69,9 @@ def undescribed(document, known, where=""):
     return [] if document == known else [where]
 
 
-@pytest.mark.parametrize("name", ["scenes", "engines", "cache", "grade", "diagnose", "audit", "bench"])
+@pytest.mark.parametrize(
+    "name", ["scenes", "engines", "cache", "grade", "diagnose", "diagnose-several", "audit", "bench"]
+)
 def test_another_document_is_not(name):
     validator = jsonschema.Draft202012Validator(json.loads((FOLDER / f"{name}.json").read_text(encoding="utf-8")))
     for other in (1, {}, [{}], {"verdict": "maybe"}):

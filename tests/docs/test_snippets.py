@@ -19,7 +19,8 @@ import yaml
 
 ROOT = Path(__file__).parent.parent.parent
 PAGES = [ROOT / "README.md", ROOT / "README.ja.md", *sorted((ROOT / "docs").rglob("*.md"))]
-PAGES = [page for page in PAGES if "generated" not in page.parts]
+OWN = {"add-an-engine.md", "my-equations-my-robot.md"}  # test_howto.py runs them, and what they say of mistakes
+PAGES = [page for page in PAGES if "generated" not in page.parts and page.name not in OWN]
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 NAMED = re.compile(r"(?:# |<!-- )([\w./-]+\.(?:toml|py|xml|urdf))(?: -->)?\n")
 LEFT_ALONE = {"sh", "text", "mermaid"}

@@ -109,8 +109,9 @@ def test_verdict(make, outcomes, verdict):
 
 def test_the_command_that_runs_a_row_again_is_one_shell_command(make):
     report = make.report(make.result(scene="it's"), scenes=[make.scene("it's", source="my scenes/it's.toml")])
-    assert report.again("it's") == ("""furiko check 'my scenes/it'"'"'s.toml' --profile full""")
-    assert report.again("not in the header") == "furiko check 'not in the header' --profile full"
+    assert report.again("it's") == ("""furiko check 'my scenes/it'"'"'s.toml' --profile full --no-cache""")
+    assert report.engine_option("it's") == """-e 'it'"'"'s'"""
+    assert report.again("not in the header") == "furiko check 'not in the header' --profile full --no-cache"
 
 
 @pytest.mark.parametrize(

@@ -149,6 +149,8 @@ def test_the_solution_is_shown_where_the_problem_says_so():
         (PROBLEM + "[points]\nrows = [1]", "points.rows"),
         (PROBLEM + "[points]\ntotal = 9\nrows = [4, 6]", "points.total"),
         (PROBLEM + "points = -1", "points.total"),
+        (PROBLEM + "[points]\nrows = [4, 6]\nstages = { kinetic = 1 }", "rows or stages"),
+        (PROBLEM + "[points]\nstages = { poem = 1 }", "points.stages.poem"),
         (PROBLEM + "points = nan", "points.total"),
         (PROBLEM + 'forms = ["poem"]', "forms"),
         (PROBLEM + "forms = []", "forms"),
@@ -175,3 +177,46 @@ def test_a_process_that_was_ended_is_started_again(tmp_path):
     assert (ended["outcome"], ended["why"]) == ("not graded", "the process that graded it ended")
     assert worker.assess("ann", RIGHT)["outcome"] == "correct"
     worker.end()
+
+
+STAGED = """potential = "-(m1+m2)*g*l1*cos(t1) - m2*g*l2*cos(t2)"
+kinetic = "m1*l1^2*w1^2 + m2/2*(l1^2*w1^2 + l2^2*w2^2 + 2*l1*l2*w1*w2*cos(t1-t2))"
+[equations]
+1 = "(2*m1+m2)*l1*a1 + m2*l2*a2*cos(t1-t2) = -(m1+m2)*g*sin(t1) - m2*l2*w2^2*sin(t1-t2)"
+2 = "m2*l2*a2 + m2*l1*a1*cos(t1-t2) = -m2*g*sin(t2) + m2*l1*w1^2*sin(t1-t2)"
+"""
+STAGES = "[points]\nstages = { kinetic = 3, potential = 2, equations = 5 }"
+
+
+def test_stages_have_points_of_their_own_and_a_mistake_costs_once():
+    # T lacks a ½: one of its three terms, θ̇₁², θ̇₂², θ̇₁θ̇₂ cos; the equations follow from it
+    found = assessed(STAGED, STAGES)
+    assert [(p.name, p.outcome, p.points) for p in found.parts] == [
+        ("kinetic energy", "wrong", 2), ("potential energy", "right", 2), ("equations of motion", "right", 5)
+    ]  # fmt: skip
+    assert (found.outcome, found.points) == ("wrong", 9)
+    assert any("follows from your earlier stages" in line for line in found.feedback)
+    assert "Cause: The kinetic energy of mass 1 is missing its factor ½: it is ½ m v²." in found.feedback
+    # and a mistake of its own in a row: one of the eight terms of both
+    again = assessed(STAGED.replace("+ m2*l1*w1^2", "- m2*l1*w1^2"), STAGES)
+    assert again.points == 2 + 2 + 5 * 7 / 8
+
+
+def test_a_stage_that_is_not_there_has_no_points():
+    found = assessed(RIGHT, STAGES)
+    assert (found.outcome, found.points) == ("undecided", 5)
+    assert assessed(LAGRANGIAN, STAGES).points == 0
+
+
+def test_without_points_by_stage_each_stage_is_worth_the_same():
+    assert assessed(STAGED, "points = 9").points == 3 * 2 / 3 + 3 + 3
+
+
+def test_a_hamiltonian_is_a_form_with_points_by_term():
+    hamiltonian = """hamiltonian = "(m2*l2^2*p1^2 + (m1+m2)*l1^2*p2^2 - 2*m2*l1*l2*p1*p2*cos(t1-t2))\
+/(2*m2*l1^2*l2^2*(m1+m2*sin(t1-t2)^2)) - (m1+m2)*g*l1*cos(t1) - m2*g*l2*cos(t2)"\n"""
+    hamiltonian = hamiltonian.replace("\\\n", "")
+    assert assessed(hamiltonian, "points = 10").points == 10
+    wrong = assessed(hamiltonian.replace("- m2*g", "+ m2*g"), "points = 10")
+    assert (wrong.outcome, wrong.points) == ("wrong", 8)  # one of p₁², p₂², p₁p₂, cos θ₁, cos θ₂
+    assert assessed(hamiltonian, 'forms = ["lagrangian"]').outcome == "not read"

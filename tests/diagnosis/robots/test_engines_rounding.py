@@ -14,8 +14,11 @@ from furiko.diagnosis.model_files.engine_answers import EngineAnswer
 from furiko.diagnosis.model_files.engine_result import EngineResult
 from furiko.diagnosis.model_files.result import mechanism_to_json
 from furiko.diagnosis.robots.answer import RobotAnswer
+from furiko.diagnosis.robots.same_frame import frames_kept
 from furiko.engines.model_files.robot import ROBOT_READERS
 from furiko.models.readers.model_file import read_model
+from furiko.models.spatial import Inertial
+from furiko.models.spatial_mechanism import RigidBody, SpatialMechanism
 
 INERTIAL = '<inertial pos="0.1 0 -0.4" mass="1.5" diaginertia="0.1 0.2 0.25"/>'
 BODY = '<mujoco>{}<worldbody><body name="a"><joint name="j" axis="1 2 3"/>{}</body></worldbody></mujoco>'
@@ -48,6 +51,19 @@ def test_a_centre_of_mass_that_is_nearly_at_the_origin(tmp_path):
     assert any("within 1e-06 of the body's frame" in note for note in found.notes)
     found, answer = engine(tmp_path, near.replace("8e-7", "2e-6"))
     assert (answer["status"], any("within" in note for note in found.notes)) == ("agrees", False)
+
+
+def test_a_moment_of_inertia_is_not_rounded_with_the_frame():
+    """Axes that are turned by 2e-6 change moments by 4e-12 of their difference: 1e-6 of one is another inertia."""
+    centre, moments = np.zeros(3), np.array([1.0, 2.0, 2.5])
+    said = np.diag(moments)
+    said[0, 1] = said[1, 0] = 1e-6  # an angle of 1e-6 between axes whose moments differ by 1
+    for held, back in ((moments, True), (moments * [1, 1 + 1e-6, 1], False)):
+        found, file = (
+            SpatialMechanism((RigidBody("b", -1, inertial=Inertial(1.0, centre, tensor)),), np.zeros(3))
+            for tensor in (np.diag(held), said)
+        )
+        assert (frames_kept(found, file, 1e-6) == ["b"]) == back
 
 
 def test_an_inertial_that_is_in_its_frame_is_not_told(tmp_path):

@@ -68,14 +68,14 @@ MISREAD = {
         "geoms-without-contact-weigh-nothing",
         "mass 1 kg, the file says 3 kg",
     ),
-    "collision.urdf": (  # 1000 kg/m³ · 4/3 π 0.1³ = 4.18879 kg more
+    "collision.urdf": (  # 1000 kg/m³ · 4/3 π 0.1³ = 4.18879 kg
         f"""<robot name="r"><link name="world"/>{LINK.format("a", TENSOR, "")}<link name="tip"><collision><geometry>
         <sphere radius="0.1"/></geometry></collision></link><joint name="j" type="continuous"><parent link="world"/>
         <child link="a"/><axis xyz="0 1 0"/></joint><joint name="f" type="fixed"><origin xyz="0 0 -1"/>
         <parent link="a"/><child link="tip"/></joint></robot>""",
         "mujoco",
         "collision-weighs",
-        "mass 5.18879 kg, the file says 1 kg",
+        "link 'tip': mass 4.18879 kg, the file says 0 kg",
     ),
     "plane.urdf": (
         f"""<robot name="r"><link name="world"/>{LINK.format("a", TENSOR, "")}<joint name="j" type="planar">
@@ -114,7 +114,7 @@ MISREAD = {
         </body></body></worldbody></mujoco>""",
         "pinocchio-aba",
         "first-ref-ignored",
-        "joint 'j2': axis",
+        "joint 'j1': ref 0 rad, the file says 0.523599 rad",  # 30°
     ),
 }
 
@@ -159,7 +159,7 @@ def test_two_misreadings_at_once_are_both_named(tmp_path):
 @pytest.mark.parametrize("name", ["bare.xml", "class.xml", "shown.xml", "ref.xml", "worlds.xml"])
 def test_the_fixed_file_is_read_alike(tmp_path, name):
     path, out = saved(tmp_path, name, MISREAD[name][0]), tmp_path / "fixed.xml"
-    write_fixed(path, out)
+    write_fixed(read_model(path), out)
     found = diagnose(out)
     assert {engine: entry["status"] for engine, entry in found.engines.items() if engine != "exudyn-tree"} == {
         "mujoco": "agrees",
@@ -171,9 +171,9 @@ def test_the_fixed_file_is_read_alike(tmp_path, name):
 def test_a_fix_is_not_written_over_the_file_itself_or_in_another_format(tmp_path):
     path = saved(tmp_path, "a.xml", SOUND["free.xml"])
     with pytest.raises(InvalidInput, match="is not overwritten"):
-        write_fixed(path, path)
+        write_fixed(read_model(path), path)
     with pytest.raises(InvalidInput, match="must end in"):
-        write_fixed(path, tmp_path / "a.yaml")
+        write_fixed(read_model(path), tmp_path / "a.yaml")
 
 
 def test_an_engine_that_refuses_is_never_agreement(tmp_path):

@@ -1,0 +1,278 @@
+"""What the page of a check gives its script: the run as plain data, every text once, all else by number.
+
+Figures are written here, as all reports write them; the script shows them and compares only shares.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import msgspec
+
+from ...records.check import EngineEntry, Result, SceneEntry
+from ...records.printable import printable
+from ..causes import Explanation
+from ..known import Known
+from ..report import Report, TableCell, share
+from ..words import GLYPHS, Word, count, figure, listed, one_line, word
+from .mechanism_drawing import draw_mechanism
+
+WORDS: tuple[Word, ...] = ("differs", "error", "loose", "agrees", "skipped")  # the gravest first
+HISTORY = "errors over time"  # a detail that is drawn
+MOST_PLACES = 3000  # sentences of causes in all: a page is to be read, the stream has every one
+MOST_DRAWN = 60_000  # numbers in drawings of mechanisms: a third of a megabyte
+LONGEST_DETAIL = 2000  # characters of a list or a table
+MOST_TIMES = 200  # of one error over time
+HUGE = 1e308  # stands for infinity, which JSON does not have
+
+SYSTEMS = {
+    "n-leg": "N-leg pendulum: point masses, one rod from the support and legs from its end",
+    "rod-chain": "chain of uniform rigid rods",
+    "tree": "tree of links",
+}
+
+
+class Texts:
+    """Every text once, by number."""
+
+    def __init__(self) -> None:
+        self.all: list[str] = []
+        self._numbers: dict[str, int] = {}
+
+    def number(self, text: str) -> int:
+        """Its number; −1 for an empty one. What a browser might act on is written out."""
+        if not text:
+            return -1
+        found = self._numbers.get(text)
+        if found is None:
+            found = self._numbers[text] = len(self.all)
+            self.all.append(printable(text))
+        return found
+
+
+def page_data(report: Report, known: Known | None = None) -> str:
+    """The run as JSON for a script element: no character of it can end the element or begin another."""
+    encoded = msgspec.json.encode(_data(report, known)).decode()
+    return encoded.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
+
+
+def _data(report: Report, known: Known | None) -> dict[str, Any]:
+    texts = Texts()
+    explanations = report.causes.explanations
+    entries = {} if known is None else {id(entry): i for i, entry in enumerate(known.entries)}
+    by_result = {} if known is None else {key: entries[id(entry)] for key, entry in known.by_result.items()}
+    rows = _Rows(report, texts, {id(e): i for i, e in enumerate(explanations)}, by_result)
+    return {
+        "words": WORDS,
+        "glyphs": [GLYPHS[name] for name in WORDS],
+        "scenes": _scenes(report, texts),
+        "engines": [_engine(name, report, texts) for name in report.engines],
+        "checks": [texts.number(check) for check in report.checks],
+        "cells": [rows.cell(cell) for cell in report.table.values() if cell.results],
+        "histories": rows.histories,
+        "causes": _causes(explanations, texts),
+        "known": known is not None,
+        "grave": bool(report.counts["differs"] or report.counts["error"]),
+        "text": texts.all,  # last: the others fill it
+    }
+
+
+class _Rows:
+    """Results as rows of numbers; what is missing at the end of a row is left out."""
+
+    def __init__(
+        self,
+        report: Report,
+        texts: Texts,
+        explanations: dict[int, int],
+        known: dict[tuple[str, str, str], int],
+    ) -> None:
+        self._report, self._texts = report, texts
+        self._explanations, self._known = explanations, known
+        self._scenes = {name: i for i, name in enumerate(report.scenes)}
+        self._engines = {name: i for i, name in enumerate(report.engines)}
+        self._checks = {name: i for i, name in enumerate(report.checks)}
+        self.histories: list[list[list[float | None]]] = []
+
+    def cell(self, cell: TableCell) -> list[Any]:
+        """Scene, engine, word, figure, share, results."""
+        said = WORDS.index(cell.word) if cell.word else -1
+        return [
+            self._scenes[cell.scene],
+            self._engines[cell.engine],
+            said,
+            self._texts.number(cell.error),
+            _short(cell.share),
+            [self._result(result) for result in cell.results],
+        ]
+
+    def _result(self, result: Result) -> list[Any]:
+        explanation = self._report.causes.explanation_of(result)
+        known = self._known.get((result.scene, result.engine, result.check), -1)
+        row = [
+            self._checks[result.check],
+            WORDS.index(word(result)),
+            self._figure(result.measured, result.unit),
+            self._figure(result.allowed, result.unit),
+            _short(share(result)),
+            self._figure(result.line, result.unit) if result.loose else -1,
+            self._texts.number(result.reason),
+            self._texts.number(result.cause or ""),
+            -1 if explanation is None else self._explanations[id(explanation)],
+            known if result.outcome == "differs" else -1,
+            self._details(result),
+            self._history(result),
+        ]
+        while row[-1] in (-1, []):
+            row.pop()
+        return row
+
+    def _figure(self, value: float | None, unit: str) -> int:
+        return -1 if value is None else self._texts.number(f"{figure(value)} {unit}".rstrip())
+
+    def _details(self, result: Result) -> list[list[int]]:
+        shown = [(key, value) for key, value in result.details.items() if key != HISTORY]
+        return [[self._texts.number(key), self._texts.number(_detail(value))] for key, value in shown if key]
+
+    def _history(self, result: Result) -> int:
+        found = errors_over_time(result)
+        if not found:
+            return -1
+        self.histories.append(found)
+        return len(self.histories) - 1
+
+
+def errors_over_time(result: Result) -> list[list[float | None]]:
+    """Times [s], errors that were predicted, errors that were measured [rad]; empty where the result has none."""
+    found = result.details.get(HISTORY)
+    rows = [row for row in found if isinstance(row, list) and len(row) == 3] if isinstance(found, list) else []
+    timed = [row for row in rows if _number(row[0])][:MOST_TIMES]
+    if not timed:
+        return []
+    timed.sort(key=lambda row: float(row[0]))
+    return [[_short(value) if _number(value) else None for value in column] for column in zip(*timed, strict=True)]
+
+
+def _number(value: object) -> bool:
+    return isinstance(value, float | int) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _short(value: float | None) -> float:
+    """Three digits, as much as is shown or compared; −1 for nothing."""
+    if value is None or math.isnan(value):
+        return -1
+    return float(f"{value:.3g}") if math.isfinite(value) else HUGE
+
+
+def _detail(value: object) -> str:
+    if isinstance(value, str):
+        return value
+    return one_line(_plain(value), LONGEST_DETAIL)
+
+
+def _plain(value: object) -> str:
+    if isinstance(value, float):
+        return figure(value)
+    if isinstance(value, dict):
+        return ", ".join(f"{key} {_plain(entry)}" for key, entry in value.items())
+    if isinstance(value, list | tuple):
+        return ", ".join(_plain(entry) for entry in value)
+    return str(value)
+
+
+def _scenes(report: Report, texts: Texts) -> list[dict[str, Any]]:
+    drawn = 0
+    found = []
+    for name in report.scenes:
+        entry = report.scene(name)
+        drawing = _drawing(entry) if entry and drawn <= MOST_DRAWN else None
+        drawn += 0 if drawing is None else len(drawing[4]) + len(drawing[5])
+        results = [result for engine in report.engines for result in report.table[name, engine].results]
+        found.append(
+            {
+                "name": texts.number(name),
+                "again": texts.number(report.again(name)),
+                "description": texts.number(entry.description if entry else ""),
+                "about": [[label, texts.number(said)] for label, said in _about(entry, results)],
+                "equations": [_equation(text, texts) for text in (entry.equations if entry else ())],
+                "drawing": drawing,
+                "side": bool(entry and entry.outline),
+            }
+        )
+    return found
+
+
+def _equation(text: str, texts: Texts) -> list[int]:
+    """Name and, where the stream gives it, text of an equation: ``name: text``."""
+    name, _, formula = text.partition(": ")
+    return [texts.number(name), texts.number(formula)]
+
+
+def _about(entry: SceneEntry | None, results: Sequence[Result]) -> list[tuple[str, str]]:
+    """What the mechanism is, in labels and words."""
+    if entry is None:
+        return []
+    size = count(entry.n, "angle")
+    if entry.joints:
+        size = f"{entry.n:,} degree{'' if entry.n == 1 else 's'} of freedom"
+    about = [("system", f"{SYSTEMS.get(entry.system, entry.system)}, {size}")]
+    about += [("your equations", "; ".join(entry.own))] if entry.own else []
+    about += [("joints", listed(entry.joints, 12))] if entry.joints else []
+    about += [("lengths", f"{_list(entry.lengths)} m")] if entry.lengths else []
+    about += [("masses", f"{_list(entry.masses)} kg"), ("gravity", f"{entry.gravity} m/s²")]
+    if entry.states:
+        moving = f", trajectory of {entry.duration} s" if entry.duration else ""
+        about.append(("compared in", count(entry.states, "state") + moving))
+    times = (result.details.get("Lyapunov time") for result in results)
+    lyapunov = next((time for time in times if isinstance(time, float)), None)
+    if lyapunov is not None:
+        about.append(("Lyapunov time", f"{figure(lyapunov)} s, in which a small difference grows e-fold"))
+    about += [("tags", listed(entry.tags, 12))] if entry.tags else []
+    return about
+
+
+def _list(values: Sequence[float], longest: int = 8) -> str:
+    shown = ", ".join(f"{value:.6g}" for value in values[:longest])
+    return shown if len(values) <= longest else f"{shown}, … ({len(values)} in all)"
+
+
+def _drawing(entry: SceneEntry) -> list[Any] | None:
+    """Width, height, the support's place, lines and bobs, each as one row of numbers."""
+    if not entry.lengths and not entry.outline:
+        return None
+    drawing = draw_mechanism(entry)
+    lines = [round(value, 1) for line in drawing.lines for value in line]
+    bobs = [round(value, 1) for bob in drawing.bobs for value in bob]
+    across, down = drawing.support
+    return [round(drawing.width, 1), round(drawing.height, 1), round(across, 1), round(down, 1), lines, bobs]
+
+
+def _engine(name: str, report: Report, texts: Texts) -> dict[str, int]:
+    return {
+        "name": texts.number(name),
+        "about": texts.number(_package(report.engine(name))),
+        "option": texts.number(report.engine_option(name)),
+    }
+
+
+def _package(entry: EngineEntry | None) -> str:
+    return f"{entry.package} {entry.version or 'not installed'}" if entry else ""
+
+
+def _causes(explanations: Sequence[Explanation], texts: Texts) -> list[dict[str, Any]]:
+    """Title, number of results explained, and each place and value with its scenes where there are several."""
+    left = MOST_PLACES
+    found = []
+    for explanation in explanations:
+        places: list[list[int]] = []
+        causes = (*explanation.together, *explanation.alternatives)
+        if explanation.detailed:
+            told = [(f"{cause.code}: {said}", where) for cause in causes for said, where in cause.every]
+            places = [[texts.number(said), texts.number(listed(where, 200))] for said, where in told[:left]]
+        left -= len(places)
+        codes = ", ".join(cause.code for cause in causes)
+        title = one_line(f"{explanation.engine}: {codes}", 60)
+        found.append({"title": texts.number(title), "explained": len(explanation.explained), "places": places})
+    return found

@@ -1,0 +1,90 @@
+"""``furiko engine-test``: sound adapters conform, and each broken one is told what is wrong with it."""
+
+import json
+
+import pytest
+from broken_adapters import BROKEN, IN_A_PROCESS
+from click.testing import CliRunner
+
+from furiko.checks.conformance.kit import PARTS, engine_test, steps
+from furiko.cli.main import cli
+from furiko.engines import ENGINES, engine_info
+from furiko.models import InvalidInput
+
+ADAPTER = """
+import numpy as np
+from furiko.engines import EngineInfo
+
+class Rod:
+    info = EngineInfo(
+        name="rod", formulation="closed form of one rod", adapter="", module="", package="", homepage="",
+        coordinates="absolute", largest_n=1, largest_n_reason="it is a closed form of one rod",
+        missing=dict.fromkeys(
+            ("fields", "inverse_dynamics", "joint_forces", "energy", "trajectory"), "accelerations only"
+        ),
+    )
+
+    def __init__(self, system):
+        self.rate = -1.5 * system.gravity / system.lengths[0]
+
+    def accelerations(self, theta, omega):
+        return self.rate * np.sin(theta)
+"""
+
+
+@pytest.mark.parametrize("name", ["fake_engines:Right", *ENGINES])
+def test_sound_adapters_conform(name):
+    pytest.importorskip(engine_info(name).module or "numpy")
+    found = list(steps(name))
+    assert [step.step for step in found] == [part.step for part in PARTS]
+    assert [step for step in found if step.outcome == "wrong"] == []
+    assert {step.step: step.outcome for step in found}["accelerations"] == "right"
+
+
+@pytest.mark.parametrize("name", [name for name in BROKEN if name not in IN_A_PROCESS])
+def test_each_broken_adapter_is_told_what_is_wrong(name):
+    step, word = BROKEN[name]
+    found = {each.step: each for each in steps(f"broken_adapters:{name}")}
+    assert found[step].outcome == "wrong", found
+    assert word in found[step].says + found[step].help, found[step]
+    earlier = [part.step for part in PARTS][: [part.step for part in PARTS].index(step)]
+    assert all(found[before].outcome in ("right", "skipped") for before in earlier), found
+
+
+@pytest.mark.parametrize("name", IN_A_PROCESS)
+def test_a_crash_or_a_hang_is_its_step_s_outcome(name):
+    step, _ = BROKEN[name]
+    found = engine_test(f"broken_adapters:{name}", timeout=5)
+    assert not found.conforms
+    assert (found.steps[-1].step, found.steps[-1].outcome) == (step, "wrong"), found
+
+
+def test_a_file_is_an_engine(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "rod.py").write_text(ADAPTER, encoding="utf-8")
+    answer = CliRunner().invoke(cli, ["engine-test", "rod.py", "--json"], standalone_mode=False)
+    document = json.loads(answer.output)
+    assert document["conforms"] is True, document
+    assert answer.return_value == 0
+    assert engine_info("rod.py:Rod").name == "rod"
+    with pytest.raises(InvalidInput, match="did you mean 'Rod'"):
+        engine_info("rod.py:Rode")
+
+
+def test_a_file_with_two_adapters_needs_a_name(tmp_path):
+    path = tmp_path / "two.py"
+    path.write_text(ADAPTER + "\n\nclass Other(Rod):\n    pass\n", encoding="utf-8")
+    with pytest.raises(InvalidInput, match="several adapters"):
+        engine_info(str(path))
+    assert engine_info(f"{path}:Other").name == "rod"
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [("import nowhere_at_all\n", "nowhere_at_all"), ("x = 1\n", "no class"), ("1/0\n", "ZeroDivisionError")],
+)
+def test_a_file_that_is_no_adapter_is_one_line(tmp_path, text, says):
+    path = tmp_path / "bad.py"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InvalidInput, match=says):
+        engine_info(str(path))

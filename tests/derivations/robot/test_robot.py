@@ -1,0 +1,302 @@
+# ruff: noqa: E501 -- equations and messages stand on one line
+"""Equations from textbooks, held against the truth in space of mechanisms that scene files have."""
+
+import numpy as np
+import pytest
+
+from furiko.derivations.robot.reading import read_robot
+from furiko.derivations.robot.rows import alignment, true_terms
+from furiko.derivations.robot.why import reasons
+from furiko.models import InvalidInput
+from furiko.models.scene import scene_from_toml
+from furiko.models.trees.states import random_states
+
+CART_POLE = """
+[system]
+kind = "tree"
+[[system.links]]
+name = "cart"
+mass = 1.1
+[[system.links.joints]]
+name = "slider"
+kind = "slide"
+axis = [1, 0, 0]
+DAMPING
+[[system.links]]
+name = "pole"
+parent = "cart"
+mass = 0.3
+centre = [0, 0, 0.7]
+INERTIA
+[[system.links.joints]]
+name = "hinge"
+axis = [0, 1, 0]
+"""
+# Two point masses that hang; the elbow turns the other way round, and is at 0.3 rad where the arm is straight.
+ARM = """
+[system]
+kind = "tree"
+[[system.links]]
+name = "upper"
+mass = 1.5
+position = [0, 0, 2]
+centre = [0, 0, -0.7]
+[[system.links.joints]]
+name = "shoulder"
+axis = [0, -1, 0]
+[[system.links]]
+name = "lower"
+parent = "upper"
+position = [0, 0, -0.7]
+mass = 0.5
+centre = [0, 0, -0.4]
+[[system.links.joints]]
+name = "elbow"
+axis = [0, 1, 0]
+ref = 0.3
+"""
+# Turned about the vertical, then about a horizontal axis: a spherical pendulum, q2 from the downward vertical.
+SPHERICAL = """
+[system]
+kind = "tree"
+[[system.links]]
+name = "yoke"
+[[system.links.joints]]
+name = "q1"
+axis = [0, 0, 1]
+armature = 0.25
+[[system.links]]
+name = "rod"
+parent = "yoke"
+mass = 2.0
+centre = [0, 0, -0.5]
+[[system.links.joints]]
+name = "q2"
+axis = [0, -1, 0]
+"""
+ELASTIC = """
+[system]
+kind = "tree"
+[[system.links]]
+name = "guide"
+[[system.links.joints]]
+name = "pivot"
+axis = [0, -1, 0]
+[[system.links]]
+name = "bob"
+parent = "guide"
+mass = 0.8
+[[system.links.joints]]
+name = "spring"
+kind = "slide"
+axis = [0, 0, -1]
+stiffness = 40.0
+springref = 0.6
+"""
+
+
+def cart_pole(head, rows, *, damping="", inertia=""):
+    return head + CART_POLE.replace("DAMPING", damping).replace("INERTIA", inertia) + rows
+
+
+# In the joints' own coordinates: the pole stands up at zero, and turns to +x.
+UPRIGHT = """
+[symbols]
+x = "slider"
+theta = "hinge"
+M = 1.1
+m = 0.3
+l = 0.7
+[equations]
+1 = "(M+m)*x'' + m*l*theta''*cos(theta) - m*l*theta'^2*sin(theta) = 0"
+2 = "m*l*cos(theta)*x'' + m*l^2*theta'' - m*g*l*sin(theta) = 0"
+"""
+# Wikipedia, Inverted pendulum: from the upward vertical, counter-clockwise.
+WIKIPEDIA = (
+    UPRIGHT[: UPRIGHT.index("1 =")]
+    + r"""
+1 = '''(M+m)\ddot x - m\ell\ddot\theta\cos\theta + m\ell\dot\theta^2\sin\theta = 0'''
+2 = '''\ell\ddot\theta - g\sin\theta = \ddot x\cos\theta'''
+"""
+)
+# The double pendulum as it is printed everywhere, from the downward vertical; and the same in relative angles.
+ABSOLUTE = r"""
+[symbols]
+theta1 = "shoulder"
+theta2 = "elbow"
+[equations]
+1 = "(m1+m2)*l1*theta1'' + m2*l2*theta2''*cos(theta1-theta2) + m2*l2*theta2'^2*sin(theta1-theta2) + (m1+m2)*g*sin(theta1) = 0"
+2 = '''l_2\ddot\theta_2 + l_1\ddot\theta_1\cos(\theta_1-\theta_2) - l_1\dot\theta_1^2\sin(\theta_1-\theta_2) + g\sin\theta_2 = 0'''
+"""
+RELATIVE = """
+[symbols]
+q1 = "shoulder"
+q2 = "elbow"
+[define]
+c2 = "cos(q2)"
+s2 = "sin(q2)"
+[equations]
+1 = "(m1*l1^2 + m2*(l1^2 + 2*l1*l2*c2 + l2^2))*q1'' + m2*(l1*l2*c2 + l2^2)*q2'' - m2*l1*l2*s2*(2*q1'*q2' + q2'^2) + (m1+m2)*g*l1*sin(q1) + m2*g*l2*sin(q1+q2) = 0"
+2 = "m2*(l1*l2*c2 + l2^2)*q1'' + m2*l2^2*q2'' + m2*l1*l2*s2*q1'^2 + m2*g*l2*sin(q1+q2) = 0"
+"""
+FUNCTION = """
+function = '''
+import numpy as np
+
+def cartpole(t, y, M=1.1, m=0.3):
+    "Accelerations of a cart and its pole."
+    x, th, dx, dth = y
+    l, total = 0.7, M + m
+    s, c = np.sin(th), np.cos(th)
+    force = m * l * dth ** 2 * s
+    det = l * (total - m * c**2)
+    a_th = (total * g * s - force * c) / det
+    return [dx, dth, (force - m * l * a_th * c) / total, a_th]
+'''
+"""
+RIGHT = {
+    "cart-pole": cart_pole("", UPRIGHT),
+    "cart-pole, from up": cart_pole('from = "up"\nsense = "counter-clockwise"\n', WIKIPEDIA),
+    "cart-pole, a Lagrangian and a damper": cart_pole(
+        'lagrangian = "(M+m)*x\'^2/2 + m*l*x\'*theta\'*cos(theta) + m*l^2*theta\'^2/2 - m*g*l*cos(theta)"\n'
+        + UPRIGHT[: UPRIGHT.index("[equations]")], "", damping="damping = 0.4"),
+    "cart-pole, a damper": cart_pole("", UPRIGHT.replace("sin(theta) = 0", "sin(theta) + b*x' = 0", 1), damping="damping = 0.4"),
+    "cart-pole, a function": cart_pole(FUNCTION, ""),
+    "cart-pole, combined rows": cart_pole("", UPRIGHT.replace("1 = \"(M+m)*x''", "1 = \"M*x''", 1).replace(
+        "- m*l*theta'^2*sin(theta) = 0", "- m*l*theta'^2*sin(theta) - (m*l*cos(theta)*x'' + m*l^2*theta'' - m*g*l*sin(theta)) = -m*x''")),
+    "arm, absolute": 'angles = "absolute"\n' + ARM + ABSOLUTE,
+    "arm, relative": 'angles = "relative"\nfrom = "down"\n' + ARM + RELATIVE,
+    "spherical": SPHERICAL + """
+[equations]
+1 = "(J + m*lc^2*sin(q2)^2)*q1'' + 2*m*lc^2*sin(q2)*cos(q2)*q1'*q2' = 0"
+2 = "lc*q2'' - lc*sin(q2)*cos(q2)*q1'^2 + g*sin(q2) = 0"
+[symbols]
+J = 0.25
+m = 2.0
+lc = 0.5
+""",
+    "elastic": ELASTIC + """
+[symbols]
+theta = "pivot"
+r = "spring"
+[equations]
+1 = "m*r^2*theta'' + 2*m*r*r'*theta' + m*g*r*sin(theta) = 0"
+2 = "m*r'' - m*r*theta'^2 - m*g*cos(theta) + k*(r - 0.6) = 0"
+""",
+}  # fmt: skip
+
+
+def read(text):
+    scene = scene_from_toml(text, "mine")
+    d = read_robot(scene.system, scene.own)
+    states = random_states("robot", scene.system, 4)
+    q, v = (np.array([state[k] for state in states]) for k in (0, 1))
+    return d, scene.system, true_terms(scene.system.mechanism(), q, v)
+
+
+@pytest.mark.parametrize("name", RIGHT)
+def test_right_equations_give_the_true_accelerations_and_terms(name):
+    d, _, true = read(RIGHT[name])
+    motion = d.motion()
+    got = motion.accelerations(true.q, true.v)
+    # The equations have decimals where the mechanism has the nearest doubles: some ε of the largest number, and the
+    # truth is rounded once.
+    assert np.abs(got - true.accelerations).max() <= 1e-14 * np.abs(true.accelerations).max()
+    scale = alignment(motion, true)
+    if "function" in name or "combined" in name:
+        assert scale is None
+        return
+    matrix, rest = motion.floats(true.q, true.v)
+    assert np.abs(scale @ matrix - true.mass_matrix).max() <= 1e-13 * np.abs(true.mass_matrix).max()
+    assert np.abs(rest @ scale.T - true.rest).max() <= 1e-13 * np.abs(true.rest).max()
+
+
+def test_what_is_taken_from_the_model_is_said():
+    d, *_ = read('angles = "absolute"\n' + ARM + ABSOLUTE)
+    assert d.values == {"m1": 1.5, "m2": 0.5, "l1": 0.7, "l2": 0.4}
+    assert d.said == (
+        "theta1 is joint 'shoulder', theta2 is joint 'elbow'",
+        "angles are measured from the downward vertical",
+        "taken from the model: m1 = 1.5 kg, the mass of 'upper'; m2 = 0.5 kg, the mass of 'lower'; "
+        "l1 = 0.7 m, the length of 'upper'; l2 = 0.4 m, the length of 'lower'",
+    )
+
+
+WRONG_EQUATIONS = [
+    ("- m*l*theta'^2", "+ m*l*theta'^2", "sign", "Row 1, the term with theta'² sin(theta): the sign is wrong."),
+    ("m*l^2*theta''", "m*l*theta''", "factor-missing", "Row 2, the term with theta'': it lacks the factor l."),
+    ("(M+m)*x''", "M*x''", "part-missing", "Row 1, the term with x'': the part m is missing."),
+    ("m*l*cos(theta)*x''", "2*m*l*cos(theta)*x''", "factor-two", "Row 2, the term with x'' cos(theta)"),
+    ("- m*l*theta'^2*sin(theta)", "", "term-missing", "Row 1, the term with theta'² sin(theta)"),
+    ("theta'^2", "theta'", "", "Row 1"),
+]
+
+
+@pytest.mark.parametrize(("there", "wrong", "cause", "says"), WRONG_EQUATIONS)
+def test_a_wrong_term_is_named_in_the_authors_letters(there, wrong, cause, says):
+    d, system, true = read(cart_pole("", UPRIGHT.replace(there, wrong, 1)))
+    first, *_ = reasons(d, system, true)
+    assert not first.in_model
+    assert first.says.startswith(says)
+    assert cause in first.cause
+
+
+def test_gravity_of_the_other_sign_may_be_another_zero_of_the_angle():
+    d, system, true = read(cart_pole("", UPRIGHT.replace("- m*g*l*sin", "+ m*g*l*sin")))
+    (found,) = reasons(d, system, true)
+    assert found.cause == "angle-convention"
+    assert 'write angles = "absolute", from = "down", sense = "counter-clockwise"' in found.says
+    assert found.says.endswith("if not: Row 2, the term with sin(theta): the sign is wrong.")
+    declared = 'from = "up"\nsense = "clockwise"\n'
+    d, system, true = read(cart_pole(declared, UPRIGHT.replace("- m*g*l*sin", "+ m*g*l*sin")))
+    assert [x.cause for x in reasons(d, system, true)] == ["sign"]
+
+
+def test_where_letters_are_missing_the_wrong_term_is_named_in_numbers():
+    rows = RIGHT["spherical"].replace("+ g*sin", "- g*sin")
+    d, system, true = read(rows)
+    assert [(x.cause, x.says) for x in reasons(d, system, true)] == [
+        ("sign", "in the row of 'q2' the term of gravity has the wrong sign")
+    ]
+
+
+OTHER_MODELS = [
+    (cart_pole("", UPRIGHT.replace("m = 0.3", "m = 0.2")), "mass", "the mass of 'pole' is 0.3 kg in the model, where m is 0.2 kg"),
+    (cart_pole("", UPRIGHT.replace("l = 0.7", "l = 0.5")), "com-displaced", "'pole' is 0.7 m in the model, where l is 0.5 m"),
+    (cart_pole("", UPRIGHT, damping="damping = 0.4"), "damping", "the model has damping at 'slider' (0.4 N s/m)"),
+    (cart_pole("", UPRIGHT, inertia="inertia = [0.02, 0.02, 0.001]"), "inertia", "the model has a moment of inertia at 'pole' (0.02 kg m²)"),
+    (cart_pole("", UPRIGHT.replace("M = 1.1", "M = 1.0").replace("m = 0.3", "m = 0.2")), "mass", "the mass of 'cart' is 1.1 kg in the model, where M is 1 kg"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "cause", "says"), OTHER_MODELS)
+def test_right_equations_of_another_mechanism_are_told_from_wrong_ones(text, cause, says):
+    d, system, true = read(text)
+    first, *rest = reasons(d, system, true)
+    assert all(x.in_model for x in (first, *rest))
+    assert first.cause == cause
+    assert says in first.says
+
+
+REFUSED = [
+    (cart_pole("", UPRIGHT.replace("M = 1.1\n", "")), "equations.1: column 2: 'M' is not known here"),
+    (cart_pole("", UPRIGHT.replace('theta = "hinge"', "")), "which coordinate is joint 'hinge'"),
+    (cart_pole("", UPRIGHT.replace('"hinge"', '"hinges"')), "symbols.theta: no joint is called 'hinges' (did you mean 'hinge'?); there are slider, hinge"),
+    (cart_pole("", UPRIGHT[: UPRIGHT.index("2 =")]), "equations: 1 row for 2 joints; one for each joint is needed"),
+    (cart_pole("", UPRIGHT.replace("x'' +", "x''*theta'' +")), "accelerations are multiplied by one another"),
+    (cart_pole("", UPRIGHT.replace("M = 1.1", "M = nan")), "symbols.M: the name of a joint, or a finite number"),
+    (cart_pole('lagrangian = "x"\n', UPRIGHT), "lagrangian: equations is given already"),
+    (cart_pole('from = "upwards"\n', UPRIGHT), "from: 'upwards' is not known"),
+    ('from = "up"\n' + RIGHT["spherical"], "its hinges' axes are not parallel"),
+    (cart_pole(FUNCTION.replace("s, c = np.sin(th), np.cos(th)", "import os; os.system('true')"), ""), "function: line 7: Import"),
+    (cart_pole(FUNCTION.replace("np.sin(th)", "open('x')"), ""), "is not followed"),
+    (cart_pole(FUNCTION.replace("[dx, dth,", "[dth, dx,"), ""), "number 1 of what it returns is not the rate"),
+    (cart_pole("function = '''def f(q, v):\n    return " + "-" * 4000 + "q[0], 0'''\n", ""), "function"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "says"), REFUSED)
+def test_what_cannot_be_taken_as_meant_is_refused_with_its_place(text, says):
+    with pytest.raises(InvalidInput) as refused:
+        read(text)[0].motion()
+    assert says in str(refused.value)
