@@ -1,7 +1,10 @@
 """How Sphinx builds the documentation: ``make docs``. Nothing is fetched, and the pages load nothing from elsewhere."""
 
+import html
+import re
 import sys
 from pathlib import Path
+from xml.etree import ElementTree as XML
 
 from docutils import nodes
 from docutils.utils.math import MathError, latex2mathml
@@ -35,8 +38,28 @@ def visit_math(translator, node):
     except MathError as error:
         logging.getLogger(__name__).warning("%s", error, location=node)
         raise nodes.SkipNode from None
+    mathml = with_indices_beside(mathml)
     translator.body.append(f"<div class='math'>{mathml}</div>" if block else mathml)
     raise nodes.SkipNode
+
+
+MATHML = "http://www.w3.org/1998/Math/MathML"
+ENTITY = re.compile(r"&(?!lt;|gt;|amp;)\w+;")  # of HTML, which XML does not know
+ACCENTS = {"˙", "¨", "^", "ˆ"}
+
+
+def with_indices_beside(mathml):
+    """An index of a letter with a dot stands beside it, as that of one without; docutils writes it underneath."""
+    XML.register_namespace("", MATHML)
+    root = XML.fromstring(ENTITY.sub(lambda found: html.unescape(found[0]), mathml))
+    for element in root.iter(f"{{{MATHML}}}munderover"):
+        base, index, above = element
+        if above.text in ACCENTS:
+            dotted = XML.Element(f"{{{MATHML}}}mover", {"accent": "true"})
+            dotted.extend([base, above])
+            element[:] = [dotted, index]
+            element.tag = f"{{{MATHML}}}msub"
+    return XML.tostring(root, encoding="unicode")
 
 
 def setup(app):

@@ -36,7 +36,7 @@ def equations() -> Iterator[str]:
     for document in dict.fromkeys(equation.document for equation in EQUATIONS):
         yield f"\n## {document.title()}\n"
         rows = [
-            (f"({e.number})", e.says, f"`{e.formula}`", verdicts[e.document, e.number])
+            (f"({e.number})", e.says, e.formula, verdicts[e.document, e.number])
             for e in EQUATIONS
             if e.document == document
         ]
