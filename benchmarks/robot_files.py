@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import hashlib
 import json
+import resource
 import statistics
 import subprocess
 import sys
@@ -80,7 +81,7 @@ def model_files(root: Path) -> Iterator[Path]:
 
 def diagnosed(path: Path) -> dict[str, Any]:
     """What ``furiko diagnose --json`` says of one file."""
-    start = time.perf_counter()
+    start, spent = time.perf_counter(), processor_time()
     command = [sys.executable, "-m", "furiko", "diagnose", str(path), "--json"]
     row: dict[str, Any] = {"file": str(path), "outcome": "hang", "says": ""}
     try:
@@ -88,8 +89,14 @@ def diagnosed(path: Path) -> dict[str, Any]:
         row |= outcome(done)
     except subprocess.TimeoutExpired:
         row["says"] = f"beyond {TIMEOUT:g} s"
-    row["seconds"] = time.perf_counter() - start
+    row |= {"seconds": time.perf_counter() - start, "processor seconds": processor_time() - spent}
     return row
+
+
+def processor_time() -> float:
+    """What the processes that have ended so far have taken, theirs too [s]: other work on the machine counts little."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def outcome(done: subprocess.CompletedProcess[str]) -> dict[str, Any]:
@@ -122,6 +129,8 @@ def print_summary(rows: list[dict[str, Any]]) -> None:
     print(f"{len(rows)} files: " + ", ".join(f"{name} {number}" for name, number in count.most_common()))
     if seconds:
         print(f"median {statistics.median(seconds):.2f} s, longest {max(seconds):.1f} s")
+        spent = [row["processor seconds"] for row in rows]
+        print(f"of processors: median {statistics.median(spent):.2f} s, most {max(spent):.1f} s")
     print("verdicts: ", Counter(row.get("verdict", "none") for row in rows).most_common())
     print("first causes:", Counter(f["cause"] for row in rows for f in row.get("findings", [])[:1]).most_common(40))
 

@@ -19,6 +19,7 @@ from .registry import (
     engine_version,
     load_engine,
     load_tree_engine,
+    names_on_request,
     plugin_names,
     untested,
 )
@@ -59,6 +60,7 @@ __all__ = [
     "engine_version",
     "load_engine",
     "load_tree_engine",
+    "names_on_request",
     "plugin_names",
     "untested",
 ]

@@ -83,9 +83,11 @@ class EngineInfo:
     * ``ordering``: in maximal coordinates, the order in which unknowns are eliminated: by ``colamd``, or ``unknown``.
     * ``accuracy``: relative accuracy of one operation, with ``accuracy_reason`` where it is not the unit roundoff.
     * ``algorithm``: how accelerations are solved for: articulated bodies (``aba``), or a mass matrix that is formed and
-      factorised (``crba``); ``inverse``: how inverse dynamics and joint forces are computed: link by link
-      (``rnea``), link by link but for a mass matrix of composite bodies times the accelerations (``crba``), or in a
-      way that is not known (``matrix``). They tell the usual rounding, not the worst.
+      factorised (``crba``), as the engines do it whose usual rounding was measured; ``other``: in another way, or in
+      three dimensions with rounding of their own: nothing is said of the usual rounding, of the worst alone;
+      ``inverse``: how inverse dynamics and joint forces are computed: link by link (``rnea``), link by link but for a
+      mass matrix of composite bodies times the accelerations (``crba``), or in a way that is not known (``matrix``).
+      They tell the usual rounding, not the worst.
     """
 
     name: str
@@ -109,7 +111,7 @@ class EngineInfo:
     placed: Literal["parent", "world"] = "parent"
     interchanges: bool = False
     ordering: Literal["unknown", "colamd"] = "unknown"
-    algorithm: Literal["aba", "crba"] = "crba"
+    algorithm: Literal["aba", "crba", "other"] = "crba"
     inverse: Literal["rnea", "crba", "matrix"] = "matrix"
     tree: TreeInfo | None = None
     tested: tuple[str, ...] = ()

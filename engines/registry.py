@@ -9,6 +9,7 @@ from ..models import EngineMissing, InvalidInput, System, TreeSystem
 from ..models.errors import installing, nearest
 from . import elsewhere
 from .info import EngineInfo, Integrator, TreeInfo
+from .on_request import ON_REQUEST
 
 if TYPE_CHECKING:
     from .shapes import AnyShape
@@ -164,29 +165,37 @@ OWN_EQUATIONS = EngineInfo(
 )
 
 
+_KNOWN = ENGINES | ON_REQUEST
+
+
 def engine_names() -> list[str]:
-    """The engines that furiko knows, installed or not."""
+    """The engines that a run takes which names none, installed or not."""
     return list(ENGINES)
+
+
+def names_on_request() -> list[str]:
+    """The engines that furiko has as well, and that run only where they are named."""
+    return list(ON_REQUEST)
 
 
 def plugin_names() -> list[str]:
     """The engines that other installed packages bring (:mod:`.elsewhere`), less those that furiko has by that name."""
-    return [name for name in elsewhere.plugin_names() if name not in ENGINES]
+    return [name for name in elsewhere.plugin_names() if name not in _KNOWN]
 
 
 def engine_info(name: str) -> EngineInfo:
     """An engine's name and capabilities, without importing the engine.
 
-    ``name``: one of :func:`engine_names`, or of an adapter from elsewhere, a class with an :class:`EngineInfo` as its
-    attribute ``info``: one of :func:`plugin_names`, ``package.module:Class``, ``path/to/file.py`` or
-    ``path/to/file.py:Class``. Raises :class:`InvalidInput` where there is none such.
+    ``name``: one of :func:`engine_names` or :func:`names_on_request`, or of an adapter from elsewhere, a class with an
+    :class:`EngineInfo` as its attribute ``info``: one of :func:`plugin_names`, ``package.module:Class``,
+    ``path/to/file.py`` or ``path/to/file.py:Class``. Raises :class:`InvalidInput` where there is none such.
     """
-    if name in ENGINES:
-        return ENGINES[name]
+    if name in _KNOWN:
+        return _KNOWN[name]
     if name == OWN_EQUATIONS.name:
         return OWN_EQUATIONS
     if not elsewhere.is_elsewhere(name) and name not in plugin_names():
-        known = [*ENGINES, *plugin_names()]
+        known = [*_KNOWN, *plugin_names()]
         hint = nearest(name, known) or f"; there are {', '.join(known)}, package.module:Class, or a file, ./adapter.py"
         raise InvalidInput(f"engine: no engine is called {name!r}{hint}")
     return elsewhere.info_of(name)
@@ -245,7 +254,7 @@ def load_engine(name: str, system: System) -> AnyShape:
     if why_not is not None:
         raise InvalidInput(why_not)
     _require(info)
-    adapter = elsewhere.adapter(info.adapter if name in ENGINES else name)
+    adapter = elsewhere.adapter(info.adapter if name in _KNOWN else name)
     return AnyShape(adapter(system), info, system.n)
 
 

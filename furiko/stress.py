@@ -123,6 +123,18 @@ def summarise(
     return found
 
 
+def tip_verdict(folder: Path) -> list[str]:
+    """What the run in a folder says of the tip of Takeno's chain. Raises :class:`InvalidInput` if that is nothing."""
+    from .reports import read_stream
+    from .studies.stress.chain_summary import chain_summary
+
+    results = {key(result): result for result in read_stream(folder / STREAM).results}
+    said = chain_summary(make_plan(["chain"], None, seed=SEED).searches, results).verdict
+    if not said:
+        raise InvalidInput(f"{folder}: this run moved no chains far enough; furiko stress -a chain does")
+    return said
+
+
 def _unless_unwritten(unwritten: list[str], write: Callable[[R], object], record: R) -> None:
     """Write, unless that has failed before: a journal that takes no more ends there, and the run goes on."""
     if unwritten:

@@ -124,6 +124,25 @@ class AuditDocument(msgspec.Struct, frozen=True, kw_only=True):
     equations: list[JudgedEquation]
     slips: list[SlipEntry]
     open_questions: list[OpenQuestion]
+    unnumbered: list[JudgedEquation]  # Takeno's displays without a number
+
+
+class JudgedEntry(msgspec.Struct, frozen=True, kw_only=True):
+    """One entry of a user's list of equations, graded as a derivation."""
+
+    number: str
+    says: str  # what it is, as the file has it
+    judgement: Literal["holds", "holds-if", "wrong"]
+    told: list[str]  # why; empty where it holds
+    told_ja: list[str]
+    grade: GradeDocument
+
+
+class FileAuditDocument(msgspec.Struct, frozen=True, kw_only=True):
+    """The document of ``furiko audit FILE --json``."""
+
+    title: str
+    entries: list[JudgedEntry]
 
 
 # --- diagnose

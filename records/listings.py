@@ -38,6 +38,7 @@ class EngineRow(msgspec.Struct, frozen=True, kw_only=True):
     missing: dict[str, str]  # quantities that it cannot compute, and why
     largest_n: int  # links
     homepage: str
+    named: bool = False  # it runs only where it is named
 
 
 class CacheKind(msgspec.Struct, frozen=True, kw_only=True):

@@ -29,6 +29,7 @@ SCHEMAS: dict[str, tuple[str, Any]] = {
     "grade": ("furiko grade --json", findings.GradeDocument),
     "class": ("furiko grade --problem --json, and class.json", classroom.ClassDocument),
     "audit": ("furiko audit --json", findings.AuditDocument),
+    "audit-file": ("furiko audit FILE --json", findings.FileAuditDocument),
     "diagnose": ("furiko diagnose --json", findings.DiagnoseDocument),
     "diagnose-several": ("furiko diagnose --json with several files", findings.DiagnosedModels),
     "error": ("every furiko command with --json that fails", errors.ErrorDocument),

@@ -17,6 +17,7 @@ from .documents.shiki import EQUATIONS as SHIKI
 from .documents.shiki import SLIPS as _SHIKI_SLIPS
 from .documents.takeno import EQUATIONS as TAKENO
 from .documents.takeno import SLIPS as _TAKENO_SLIPS
+from .documents.takeno_unnumbered import UNNUMBERED
 
 EQUATIONS = SHIKI + TAKENO  # all 57, in the documents' order
 MISPRINTS = tuple(equation for equation in EQUATIONS if equation.printed)
@@ -28,6 +29,7 @@ __all__ = [
     "SHIKI",
     "SLIPS",
     "TAKENO",
+    "UNNUMBERED",
     "Equation",
     "Slip",
     "centre_accelerations",

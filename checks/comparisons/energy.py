@@ -35,10 +35,7 @@ def compare(cell: Cell) -> Iterator[Result]:
     state, part = found.index
     agrees = found.value <= bound
     word = ("kinetic", "potential")[part]
-    at = sharp.chosen(quotient(off, scale).max(axis=-1), sharp.states_for_energy(system.n))
-    looked_at = states.at(at)
-    size = spread.energy(cell.info, system, cell.amplitude, looked_at.theta, looked_at.omega)
-    line = sharp.line(off[at], size, sharp.ENERGY, looked_at, len(states))
+    line = sharp_line(cell, off, quotient(off, scale).max(axis=-1))
     reason = (
         f"worst in the {word} energy"
         if agrees
@@ -51,8 +48,19 @@ def compare(cell: Cell) -> Iterator[Result]:
         measured=found.value,
         allowed=bound,
         unit="ε",
-        details={"part": word, "state": states.labels[state], "states": len(states)} | line.details(),
+        details={"part": word, "state": states.labels[state], "states": len(states)} | (line.details() if line else {}),
     )
+
+
+def sharp_line(cell: Cell, off: Array, excess: Array) -> sharp.Line | None:
+    """Errors (B, 2) [J] against what rounding does to each."""
+    system, most = cell.scene.system, sharp.states_for_energy(cell.info, cell.scene.system.n)
+    if not most:
+        return None
+    at = sharp.chosen(excess, most)
+    states = cell.states.at(at)
+    size = spread.energy(cell.info, system, cell.amplitude, states.theta, states.omega)
+    return sharp.line(off[at], size, sharp.ENERGY, states, len(cell.states))
 
 
 def energy_amplitudes(tree: PlanarTree, amplitude: Amplitudes, omega: Array) -> Array:

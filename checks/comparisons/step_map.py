@@ -111,7 +111,11 @@ def _compare(cell: Cell, integrator: Integrator, steps: Steps, textbook: Textboo
         fits = all_fits(None)
     best, *rest = fits
     agrees = best.excess <= 1 and best.candidate.scheme.order == integrator.order
-    line = sharp_line(cell, integrator, steps, textbook, best.candidate, got) if agrees else None
+    line = (
+        sharp_line(cell, integrator, steps, textbook, best.candidate, got)
+        if agrees and sharp.is_known(cell.info)
+        else None
+    )
     return cell.result(
         f"{NAME} {integrator.name}",
         **sharp.verdict(agrees, line, _reason(integrator, fits)),

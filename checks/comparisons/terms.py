@@ -65,7 +65,7 @@ def compare(cell: Cell) -> Iterator[Result]:
 
 def _spreads(cell: Cell, states: States, excess: Array) -> tuple[NDArray[np.intp], spread.Terms | None]:
     """The effect of rounding on each term, in as many of the states as is affordable; None where in none."""
-    system, most = cell.scene.system, sharp.states_for_terms(cell.scene.system.n)
+    system, most = cell.scene.system, sharp.states_for_terms(cell.info, cell.scene.system.n)
     at = sharp.chosen(excess, most)
     if not most:
         return at, None

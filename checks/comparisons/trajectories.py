@@ -204,7 +204,7 @@ def _compare(
     coarser, order = ladder.orders()
     fits = order > p - 0.5 or not ladder.judges(p, noise)
     agrees = missed <= bound and fits
-    line = sharp_line(cell, integrator, ladder, passed) if agrees else None
+    line = sharp_line(cell, integrator, ladder, passed) if agrees and sharp.is_known(cell.info) else None
     return cell.result(
         name,
         **sharp.verdict(agrees, line, _reason(integrator, order, missed, bound, fits, ladder.settled(p))),

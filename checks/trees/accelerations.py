@@ -27,7 +27,7 @@ def compare(cell: TreeCell) -> Iterator[Result]:
     got = cell.answer(NAME, cell.engine.accelerations(states.q, states.v), states.v.shape)
     error = facts.error(got)
     residual = (facts.mass_matrix @ error[..., None])[..., 0]
-    factorises = cell.info.algorithm == "crba"
+    factorises = cell.info.algorithm != "aba"
     unit = np.array(
         [
             units.residual(accelerations, mass, factorised=factorises)

@@ -1,4 +1,4 @@
-"""Audits both documents: each of the 57 numbered equations, as printed, against first principles.
+"""Audits both documents: each of the 57 numbered equations, and Takeno's other displays, against first principles.
 
 Exactly (in symbols) for few angles, in ball arithmetic at random points for many. ``furiko audit`` prints it.
 """
@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 from msgspec import UNSET, structs
 
-from ...reference import EQUATIONS, SLIPS, Equation
+from ...reference import EQUATIONS, SLIPS, UNNUMBERED, Equation
 from ..algebra.symbols import symbols_of
 from ..algebra.trig import constant
 from .audit_record import Audit, BallEvidence, Evidence, FoundSlip, JudgedEquation, Judgement
-from .claims import SOLVES, differences
+from .claims import EQUAL_LENGTHS, SOLVES, differences
 from .cost import costs_of
 from .exact import array, exact_values
 from .open_questions import open_questions
@@ -36,13 +36,14 @@ class PointResult:
 
 
 def audit() -> Audit:
-    """Judge all 57 equations, and settle what the documents leave open."""
+    """Judge all 57 equations and the displays without a number, and settle what the documents leave open."""
     return Audit(
         tuple(judge(equation) for equation in EQUATIONS),
         tuple(
             FoundSlip("by reading", slip.document, slip.where, slip.printed, slip.right, slip.says) for slip in SLIPS
         ),
         tuple(open_questions()),
+        tuple(judge(display) for display in UNNUMBERED),
     )
 
 
@@ -109,7 +110,7 @@ def _sizes(equation: Equation, sizes: tuple[int, ...]) -> tuple[int, ...]:
 
 
 def _holds_exactly(equation: Equation, n: int, as_printed: bool) -> bool:
-    values = _exact(equation.document, n, equation.number == "19" and equation.document == "takeno")
+    values = _exact(equation.document, n, _key(equation) in EQUAL_LENGTHS)
     members = equation.printed_members(values) if as_printed else equation.members(values)
     return all(x.vanishes() for x in differences(_key(equation), members, values))
 
@@ -128,7 +129,9 @@ def _at_point(equation: Equation, n: int, seed: int, as_printed: bool) -> PointR
     from .balls import ball_values
 
     with _precision():
-        values = ball_values(_kind(equation.document), n, seed, _key(equation) == "takeno 19", _key(equation) in SOLVES)
+        values = ball_values(
+            _kind(equation.document), n, seed, _key(equation) in EQUAL_LENGTHS, _key(equation) in SOLVES
+        )
         members = equation.printed_members(values) if as_printed else equation.members(values)
         balls = differences(_key(equation), members, values)
         wrong = next((ball for ball in balls if not ball.contains(0)), None)

@@ -1,15 +1,14 @@
-"""The result of the audit: typed records, written as JSON by ``furiko audit --json``, and the text for a terminal."""
+"""The result of the audit: typed records, written as JSON by ``furiko audit --json``."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any, Literal
 
 import msgspec
 from msgspec import UNSET, Struct, UnsetType
 
 from .cost import Cost
-from .open_questions import Question
+from .question import Question
 
 Judgement = Literal["holds", "holds-if", "misprint"]
 
@@ -82,6 +81,7 @@ class Audit(Struct, frozen=True):
     equations: tuple[JudgedEquation, ...]
     slips: tuple[FoundSlip, ...]
     open_questions: tuple[Question, ...] = ()
+    unnumbered: tuple[JudgedEquation, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """For JSON."""
@@ -93,40 +93,3 @@ class Audit(Struct, frozen=True):
         """How many equations were judged how."""
         kinds = [judged.judgement for judged in self.equations]
         return {kind: kinds.count(kind) for kind in ("holds", "holds-if", "misprint")}
-
-    def text(self) -> str:
-        """For a terminal."""
-        return "\n".join(_lines(self))
-
-
-def _lines(result: Audit) -> Iterator[str]:
-    counts = result.counts
-    yield (
-        f"{len(result.equations)} equations: {counts['holds']} hold, {counts['holds-if']} hold with a condition left "
-        f"unsaid, {counts['misprint']} are misprinted."
-    )
-    for judged in result.equations:
-        mark = {"holds": " ", "holds-if": "?", "misprint": "!"}[judged.judgement]
-        yield f"{mark} {judged.document.title():6s} {'(' + judged.number + ')':7s} {judged.says}"
-        if judged.judgement == "misprint":
-            yield f"         printed: {judged.printed}"
-            yield f"         right:   {judged.formula}"
-        for cost in judged.costs:
-            yield (
-                f"         as printed ({cost.reading}): accelerations off by {cost.median_error:.1%} (median), "
-                f"{cost.largest_error:.1%} (most); 0.1 rad off after {_time(cost.divergence_small)} from a small "
-                f"swing, {_time(cost.divergence_large)} from a large one"
-            )
-    yield f"Slips outside the numbered formulas ({len(result.slips)}, found by reading):"
-    for slip in result.slips:
-        yield f"  {slip.document.title()}, {slip.where}: {slip.printed} → {slip.right} ({slip.says})"
-    for question in result.open_questions:
-        yield f"{question.question}\n  {question.answer}\n  {question.argument}"
-        for name, value in question.numbers.items():
-            rows = value if isinstance(value, list) else [value]
-            yield f"  {name}:"
-            yield from (f"    {row}" for row in rows)
-
-
-def _time(seconds: float | None) -> str:
-    return "more than 20 s" if seconds is None else f"{seconds:.2f} s"

@@ -105,9 +105,62 @@ CLAIMS: dict[str, Claim] = {
     "takeno 22": sides(_rho_l),
 }  # fmt: skip
 
+
+def directions(members: Members, v: Values) -> list[Any]:
+    """l p(θ) leads from joint to joint; q is p turned by a right angle to the left: p·q = 0, p × q = q·q = 1."""
+    p, q = members
+    along = [v["l"][:, None] * p - (v["r_hat"][1:] - v["r_hat"][:-1])]
+    return [*along, (p * q).sum(-1), _cross(p, q) - 1, (q * q).sum(-1) - 1]
+
+
+def moments(joint: Callable[[Any], Any], force: Callable[[Any], Any]) -> Claim:
+    """Every member is the moment (r̂ - r_j) × force."""
+    return lambda members, v: [member - _cross(joint(v["r_hat"]) - v["r"], force(v["T"])) for member in members]
+
+
+def pairs_of(name: str, below: bool) -> Claim:
+    """Every member is the first-principles entry j, k for all j < k, or the one across the diagonal."""
+
+    def claim(members: Members, v: Values) -> list[Any]:
+        n = len(v["l"])
+        places = [(j, k) if not below else (k, j) for j in range(n) for k in range(j + 1, n)]
+        return [member - np.array([v[name][place] for place in places]) for member in members]
+
+    return claim
+
+
+def rotation(members: Members, v: Values) -> list[Any]:
+    """Side minus side, times l, is Lagrange's row; the last two forms are the same."""
+    return [(members[0] - members[1]) * v["l"] - v["row"], members[1] - members[2]]
+
+
+def _cross(a: Any, b: Any) -> Any:
+    return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+
+
+UNNUMBERED_CLAIMS: dict[str, Claim] = {
+    "takeno before 1": directions,
+    "takeno before 4, first": moments(lambda r: r[1:], lambda T: T[1:]),
+    "takeno before 4, second": moments(lambda r: r[:-1], lambda T: -T[:-1]),
+    "takeno before 8": is_("T", lambda v: v[:-1]),
+    "takeno before 15, first": is_("b"),
+    "takeno before 15, k < j": pairs_of("b", below=True),
+    "takeno before 15, k = j": is_("b", np.diagonal),
+    "takeno before 15, k > j": pairs_of("b", below=False),
+    "takeno before 17, first": is_("p_ddot"),
+    "takeno before 17, second": solved,
+    "takeno before 17, third": rotation,
+    "takeno before 18": solved,
+    "takeno before 19": is_("alpha_jk"),
+    "takeno after 22": lambda members, v: [member - v[name] for member, name in zip(members, "AABB", strict=True)],
+}
+
+EQUAL_LENGTHS = ("takeno 19", "takeno before 19", "takeno after 22")
 SOLVES = ("shiki 1.11", "shiki 2.12", "shiki 3.10")  # need a matrix inverted: judged in balls, on true motions
 
 
 def differences(key: str, members: Members, values: Values) -> list[Any]:
     """All numbers that must vanish for the equation to hold, in one flat list."""
-    return [x for part in CLAIMS[key](members, values) for x in np.asarray(part, dtype=object).ravel()]
+    return [
+        x for part in (CLAIMS | UNNUMBERED_CLAIMS)[key](members, values) for x in np.asarray(part, dtype=object).ravel()
+    ]

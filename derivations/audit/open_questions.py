@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,23 +11,16 @@ from ..algebra.symbols import symbols_of
 from ..grading.grade import grade_text
 from ..mistakes.catalogue import catalogue
 from ..steps.derivation import derive
+from .chain_limit import limit, tip
 from .cost import cost
+from .question import Question
 
 Array = NDArray[np.float64]
 
 
-class Question(msgspec.Struct, frozen=True):
-    """An open question, the answer, the argument for it, and measured numbers by name."""
-
-    question: str
-    answer: str
-    argument: str
-    numbers: dict[str, Any]
-
-
 def open_questions(states: int = 200) -> list[Question]:
-    """All three questions, answered; ``states``: random states for each system."""
-    return [determinant(states), existence(states), wikipedia()]
+    """All five questions, answered; ``states``: random states for each system."""
+    return [determinant(states), existence(states), limit(), tip(), wikipedia()]
 
 
 def _chain(n: int) -> RodChain:
@@ -122,21 +112,29 @@ def wikipedia() -> Question:
         "Without ½ I θ̇², I = m l²/12, Lagrange's equations of two equal rods are (19) with 4/3 - 1/12 = 5/4 and "
         "1/3 - 1/12 = 1/4. Graded as a derivation, they are wrong, and only that mistake is named.",
         {
-            "verdict": answer.verdict,
-            "named": [named.cause for named in answer.mistakes],
-            "terms": [[f.term, f.found, f.expected] for f in answer.findings],
-            "cost": msgspec.to_builtins(forgotten),
-            "small oscillations [rad/s], l = 1 m": _frequencies(),
+            "graded as a derivation": {
+                "verdict": answer.verdict,
+                "mistakes named": [named.cause for named in answer.mistakes],
+            },
+            "its terms": [{"term": f.term, "printed": f.found, "right": f.expected} for f in answer.findings],
+            "what it costs": {
+                "error of the accelerations, median": forgotten.median_error,
+                "most": forgotten.largest_error,
+                "0.1 rad off after [s], small swing": forgotten.divergence_small,
+                "large swing": forgotten.divergence_large,
+            },
+            "small oscillations of two rods of 1 m [rad/s]": _frequencies(),
         },
     )
 
 
-def _frequencies() -> dict[str, list[float]]:
+def _frequencies() -> list[dict[str, str | float]]:
     """Of two rods of 1 m: ω² from det(G - ω² A) = 0."""
     gravity = 9.81 * np.diag([1.5, 0.5])
-    out = {}
-    for name, (a, b) in {"right": (4 / 3, 1 / 3), "rod inertia forgotten": (5 / 4, 1 / 4)}.items():
+    out: list[dict[str, str | float]] = []
+    for name, (a, b) in {"right": (4 / 3, 1 / 3), "rods' own inertia forgotten": (5 / 4, 1 / 4)}.items():
         inertia = np.array([[a, 0.5], [0.5, b]])
         squares = np.linalg.eigvals(np.linalg.solve(inertia, gravity))
-        out[name] = sorted(float(np.sqrt(x.real)) for x in squares)
+        slow, fast = sorted(float(np.sqrt(x.real)) for x in squares)
+        out.append({"equations": name, "slow": slow, "fast": fast})
     return out

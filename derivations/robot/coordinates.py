@@ -74,10 +74,12 @@ def coordinates_in(plane: Plane, convention: Convention) -> Coordinates:
         if not body.turns:
             row[k] = 1
         else:
-            path, sense = plane.hinges(k), convention.sense(k)
-            counted = path[-1:] if convention.relative and len(path) > 1 else path
-            offset = plane.angle(k)
-            offset -= plane.angle(path[-2]) if counted != path else QUARTERS[convention.origin] * math.pi / 2
+            *before, last = plane.hinges(k)
+            sense, offset, counted = convention.sense(k), plane.angle(k), [*before, last]
+            if convention.relative and before:
+                offset, counted = offset - plane.angle(before[-1]), [last]
+            else:
+                offset -= QUARTERS[convention.origin] * math.pi / 2
             for j in counted:
                 row[j] = sense * plane.bodies[j].sense
                 offset -= plane.bodies[j].sense * plane.bodies[j].joint.ref

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from fractions import Fraction
 
 from flint import fmpq
 
@@ -13,7 +14,7 @@ from ..grading.grade import graded
 from ..reading.submission import Submission
 from ..steps.conventions import Convention
 from ..steps.declared import Along, Declared, Joined
-from ..steps.mechanism import QUARTERS
+from ..steps.mechanism import QUARTERS, Origin
 from .plane import PARALLEL, Plane
 from .quantities import Quantity
 from .reading import RobotDerivation
@@ -58,7 +59,7 @@ def _declared(d: RobotDerivation) -> Declared | None:
         name = symbols.get((kind, k))
         if name is not None and value >= 0:
             return space.own(name)
-        return constant(fmpq(*value.as_integer_ratio())) if value else NOTHING
+        return _decimal(value)
 
     bodies = [_joined(d, plane, k, formula) for k in range(space.n)]
     made = tuple(body for body in bodies if body is not None)
@@ -67,24 +68,46 @@ def _declared(d: RobotDerivation) -> Declared | None:
 
 def _joined(d: RobotDerivation, plane: Plane, k: int, formula: Callable[[str, int, float], Formula]) -> Joined | None:
     """One body as the grader has them; None where its mass is beside its line, or it slides another way."""
-    body = plane.bodies[k]
-    along = None if body.turns else SLIDES.get((round(body.slide[0], 9), round(body.slide[1], 9)))
-    reach = plane.reaches(k) if body.turns else (0.0, 0.0)
+    body, joint = plane.bodies[k], plane.bodies[k].joint
+    before = plane.hinges(body.parent)
+    line = plane.reaches(k if body.turns else before[-1]) if body.turns or before else (0.0, 0.0)
+    along = None if body.turns else _slide(body.slide, line if before else None)
+    if line is None or joint.armature or (along is None) != body.turns:
+        return None
     centre: float | None = 0.0
-    if body.mass and body.turns and reach is not None:
-        centre = _along(reach, body.centre, body.anchor)
     way: float | None = 0.0
-    if body.parent >= 0 and plane.bodies[body.parent].turns:
-        way = _along(plane.reaches(body.parent) or (0.0, 0.0), body.anchor, plane.bodies[body.parent].anchor)
-    joint = body.joint
-    if (along is None) != body.turns or reach is None or centre is None or way is None or joint.armature:
+    if body.mass and any(line):
+        centre = _along(line, body.centre, body.anchor)
+    if before:
+        carrier = plane.bodies[body.parent]
+        way = _along(plane.reaches(before[-1]) or (0.0, 0.0), body.anchor, carrier.anchor)
+        if way is not None and not body.turns:
+            way -= joint.ref  # its coordinate is the distance, if there is nothing else
+        if not carrier.turns and way:
+            return None
+    if centre is None or way is None:
         return None
     return Joined(
         joint.name, body.parent, along, formula("mass", k, body.mass), NOTHING, formula("centre", k, centre),
         formula("inertia", k, body.inertia), formula("length", body.parent, way) if way else NOTHING,
-        formula("stiffness", k, joint.stiffness), constant(fmpq(*joint.springref.as_integer_ratio())),
+        formula("stiffness", k, joint.stiffness), _decimal(joint.springref),
         NOTHING if d.is_lagrangian else formula("damping", k, joint.damping),
     )  # fmt: skip
+
+
+def _decimal(value: float) -> Formula:
+    """A number as a file prints it, which is how an author would write it: 0.6 is 3/5."""
+    digits = Fraction(repr(value))
+    return constant(fmpq(digits.numerator, digits.denominator))
+
+
+def _slide(slide: tuple[float, float], line: tuple[float, float] | None) -> Along | None:
+    """Along the link that carries it, whose direction is ``line``; else, where no hinge turns it, in a direction."""
+    if line is None:
+        return SLIDES.get((round(slide[0], 9), round(slide[1], 9)))
+    size = math.hypot(*line)
+    straight = size > 0 and math.dist((line[0] / size, line[1] / size), slide) <= PARALLEL
+    return "link" if straight else None
 
 
 def _place(d: RobotDerivation, name: str) -> int:
@@ -143,5 +166,5 @@ def _convention(d: RobotDerivation, plane: Plane) -> Convention | None:
         return None
     # The grader measures the first angle from there in its own sense, positive as the hinge turns.
     quarter = next(iter(quarters), 0)
-    origin = next(name for name, q in QUARTERS.items() if q == quarter)
+    origin: Origin = next(name for name, q in QUARTERS.items() if q == quarter)
     return Convention(True, origin, tuple(body.sense for body in plane.bodies))

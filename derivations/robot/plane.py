@@ -61,11 +61,15 @@ class Plane:
         return [body for body in self.bodies if body.parent == k]
 
     def reaches(self, k: int) -> tuple[float, float] | None:
-        """From its joint to the one it carries, or to its centre of mass; None where there is nothing away from it."""
+        """From its joint to the one it carries, or to its centre of mass, or along the slide on it; None if not known.
+
+        A vector whose direction is that of the body in the reference configuration.
+        """
         own = self.bodies[k]
         ends = [body.anchor for body in self.children(k) if body.turns] or [own.centre if own.mass else own.anchor]
         ways = [(x - own.anchor[0], y - own.anchor[1]) for x, y in ends]
         away = [way for way in ways if math.hypot(*way) > PARALLEL]
+        away = away or [body.slide for body in self.children(k) if not body.turns]
         if not away or any(math.dist(way, away[0]) > PARALLEL * math.hypot(*way) for way in away[1:]):
             return None
         return away[0]

@@ -69,7 +69,7 @@ def _length(plane: Plane, k: int, way: float) -> float:
 
 
 LETTERS = {
-    "mass": ("m", "M"), "length": ("l", "L"), "centre": ("lc", "r"), "inertia": ("I", "J"), "damping": ("b", "c", "d"),
+    "mass": ("m", "M"), "length": ("l", "L"), "centre": ("lc", "r"), "inertia": ("I", "J"), "damping": ("b", "c"),
     "stiffness": ("k",),
 }  # fmt: skip
 

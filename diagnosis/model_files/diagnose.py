@@ -65,7 +65,9 @@ def diagnose(
     file = _with_gravity(file, wanted.planar)
     readers = chosen_readers(engines)
     with own_file(file) as path:
-        question = Question(path, file, tuple(folder.resolve() for folder in meshes), limits)
+        folders = tuple(folder.resolve() for folder in meshes)
+        # Of a file alone contacts are left out, and said; what it is compared with has none.
+        question = Question(path, file, folders, limits, contacts=bool(wanted.name))
         results = ask_engines(question, readers, named=engines is not None, isolated=isolated)
     of_file = _of_file(file, wanted, limits)
     findings = [*of_file, *vote(file, results)]

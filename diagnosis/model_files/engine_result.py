@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 # What is found in the equations of motion, or in their surroundings, whatever the engine holds of the file.
 BESIDE_READING = ("damping-ignored", "friction-ignored", "stiffness-ignored", "colliding-geoms", "float32")
+TOUCHING = "colliding-geoms"
 REFUSALS = ("inertia-rejected", "file-refused")
 OPTIONAL = ("drake",)
 TIMEOUT = 60.0  # [s] for one engine; ten links take less than one
@@ -30,11 +31,13 @@ TIMEOUT = 60.0  # [s] for one engine; ten links take less than one
 @dataclass(frozen=True)
 class EngineResult:
     """``own``: the answer to the file's own bytes, None where the engine reads none; ``planar``: the answer to
-    furiko's text of it, None where the file is no planar tree of hinges. One of the two is there."""
+    furiko's text of it, None where the file is no planar tree of hinges. One of the two is there. ``contacts``: whether
+    geoms that touch in a planar mechanism are a difference; else they are what a simulation adds, as in space."""
 
     name: str
     own: RobotAnswer | None
     planar: EngineAnswer | None
+    contacts: bool = True
 
     @property
     def status(self) -> str:
@@ -60,7 +63,7 @@ class EngineResult:
     @property
     def findings(self) -> list[Finding]:
         """What explains the engine's numbers: its reading of the user's file before what is found on furiko's text."""
-        planar = list(self.planar.findings) if self.planar is not None else []
+        planar = [found for found in self._of_planar if found not in self._touching]
         if self.own is None:
             return planar
         if not self.own.findings:
@@ -92,7 +95,18 @@ class EngineResult:
     @property
     def simulation(self) -> list[Finding]:
         """What a simulation of the file adds to its dynamics."""
-        return self.own.simulation if self.own is not None else []
+        own = self.own.simulation if self.own is not None else []
+        return own if any(found.cause == TOUCHING for found in own) else [*own, *self._touching]
+
+    @property
+    def _of_planar(self) -> list[Finding]:
+        return list(self.planar.findings) if self.planar is not None else []
+
+    @property
+    def _touching(self) -> list[Finding]:
+        if self.contacts or self.own is None:
+            return []
+        return [found for found in self._of_planar if found.cause == TOUCHING]
 
     @property
     def without(self) -> tuple[str, ...]:
@@ -145,7 +159,7 @@ def ask_both(name: str, planar: Reader | None, question: Question) -> EngineResu
         from .engine_answers import ask  # and all hypotheses of the plane, which robots do not need
 
         answer = ask(planar, _as_rounded(question.file, own))
-    return EngineResult(name, own, answer)
+    return EngineResult(name, own, answer, question.contacts)
 
 
 def _as_rounded(file: ModelFile, own: RobotAnswer | None) -> ModelFile:

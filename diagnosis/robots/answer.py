@@ -36,12 +36,14 @@ LONGEST_MESSAGE = 300  # characters of an engine's own message
 @dataclass(frozen=True)
 class Question:
     """``path``: the user's own file, bytes untouched; ``file``: furiko's reading of it; ``meshes``: folders besides its
-    own in which meshes are looked for; ``limits``: whether joints' ranges count."""
+    own in which meshes are looked for; ``limits``: whether joints' ranges count; ``contacts``: whether geoms that touch
+    do, in an engine that otherwise does what the file says."""
 
     path: Path
     file: ModelFile
     meshes: tuple[Path, ...] = ()
     limits: bool = False
+    contacts: bool = False
 
     def read(self, rules: Rules) -> SpatialMechanism:
         """The file, read with these mistakes."""
@@ -97,7 +99,9 @@ def ask_robot(reader: RobotReader, question: Question) -> RobotAnswer:
 
 
 def _refused(reader: RobotReader, message: str) -> RobotAnswer:
-    inertia = "XML Error" not in message and re.search(r"inertia\b|\bmass|eigenvalue", message.lower()) is not None
+    words = message.lower().removeprefix("error: ")
+    of_file = "xml error" in words or words.startswith("mesh")  # whose message may advise another inertia
+    inertia = not of_file and re.search(r"inertia\b|\bmass|eigenvalue", words) is not None
     finding = Finding(
         "inertia-rejected" if inertia else "file-refused", reader.name, None, None, f"{reader.name} refuses: {message}"
     )

@@ -33,6 +33,8 @@ def own_frame_differences(
     other. ``length`` [m]: of the mechanism, which distances are held against; the rest is as in
     :func:`.fields.field_differences`.
     """
+    if any(len({body.name for body in m.bodies}) < len(m.bodies) for m in (found, expected)):
+        return None  # it is not known which body is which
     merged = merged_like(expected, found)
     for theirs, ours in ((found, merged), (fixed_to_moving(found), fixed_to_moving(merged))):
         if _structure(theirs) == _structure(ours):
@@ -95,7 +97,7 @@ def _structure(mechanism: SpatialMechanism) -> list[tuple[str, str, list[tuple[s
     bodies = mechanism.bodies
     above = {index: body.name for index, body in enumerate(bodies)} | {WORLD: None}
     rows = [(b.name, above[b.parent] or "", [(joint.name, joint.kind) for joint in b.joints]) for b in bodies]
-    return sorted(rows)  # and the same only where names are unique, or bodies of one name are alike
+    return sorted(rows)
 
 
 def _differences(

@@ -9,6 +9,7 @@ from ..finding import Finding
 from .numbers import FieldDifference
 
 MOST_PLACES = 6  # named in one finding
+DIGITS = (6, 9, 12, 17)  # of numbers: the first at which what was found and expected can be told apart
 # What to write so that all engines read the file alike, by the mistake that is made otherwise.
 INSTEAD: Mapping[str, str] = {
     "first_root_only": "put all bodies of the world into one body without joint",
@@ -86,17 +87,16 @@ def _numbers(differences: Sequence[FieldDifference]) -> str:
 
 def _one(difference: FieldDifference) -> str:
     unit = f" {difference.unit}" if difference.unit else ""
-    found, expected = _shown(difference.found), _shown(difference.expected)
-    if found == expected and isinstance(difference.found, float) and isinstance(difference.expected, float):
-        found, expected = repr(difference.found), repr(difference.expected)
+    digits = next((n for n in DIGITS if _shown(difference.found, n) != _shown(difference.expected, n)), DIGITS[0])
+    found, expected = _shown(difference.found, digits), _shown(difference.expected, digits)
     return f"{difference.where}: {difference.field} {found}{unit}, the file says {expected}{unit}"
 
 
-def _shown(value: object) -> str:
+def _shown(value: object, digits: int) -> str:
     if isinstance(value, float):
-        return f"{value:.6g}"
+        return f"{value:.{digits}g}"
     if isinstance(value, list):
-        return "(" + ", ".join(f"{v:.6g}" for v in value) + ")"
+        return "(" + ", ".join(f"{v:.{digits}g}" for v in value) + ")"
     return str(value)
 
 

@@ -9,7 +9,7 @@ import click
 
 from ..records.exit_status import AGREES
 from .options import json_option
-from .output import print_json, print_table
+from .output import print_json, print_table, print_text
 
 if TYPE_CHECKING:
     from ..engines import EngineInfo
@@ -20,16 +20,18 @@ if TYPE_CHECKING:
 @json_option
 def engines(as_json: bool) -> int:
     """List the engines, their versions, and what they cannot compute."""
-    from ..engines import engine_info, engine_names, engine_version, plugin_names, untested
+    from ..engines import engine_info, engine_names, engine_version, names_on_request, plugin_names, untested
     from ..models.errors import installing
 
-    infos = [replace(engine_info(name), name=name) for name in [*engine_names(), *plugin_names()]]
+    always = engine_names()
+    known = [*always, *names_on_request(), *plugin_names()]
+    infos = [replace(engine_info(name), name=name) for name in known]
     if as_json:
-        print_json([_row(info, engine_version(info.name)) for info in infos])
+        print_json([_row(info, engine_version(info.name), info.name not in always) for info in infos])
     else:
         rows = [
             (
-                info.name,
+                info.name + ("" if info.name in always else " *"),
                 engine_version(info.name) + (" (not tested)" if untested(info) else "")
                 or f"not installed: {installing(info.package)}",
                 info.formulation,
@@ -39,10 +41,11 @@ def engines(as_json: bool) -> int:
             for info in infos
         ]
         print_table(("engine", "version", "formulation", "integrators", "does not give"), rows)
+        print_text("* runs only where it is named: -e NAME")
     return AGREES
 
 
-def _row(info: EngineInfo, version: str) -> EngineRow:
+def _row(info: EngineInfo, version: str, named: bool) -> EngineRow:
     from ..records.listings import EngineRow, IntegratorRow
 
     return EngineRow(
@@ -55,4 +58,5 @@ def _row(info: EngineInfo, version: str) -> EngineRow:
         missing=dict(info.missing),
         largest_n=info.largest_n,
         homepage=info.homepage,
+        named=named,
     )

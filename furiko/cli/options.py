@@ -35,9 +35,11 @@ def scene_names(_context: click.Context, _parameter: click.Parameter, incomplete
 def engine_names(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
     """What a shell offers for an engine."""
     from ..engines import engine_names as known
-    from ..engines import plugin_names
+    from ..engines import names_on_request, plugin_names
 
-    return [CompletionItem(name) for name in [*known(), *plugin_names()] if name.startswith(incomplete)]
+    return [
+        CompletionItem(name) for name in [*known(), *names_on_request(), *plugin_names()] if name.startswith(incomplete)
+    ]
 
 
 def words(*known: str) -> Callable[..., list[CompletionItem]]:

@@ -43,6 +43,16 @@ def follows(runs: Sequence[Array], order: int) -> bool:
     return coarser <= 2.0 ** (order + 4) * finer
 
 
+def settles(runs: Sequence[Array], order: int, noise: float) -> bool:
+    """Whether E₁, E₂, E₃ near each other at least as fast as the scheme's own error: D₂ ≥ 2^p D₁.
+
+    Less, and the steps are too long for the motion: nothing follows from E₃. Differences within ``noise`` tell nothing
+    of the steps.
+    """
+    coarser, finer = _differences(_extrapolated(runs, order))
+    return finer <= noise or coarser >= 2.0**order * finer
+
+
 def amplified(order: int) -> float:
     """The largest factor by which E₃ multiplies an error of its two runs, such as rounding."""
     return (2.0**order + 1) / (2.0**order - 1)

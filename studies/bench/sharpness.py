@@ -114,7 +114,7 @@ def _mass(cell: Cell) -> Measured:
     some = cell.states.at(np.arange(len(cell.states))[::-1][: max(1, ROWS // (2 * n + 2))])
     mass = mass_matrix(cell.scene.system, some.theta)
     error = columns(cell, some.theta, "alpha") - mass
-    at = sharp.chosen(np.abs(error).reshape(len(error), -1).max(axis=-1), max(1, sharp.states_for_terms(n)))
+    at = sharp.chosen(np.abs(error).reshape(len(error), -1).max(axis=-1), max(1, sharp.states_for_terms(cell.info, n)))
     chosen = some.at(at)
     size = spread.terms(cell.info, cell.scene.system, cell.amplitude, chosen.theta, chosen.omega).mass
     return Measured(mass, error, sharp.TERMS * size, at)

@@ -135,11 +135,12 @@ def moving_bodies(model):
 
 def _mujoco_inertial(model, b, body, size):
     yield Fault("mass", -1, body, "", _set(b, "body_mass", model.body_mass[b] * (1 + SIZE)))
-    for k in range(3):
+    simple = int(model.body_simple[b])  # a free body that MuJoCo takes to be in its inertial's frame, for good
+    for k in () if simple else range(3):
         yield Fault("centre", k, body, "", _added(b, "body_ipos", SIZE * size * np.eye(3)[k]))
     axes = from_quaternion(model.body_iquat[b])
     tensor = axes @ np.diag(model.body_inertia[b]) @ axes.T
-    for kind in ("moment", "product"):
+    for kind in ("moment",) if simple else ("moment", "product"):
         for k in range(3):
             yield Fault(kind, k, body, "", _with_tensor(b, with_component(tensor, kind, k)))
 

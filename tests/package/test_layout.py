@@ -96,7 +96,7 @@ LAZY = {
     "models.trees.system": "arrays are made where they are asked for",
     "checks.jobs": "what trees need is imported where a tree is",
 }
-ENGINES = {"mujoco", "pinocchio", "exudyn", "pydrake"}
+ENGINES = {"mujoco", "pinocchio", "exudyn", "pydrake", "dartpy", "pybullet"}
 
 
 def place(module):

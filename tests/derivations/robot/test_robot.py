@@ -252,6 +252,13 @@ def test_gravity_of_the_other_sign_may_be_another_zero_of_the_angle():
     assert [x.cause for x in reasons(d, system, true)] == ["sign"]
 
 
+def test_a_slide_on_a_hinge_is_along_its_link_and_numbers_are_as_printed():
+    d, system, true = read(RIGHT["elastic"].replace("- m*r*theta'^2", "+ m*r*theta'^2"))
+    assert [(x.cause, x.says) for x in reasons(d, system, true)] == [
+        ("sign", "Row 2, the term with theta'²: the sign is wrong.")
+    ]
+
+
 def test_where_letters_are_missing_the_wrong_term_is_named_in_numbers():
     rows = RIGHT["spherical"].replace("+ g*sin", "- g*sin")
     d, system, true = read(rows)

@@ -107,6 +107,14 @@ def test_an_inertial_that_is_not_understood_is_no_impossible_inertia(tmp_path):
     assert [finding.cause for finding in found.findings] == ["file-refused"]
 
 
+def test_a_mesh_without_volume_is_no_impossible_inertia(tmp_path):
+    """MuJoCo's message advises "inertia to shell"; no inertial is wrong."""
+    flat = '<asset><mesh name="m" vertex="0 0 0 1e-5 0 0 0 1e-5 0 0 0 1e-5"/></asset>'
+    found, answer = engine(tmp_path, BODY.format(flat, INERTIAL + '<geom type="mesh" mesh="m"/>'))
+    assert "mesh volume" in answer["says"]
+    assert [finding.cause for finding in found.findings] == ["file-refused"]
+
+
 def test_json_of_masses_that_are_numbers_of_numpy(tmp_path):
     """As a volume is where numpy has made it: it must not reach the document as one."""
     planar = planar_arm_file(tmp_path)
@@ -138,6 +146,20 @@ def test_in_the_plane_too_a_centre_of_mass_nearly_at_the_origin_is_a_note(tmp_pa
     assert (found.verdict, found.findings, found.mechanism is not None) == ("agrees", (), True), found.text()
     assert any("within 1e-06 of the body's frame" in note for note in found.notes)
     assert found.mechanism["links"][0]["centre of mass"][0] == -float(z)  # what the file says is what is shown
+
+
+def test_in_the_plane_too_geoms_that_touch_are_what_a_simulation_adds(tmp_path):
+    """Two balls of 0.6 m, 1 m from one another: their bodies are not adjacent, so that MuJoCo lets them collide."""
+    ball = '<geom type="sphere" size="0.6" mass="0"/>'
+    link = f'<joint name="{{}}" axis="0 1 0"/>{INERTIAL}'
+    c = f'<body name="c" pos="0 0 -0.5">{link.format("m")}{ball}</body>'
+    b = f'<body name="b" pos="0 0 -0.5">{link.format("k")}{c}</body>'
+    file = tmp_path / "arm.xml"
+    file.write_text(f'<mujoco><worldbody><body name="a">{link.format("j")}{ball}{b}</body></worldbody></mujoco>')
+    found = diagnose(file)
+    assert (found.verdict, found.findings, found.mechanism is not None) == ("agrees", (), True), found.text()
+    assert [said.cause for said in found.simulation if said.cause != "coarse-time-step"] == ["colliding-geoms"]
+    assert "contacts" in found.without
 
 
 def test_a_damped_planar_arm_that_all_read_alike_agrees(tmp_path):

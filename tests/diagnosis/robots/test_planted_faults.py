@@ -9,8 +9,6 @@ import pytest
 from faults.robots import CAUSES, FAULTS
 from score_robot_faults import FILES, Asked, score
 
-from furiko.diagnosis.robots.answer import ask_robot
-
 # The tool is fixed to the flange: MuJoCo keeps its body in a URDF as long as its link has a mass, Pinocchio adds it up.
 LINK = """<link name="{}"><inertial><origin xyz="0.05 0.1 -0.2" rpy="0.3 -0.2 0.1"/><mass value="{}"/>
     <inertia ixx="0.11" iyy="0.2" izz="0.25" ixy="0.02" ixz="-0.01" iyz="0.03"/></inertial></link>"""
@@ -57,8 +55,21 @@ def test_a_link_of_several_bodies_that_is_placed_otherwise_is_one_difference(tmp
     file = tmp_path / "arm.urdf"
     file.write_text(URDF)
     asked = Asked(file, engine)
-    assert ask_robot(asked.reader, asked.question).findings == []
+    assert asked.known == []
     for fault in asked.faults():
         if fault.kind in ("axis", "position", "orientation") and fault.joint == "elbow":
             (found,) = asked.findings(fault)
             assert asked.right(fault, found), found.says
+
+
+def test_a_tensor_that_differs_in_the_seventh_digit_is_told_with_so_many(tmp_path):
+    file = tmp_path / "arm.urdf"
+    file.write_text(URDF)
+    asked = Asked(file, "mujoco")
+    fault = next(fault for fault in asked.faults() if (fault.kind, fault.body) == ("mass", "upper"))
+    (found,) = asked.findings(fault)
+    assert "mass 2.000002 kg, the file says 2 kg" in found.says
+    fault = next(fault for fault in asked.faults() if (fault.kind, fault.body) == ("product", "upper"))
+    (found,) = asked.findings(fault)
+    theirs, ours = found.says.split(", the file says ")
+    assert theirs.rpartition("inertia ")[2] != ours.partition(" (/")[0]

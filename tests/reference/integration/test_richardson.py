@@ -5,7 +5,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from furiko.reference.integration.richardson import amplified, at_step_zero, follows
+from furiko.reference.integration.richardson import amplified, at_step_zero, follows, settles
 
 COEFFICIENTS = st.floats(-10, 10).map(lambda x: round(x, 6))
 
@@ -64,3 +64,13 @@ def test_values_follow_each_other_as_the_next_terms_do(order, terms, expected):
 def test_a_difference_in_which_terms_cancel_is_seen():
     # Extrapolation of order 2 leaves -4/3 b x³ - 4 c x⁴ of b h³ + c h⁴; D₁ = 0 where 7b = -15 · 3c x, x = 0.1/8.
     assert not follows(runs(2, 1.0, -3 * 15 / 7 * 0.0125, 1.0), 2)
+
+
+@pytest.mark.parametrize("order", [1, 2, 4])
+def test_errors_that_fall_as_the_order_says_settle_and_those_that_jump_about_do_not(order):
+    steps = 0.1 / 2.0 ** np.arange(4)
+    falling = [np.array([3.0 + 2 * h**order - 5 * h ** (order + 1)]) for h in steps]
+    jumping = [np.array([value]) for value in (2286.6, 1786.5, 289.5, 379.5)]
+    assert settles(falling, order, noise=0.0)
+    assert not settles(jumping, order, noise=0.0)
+    assert settles(jumping, order, noise=5000.0)

@@ -1,0 +1,108 @@
+"""Engines that furiko has adapters for and that run only where they are named, as data.
+
+Each is an extra of its own (``pip install 'furiko[dart]'``), large or slow to build; a run which names no engine stays as it
+is.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .info import EngineInfo
+
+_NO_RUNS = {"trajectory": "its adapter asks for dynamics alone, not for time steps"}
+_DRAKE: dict[str, Any] = {
+    "module": "pydrake",
+    "package": "drake",
+    "tested": ("1.51.1",),
+    "homepage": "https://drake.mit.edu",
+    "coordinates": "relative",
+    "inverse": "rnea",
+    "missing": _NO_RUNS | {"joint_forces": "its reaction forces belong to its own accelerations and have their errors"},
+    "largest_n": 200,
+    "largest_n_reason": "longer chains were not tried",
+}
+_SYMPY: dict[str, Any] = {
+    "module": "sympy",
+    "package": "sympy",
+    "tested": ("1.14.0",),
+    "homepage": "https://www.sympy.org",
+    "coordinates": "absolute",
+    "algorithm": "other",
+    "largest_n": 5,
+    "largest_n_reason": "deriving the equations takes 2 s for five links and 40 s for ten",
+    "missing": _NO_RUNS
+    | {
+        "fields": "it compiles no model: the mechanism's numbers are in its formulas",
+        "joint_forces": "neither method forms the forces in the joints",
+    },
+}
+
+ON_REQUEST: dict[str, EngineInfo] = {
+    info.name: info
+    for info in (
+        EngineInfo(
+            name="dart",
+            formulation="articulated-body algorithm; model from URDF",
+            adapter="furiko.engines.dart:Dart",
+            module="dartpy",
+            package="dartpy",
+            tested=("6.20.0",),
+            homepage="https://dartsim.github.io",
+            coordinates="relative",
+            algorithm="other",
+            inverse="rnea",
+            missing=_NO_RUNS,
+            largest_n=200,
+            largest_n_reason="longer chains were not tried",
+        ),
+        EngineInfo(
+            name="drake-aba",
+            formulation="articulated-body algorithm; model from URDF",
+            adapter="furiko.engines.drake:DrakeAba",
+            algorithm="other",  # articulated bodies in the world's axes, with rotations in three dimensions
+            **_DRAKE,
+        ),
+        EngineInfo(
+            name="drake-crba",
+            formulation="mass matrix, bias and gravity, then numpy's solution; model from URDF",
+            adapter="furiko.engines.drake:DrakeCrba",
+            interchanges=True,
+            **_DRAKE,
+        ),
+        EngineInfo(
+            name="pybullet",
+            formulation="mass matrix and bias, then numpy's solution; model from URDF",
+            adapter="furiko.engines.pybullet:PyBullet",
+            module="pybullet",
+            package="pybullet",
+            tested=("3.2.7",),
+            homepage="https://pybullet.org",
+            coordinates="relative",
+            interchanges=True,
+            inverse="rnea",
+            missing=_NO_RUNS
+            | {
+                "fields": "it does not give back all that it compiled",
+                "joint_forces": "its reaction forces in motion are those of another motion",
+                "energy": "it has no energies",
+            },
+            largest_n=100,
+            largest_n_reason="its mass matrix of longer chains is wrong, without an error",
+        ),
+        EngineInfo(
+            name="sympy-kane",
+            formulation="derived by Kane's method for each mechanism, then numpy's solution",
+            adapter="furiko.engines.sympy_mechanics:SympyKane",
+            interchanges=True,
+            **_SYMPY,
+        ),
+        EngineInfo(
+            name="sympy-lagrange",
+            formulation="derived by Lagrange's method for each mechanism, then numpy's solution",
+            adapter="furiko.engines.sympy_mechanics:SympyLagrange",
+            interchanges=True,
+            **_SYMPY,
+        ),
+    )
+}
