@@ -39,7 +39,8 @@ def visit_math(translator, node):
         logging.getLogger(__name__).warning("%s", error, location=node)
         raise nodes.SkipNode from None
     mathml = with_indices_beside(mathml)
-    translator.body.append(f"<div class='math' style='overflow-y: hidden; padding-block: 0.3em'>{mathml}</div>" if block else mathml)
+    wrapped = f"<div class='math' style='overflow-y: hidden; padding-block: 0.3em'>{mathml}</div>"
+    translator.body.append(wrapped if block else mathml)
     raise nodes.SkipNode
 
 
