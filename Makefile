@@ -4,7 +4,7 @@ VENV ?= .venv
 BIN := $(VENV)/bin
 JOBS ?= 2
 
-.PHONY: check test test-slow test-all lint models architecture clean
+.PHONY: check test test-slow test-all lint docs notebooks models architecture clean
 
 check: $(VENV)/.check  ## run the catalogue against every engine; writes furiko-report/
 	$(BIN)/furiko check
@@ -23,6 +23,13 @@ lint: $(VENV)/.test  ## ruff, mypy --strict and basedpyright
 	$(BIN)/mypy
 	$(BIN)/basedpyright
 
+docs: $(VENV)/.docs  ## build the documentation into build/docs/; a warning fails, and nothing is fetched
+	$(BIN)/python -m sphinx -W --keep-going --quiet -b html docs build/docs
+	@echo build/docs/index.html
+
+notebooks: $(VENV)/.check  ## run the notebooks in docs/notebooks/, and keep what they print
+	$(BIN)/python docs/notebooks.py
+
 models:  ## write the catalogue's model files and the JSON schemas again
 	$(BIN)/python -m furiko.models.writers.catalogue_files
 	$(BIN)/python -m furiko.records.schema
@@ -37,6 +44,10 @@ $(VENV)/.check: pyproject.toml constraints.txt
 	@$(PYTHON) -c 'import sys; v = sys.version_info; sys.exit(v < (3, 11) and "furiko needs Python 3.11 or newer; this is %d.%d: make PYTHON=python3.12" % v[:2])'
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/pip install --quiet --constraint constraints.txt --editable '.[all]'
+	@touch $@
+
+$(VENV)/.docs: $(VENV)/.check
+	$(BIN)/pip install --quiet --constraint constraints.txt --editable '.[docs]'
 	@touch $@
 
 $(VENV)/.test: $(VENV)/.check

@@ -27,7 +27,7 @@ _NOT_READ: Any = {
 _PINOCCHIO: dict[str, Any] = {
     "module": "pinocchio",
     "package": "pin",
-    "tested": ("4.1.0",),
+    "tested": ("4.0.0", "4.1.0"),
     "homepage": "https://github.com/stack-of-tasks/pinocchio",
     "coordinates": "relative",
     "inverse": "rnea",

@@ -39,7 +39,7 @@ def assert_accelerations(
     ``fn(theta, omega)`` → θ̈ [rad/s²]; all (B, n), absolute angles [rad] from the downward vertical and rates [rad/s].
     ``states``: θ and ω, (B, n) or (n,) each; None for the named and random states that ``furiko check`` looks at.
     ``rtol``: None for the bound of ``furiko check``, proven for the coordinates in which ``fn`` solves the equations of
-    motion (``coordinates``: joint angles are ``relative``); a number for |error| ≤ rtol × the state's largest |θ̈|.
+    motion (``coordinates``: joint angles are ``relative``); a number for errors up to rtol × the state's largest.
 
     Raises AssertionError with the state, the link, what was expected and what came, and where it is known the cause;
     :class:`furiko.InvalidInput` for bad arguments, and for states in which no acceleration has a digit that is sure.

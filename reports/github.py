@@ -53,7 +53,16 @@ def of_model(path: str, found: DiagnoseDocument) -> list[str]:
         return []
     if not found.findings:
         return [annotation(found.headline, title=f"furiko diagnose: {found.verdict}", path=path)]
-    return [annotation(one.says, title=f"furiko: {one.cause} at {one.where}", path=path) for one in found.findings]
+    return [
+        annotation(one.says, title=f"furiko: {one.cause} at {one.where}", path=path, line=_line(one.says, path))
+        for one in found.findings
+    ]
+
+
+def _line(says: str, path: str) -> int:
+    """The line of the file that a finding names in brackets, as ``(arm.xml, line 6, <joint name='j'>)``; 0 for none."""
+    named = re.search(rf"\({re.escape(Path(path).name)}, line (\d{{1,9}})\b", says)
+    return int(named[1]) if named else 0
 
 
 def of_error(error: Error, path: str = "") -> str:

@@ -59,12 +59,13 @@ def accelerations(
 ) -> Array:
     """Angular accelerations θ'' [rad/s²] of ``system`` in one state or many.
 
-    ``theta`` [rad], ``omega`` [rad/s]: absolute angles and rates, shape (..., n), |θ| ≤ 1e15, |ω| ≤ 1e100; returns
+    ``theta`` [rad], ``omega`` [rad/s]: absolute angles and rates, shape (..., n), to 1e15 and 1e100; returns
     float64 of the same shape. ``out``: a contiguous float64 array of that shape to write into and return (fresh memory
     for large batches costs a quarter of the time). ``threads``: how many to use at most; None: as many as the work
     fills. Error relative to the largest acceleration, for n ≤ 1000, length ratios to 1e3, mass ratios to 1e6: 2e-16
     typically, 1e-14 at worst, unless rounding the state itself changes the accelerations by more. Terms below the
-    smallest normal number, 2e-308 (all of them only where g = 0 and every |ω| < 1e-153), are exact to 5e-324 only.
+    smallest normal number, 2e-308 (all of them only where g = 0 and all rates are below 1e-153), are exact to 5e-324
+    only.
     Raises :class:`InvalidInput` for shapes that do not fit and numbers that are not finite or too large.
     """
     kernel = _kernels.get(id(system))

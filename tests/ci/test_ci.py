@@ -15,6 +15,7 @@ from packaging.requirements import Requirement
 
 ROOT = Path(__file__).parent.parent.parent
 ROBOT = (ROOT / "models" / "files" / "rods-2.xml").read_text(encoding="utf-8")
+CART = (ROOT / "models" / "files" / "cart-pole.xml").read_text(encoding="utf-8")
 UNKNOWN_PARENT = '<robot name="arm">\n<link name="base"/>\n<joint name="j" type="fixed"/></robot>\n'
 
 
@@ -130,6 +131,15 @@ def test_a_file_that_cannot_be_read_is_named_everywhere(project, python, tmp_pat
     assert only.startswith(f"::error file=scene.toml,{line}title=furiko::")
     assert (tmp_path / "GITHUB_STEP_SUMMARY").read_text().startswith("## furiko ! scene.toml&#58; ")
     assert ElementTree.parse(project / "furiko-report" / "junit.xml").getroot().get("errors") == "1"
+
+
+def test_a_finding_is_annotated_at_the_line_that_it_names(project, python, tmp_path):
+    (project / "other.xml").write_text(CART.replace('damping="0.12"', 'damping="0.13"'))
+    (project / "cart.xml").write_text(CART)
+    done = act(project, python, tmp_path, command="diagnose", arguments="--against cart.xml -e mujoco -- other.xml")
+    line = 1 + CART[: CART.index('damping="0.12"')].count("\n")
+    (only,) = annotations(done)
+    assert only.startswith(f"::error file=other.xml,line={line},title=furiko%3A damping at ")
 
 
 def test_nothing_that_a_file_says_is_a_command(project, python, tmp_path):
