@@ -1,7 +1,7 @@
 """Engines that furiko has adapters for and that run only where they are named, as data.
 
-Each is an extra of its own (``pip install 'furiko[dart]'``), large or slow to build; a run which names no engine stays as it
-is.
+Each is an extra of its own (``pip install 'furiko[dart]'``), large or slow to build. A run that names no engine leaves
+them out.
 """
 
 from __future__ import annotations

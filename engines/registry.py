@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+from collections import ChainMap
 from typing import TYPE_CHECKING, Any
 
 from ..models import EngineMissing, InvalidInput, System, TreeSystem
@@ -165,7 +166,7 @@ OWN_EQUATIONS = EngineInfo(
 )
 
 
-_KNOWN = ENGINES | ON_REQUEST
+_KNOWN = ChainMap(ENGINES, ON_REQUEST)
 
 
 def engine_names() -> list[str]:

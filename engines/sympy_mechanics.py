@@ -45,7 +45,9 @@ class _Mechanics:
         q, u = (mechanics.dynamicsymbols(f"{name}:{self._n}") for name in "qu")
         world, support = mechanics.ReferenceFrame("N"), mechanics.Point("O")
         support.set_vel(world, 0)
-        bodies, frames, hinges = [], [], []
+        bodies: list[Any] = []
+        frames: list[Any] = []
+        hinges: list[Any] = []
         for i, link in enumerate(tree.links):
             # Along the link at angle zero is down, -z; a hinge turns about -y.
             frame = world.orientnew(f"A{i}", "Axis", (q[i], -world.y))
