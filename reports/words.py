@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Literal
 
-from ..records.check import Outcome, Result
+from ..records.check import EngineEntry, Outcome, Result
 from ..records.printable import printable as printable  # noqa: PLC0414 (reports take it from here)
 
 if TYPE_CHECKING:
@@ -34,6 +34,11 @@ def figure(value: float | None) -> str:
         return f"{value:.2g}" if abs(value) < 99.5 else f"{value:.0f}"
     mantissa, _, exponent = f"{value:.1e}".partition("e")
     return f"{mantissa}e{int(exponent)}"
+
+
+def package_of(engine: EngineEntry) -> str:
+    """An engine's package and its version; empty for an adapter that has none."""
+    return f"{engine.package} {engine.version or 'not installed'}" if engine.package else ""
 
 
 def count(number: int, noun: str) -> str:

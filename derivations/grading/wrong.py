@@ -11,6 +11,7 @@ from ..mistakes.known_mistakes import KnownMistakes
 from ..reading.submission import Submission
 from ..steps.conventions import Convention
 from ..steps.derivation import NEWTON_STAGES, Mistake
+from ..steps.stages import StageName
 from .differences import lagrangian_differences, row_differences
 from .explain import Alignment, align, explanations
 from .forms.any_mechanism import named_anywhere
@@ -77,7 +78,7 @@ def _says_no_more(mistake: NamedMistake, term: WrongTerm) -> bool:
 
 
 UP_TO = ("position", "velocity", "speed", "energy", "lagrangian")
-MADE_AT: dict[str, tuple[str, ...]] = {  # at which stages of the catalogue a mistake of a stated stage is made
+MADE_AT: dict[StageName, tuple[str, ...]] = {  # at which stages of the catalogue a mistake of a stated stage is made
     "positions": ("position",), "velocities": ("velocity", "speed"), "kinetic": ("velocity", "speed", "energy"),
     "potential": ("energy", "position"), "lagrangian": UP_TO, "hamiltonian": UP_TO, "equations": AFTER_LAGRANGIAN,
 }  # fmt: skip

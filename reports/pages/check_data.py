@@ -16,7 +16,7 @@ from ...records.printable import printable
 from ..causes import Explanation
 from ..known import Known
 from ..report import Report, TableCell, share
-from ..words import GLYPHS, Word, count, figure, listed, one_line, word
+from ..words import GLYPHS, Word, count, figure, listed, one_line, package_of, word
 from .mechanism_drawing import draw_mechanism
 
 WORDS: tuple[Word, ...] = ("differs", "error", "loose", "agrees", "skipped")  # the gravest first
@@ -296,7 +296,7 @@ def _engine(name: str, report: Report, texts: Texts) -> dict[str, int]:
 
 
 def _package(entry: EngineEntry | None) -> str:
-    return f"{entry.package} {entry.version or 'not installed'}" if entry else ""
+    return package_of(entry) if entry else ""
 
 
 def _causes(explanations: Sequence[Explanation], texts: Texts) -> list[dict[str, Any]]:

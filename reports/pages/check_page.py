@@ -13,7 +13,7 @@ from functools import cache
 from ..causes import group_by_check
 from ..known import Known
 from ..report import Report, group_line
-from ..words import GLYPHS, LEGEND, Word, figure, word
+from ..words import GLYPHS, LEGEND, Word, figure, package_of, word
 from .check_data import WORDS, page_data
 from .rendering import TEMPLATES, environment, render
 
@@ -85,6 +85,6 @@ def _by_engine(report: Report) -> list[tuple[str, str, dict[Word, int], str]]:
         counts = {outcome: sum(word(result) == outcome for result in results) for outcome in WORDS}
         errors = [r.measured for r in results if r.unit == "ε" and r.measured is not None]
         entry = report.engine(name)
-        package = f"{entry.package} {entry.version or 'not installed'}" if entry else ""
+        package = package_of(entry) if entry else ""
         found.append((name, package, counts, f"{figure(max(errors))} ε" if errors else ""))
     return found

@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..words import count, few, figure, last_line, listed, printable, tally, word
+from ..words import count, few, figure, last_line, listed, package_of, printable, tally, word
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -45,6 +45,7 @@ def environment() -> Environment:
         "last_line": last_line,
         "listed": listed,
         "list_of": _list_of,
+        "package": package_of,
         "tally": tally,
         "value": _value,
         "word": word,
