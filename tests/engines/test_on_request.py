@@ -25,6 +25,7 @@ def installed(name):
     return name
 
 
+@pytest.mark.slow  # sympy derives the equations of three mechanisms
 @pytest.mark.parametrize("name", names_on_request())
 def test_its_adapter_conforms(name):
     assert [step for step in steps(installed(name)) if step.outcome == "wrong"] == []

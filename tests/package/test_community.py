@@ -24,7 +24,7 @@ def read(path):
 def test_the_citation_is_of_this_version():
     citation = read(ROOT / "CITATION.cff")
     assert str(citation["version"]) == PROJECT["version"]
-    assert citation["license"] == PROJECT["license"]
+    assert " AND ".join(citation["license"]) == PROJECT["license"]
     # What the Citation File Format 1.2.0 calls for: https://citation-file-format.github.io
     assert {"cff-version", "message", "title", "authors"} <= set(citation)
 

@@ -105,9 +105,3 @@ def test_usual_names_are_known(name, rows):
     assert is_plain(grade_text(preset(name, rows)))
     doubled = [row.replace("g", "g*2", 1) for row in rows]
     assert grade_text(preset(name, doubled)).verdict == "wrong"
-
-
-def test_the_example_of_the_front_page_is_right():
-    text = (Path(__file__).parents[3] / "README.md").read_text(encoding="utf-8")
-    (example,) = re.findall(r'```toml\n(system = "mechanism".*?)```', text, re.DOTALL)
-    assert is_plain(grade_text(example))

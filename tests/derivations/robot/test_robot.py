@@ -227,8 +227,8 @@ WRONG_EQUATIONS = [
     ("m*l^2*theta''", "m*l*theta''", "factor-missing", "Row 2, the term with theta'': it lacks the factor l."),
     ("(M+m)*x''", "M*x''", "part-missing", "Row 1, the term with x'': the part m is missing."),
     ("m*l*cos(theta)*x''", "2*m*l*cos(theta)*x''", "factor-two", "Row 2, the term with x'' cos(theta)"),
-    ("- m*l*theta'^2*sin(theta)", "", "term-missing", "Row 1, the term with theta'² sin(theta)"),
-    ("theta'^2", "theta'", "", "Row 1"),
+    ("- m*l*theta'^2*sin(theta)", "", "velocity-terms-forgotten", "In row 1 (x), in d/dt ∂T/∂q̇"),
+    ("theta'^2", "theta'", "inner-derivative", "In row 1 (x), the inner derivative is forgotten"),
 ]
 
 
@@ -246,10 +246,10 @@ def test_gravity_of_the_other_sign_may_be_another_zero_of_the_angle():
     (found,) = reasons(d, system, true)
     assert found.cause == "angle-convention"
     assert 'write angles = "absolute", from = "down", sense = "counter-clockwise"' in found.says
-    assert found.says.endswith("if not: Row 2, the term with sin(theta): the sign is wrong.")
+    assert found.says.endswith("if not: The potential energy of hinge has the wrong sign.")
     declared = 'from = "up"\nsense = "clockwise"\n'
     d, system, true = read(cart_pole(declared, UPRIGHT.replace("- m*g*l*sin", "+ m*g*l*sin")))
-    assert [x.cause for x in reasons(d, system, true)] == ["sign"]
+    assert [x.cause for x in reasons(d, system, true)] == ["potential-energy-sign"]
 
 
 def test_a_slide_on_a_hinge_is_along_its_link_and_numbers_are_as_printed():
