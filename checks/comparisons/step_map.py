@@ -102,18 +102,28 @@ def _compare(cell: Cell, integrator: Integrator, steps: Steps, textbook: Textboo
     def bounds(candidate: Candidate) -> Array:
         return rounding_bounds(cell, integrator, steps, candidate, off)
 
+    unsolved: list[str] = []
+
     def all_fits(order: int | None) -> list[SchemeFit]:
-        found = [fit(got, textbook, one, bounds(one)) for one in textbook.of_order(order)]
+        found = []
+        for one in textbook.of_order(order):
+            try:
+                found.append(fit(got, textbook, one, bounds(one)))
+            except ArithmeticError:  # an implicit scheme's equations: the step is too long for it
+                unsolved.append(one.name)
         return sorted(found, key=lambda one: one.excess)
 
     fits = all_fits(integrator.order)
     if not fits or fits[0].excess > 1:
         fits = all_fits(None)
+    if unsolved and (not fits or fits[0].excess > 1):
+        reason = f"a step of {steps.h:.3g} s from these states is too long for {unsolved[0]}, which it may be"
+        return cell.result(f"{NAME} {integrator.name}", "skipped", reason=reason)
     best, *rest = fits
     agrees = best.excess <= 1 and best.candidate.scheme.order == integrator.order
     line = (
         sharp_line(cell, integrator, steps, textbook, best.candidate, got)
-        if agrees and sharp.is_known(cell.info)
+        if agrees and sharp.is_known(cell.info) and not unsolved
         else None
     )
     return cell.result(

@@ -1,7 +1,5 @@
 """Mechanisms that a file declares: textbooks' equations, and the documents' own as printed."""
 
-import re
-from pathlib import Path
 from unicodedata import normalize
 
 import pytest
