@@ -192,8 +192,9 @@ def _points(data: Any, links: int) -> Points:
         name: _number(data[name], f"points.{name}") if name in data else None for name in ("each_term", "each_mistake")
     }
     worth = tuple(_number(x, "points.rows") for x in rows)
-    given: list[StageName] = [name for name in STAGES if name in by_stage]
-    stages = tuple((name, _number(by_stage[name], f"points.stages.{name}")) for name in given)
+    stages: tuple[tuple[StageName, Fraction], ...] = tuple(
+        (stage, _number(by_stage[stage], f"points.stages.{stage}")) for stage in STAGES if stage in by_stage
+    )
     parts = sum(worth) + sum(x for _, x in stages)
     total = _number(data["total"], "points.total") if "total" in data else Fraction(parts or 1)
     if parts and parts != total:
