@@ -18,6 +18,11 @@ pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium o
 CELL = "document.querySelector('[data-place=\"{}\"]')"
 CHANGE = "{{ const e = document.getElementById('{}'); e.value = '{}'; e.dispatchEvent(new Event('input')) }}"
 SOON = "new Promise((kept) => setTimeout(kept, 50))"  # events that are under way
+# A plot is drawn once the browser has laid out the place that it is drawn in: on a busy machine not at once.
+DRAWN = """new Promise((kept) => {
+  const look = () => document.querySelector('#evidence canvas') ? kept() : setTimeout(look, 20);
+  look();
+})"""
 ROWS = "[...document.querySelectorAll('#matrix-body tr')].map(r => r.cells[0].textContent)"
 # Contrast as WCAG 2 defines it, of every element that has text of its own, against the first background behind it.
 LOW_CONTRAST = """(() => {
@@ -168,7 +173,7 @@ def test_a_motion_plays_and_its_errors_are_said_at_every_time(make, page):
     motion = {"times": [t / 10 for t in range(6)], "theory": angles, "engine": [[a, b + 0.1] for a, b in angles]}
     details = {"errors over time": history, "motion": motion}
     shown = page(make.report(make.result(check="horizon RK4", details=details)), fragment="#0-0")
-    shown.run("document.querySelector('#evidence details').open = true; " + SOON)
+    shown.run("document.querySelector('#evidence details').open = true; " + DRAWN)
     assert shown.run("document.querySelector('#evidence canvas').width") > 200
     shown.run("document.querySelector('#evidence [type=range]').focus()")
     for _ in range(2):
