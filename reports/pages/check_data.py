@@ -266,7 +266,6 @@ def _about(entry: SceneEntry | None, results: Sequence[Result]) -> list[tuple[st
     lyapunov = next((time for time in times if isinstance(time, float)), None)
     if lyapunov is not None:
         about.append(("Lyapunov time", f"{figure(lyapunov)} s, in which a small difference grows e-fold"))
-    about += [("your equations", "; ".join(entry.own))] if entry.own else []
     about += [("tags", listed(entry.tags, 12))] if entry.tags else []
     return about
 

@@ -247,3 +247,12 @@ def test_loose_results_are_shown_apart(make):
     assert '<h2 id="loose">' in html
     assert "rounding gives at most 4 ε: Monte-Carlo rounding" in html
     assert 'id="loose"' not in to_html(make.report(make.result()))
+
+
+def test_how_own_equations_were_read_is_told_once(make):
+    said = "x is the joint 'slider'"
+    page = Page(to_html(make.report(make.result(), scenes=[make.scene(own=[said])])))
+    labels = [label for label, _ in page.data["scenes"][0]["about"]]
+    assert labels.count("your equations") == 1
+    assert len(labels) == len(set(labels))
+    assert said in page.data["text"]
