@@ -8,7 +8,7 @@ from ..records.check import Result
 from .causes import Explanation
 from .known import Known
 from .report import Report, TableCell, group_line
-from .words import GLYPHS, LEGEND, figure, last_line, listed, one_line
+from .words import GLYPHS, LEGEND, figure, last_line, listed, one_line, outcome_of
 
 MOST_LISTED = 50  # a step summary may hold 1 MiB
 LONGEST_REASON = 2000  # characters; none of furiko's own sentences is as long
@@ -41,10 +41,10 @@ def escape(text: str, longest: int = LONGEST_REASON) -> str:
 
 
 def _top(report: Report) -> str:
-    mark = {0: GLYPHS["agrees"], 1: GLYPHS["differs"]}.get(report.exit_status, GLYPHS["error"])
     flaws = [f"> [!WARNING]\n> {escape(flaw)}" for flaw in report.flaws]
     outliers = [escape(sentence) for sentence in report.outliers]
-    return "\n\n".join([f"## furiko {mark} {escape(report.verdict)}", *flaws, *outliers])
+    verdict = f"## furiko {GLYPHS[outcome_of(report.exit_status)]} {escape(report.verdict)}"
+    return "\n\n".join([verdict, *flaws, *outliers])
 
 
 def _known(known: Known | None) -> str:

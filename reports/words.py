@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Literal
 
 from ..records.check import EngineEntry, Outcome, Result
+from ..records.exit_status import AGREES, DIFFERS
 from ..records.printable import printable as printable  # noqa: PLC0414 (reports take it from here)
 
 if TYPE_CHECKING:
@@ -49,6 +50,12 @@ def count(number: int, noun: str) -> str:
 def word(result: Result) -> Word:
     """The result's outcome, or ``loose`` where it agrees only loosely."""
     return "loose" if result.loose and result.outcome == "agrees" else result.outcome
+
+
+def outcome_of(exit_status: int) -> Outcome:
+    """The outcome whose glyph and colour a run with this exit status has: one that is not whole, an error's."""
+    outcomes: dict[int, Outcome] = {AGREES: "agrees", DIFFERS: "differs"}
+    return outcomes.get(exit_status, "error")
 
 
 def tally(number: int, outcome: Word) -> str:

@@ -6,7 +6,7 @@ import json
 import re
 from xml.sax.saxutils import escape
 
-from ..words import count, one_line
+from ..words import count, one_line, outcome_of
 from .runs import OfEngine, Run
 
 # Name of a colour for shields, the colour itself: white on each of them has a contrast of 4.5 and more.
@@ -19,9 +19,8 @@ LONGEST = 60  # characters
 
 def badges(run: Run) -> dict[str, str]:
     """The files by name: ``badge.svg`` and ``.json`` of the run, ``badge-ENGINE.svg`` and ``.json`` of each engine."""
-    state = {0: "agrees", 1: "differs"}.get(run.exit_status, "error")
-    whole = {"agrees": "agrees", "differs": "differs", "error": "incomplete"}[state]
-    files = _files("badge", "furiko", whole, COLOURS[state])
+    state = outcome_of(run.exit_status)
+    files = _files("badge", "furiko", "incomplete" if state == "error" else state, COLOURS[state])
     for engine in run.engines.values():
         label = f"furiko · {engine.engine} {engine.version}".rstrip()
         name = _name(f"badge-{engine.engine}", files)

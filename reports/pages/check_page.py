@@ -13,7 +13,7 @@ from functools import cache
 from ..causes import group_by_check
 from ..known import Known
 from ..report import Report, group_line
-from ..words import GLYPHS, LEGEND, Word, figure, package_of, word
+from ..words import GLYPHS, LEGEND, Word, figure, outcome_of, package_of, word
 from .check_data import WORDS, page_data
 from .rendering import TEMPLATES, environment, render
 
@@ -36,7 +36,7 @@ def to_html(report: Report, known: Known | None = None) -> str:
         ("style.css", *(("uplot/uPlot.css",) if plotted else ()), "check.css"),
         report=report,
         known=known,
-        mark=_mark(report, known),
+        mark=outcome_of(report.exit_status if known is None else known.exit_status_of(sharp=False, strict=False)),
         by_engine=_by_engine(report),
         glyphs=GLYPHS,
         legend=LEGEND,
@@ -69,12 +69,6 @@ def _script(plotted: bool) -> str:
 def _digest(script: str) -> str:
     """What the page's policy names: a browser runs this script and no other."""
     return base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
-
-
-def _mark(report: Report, known: Known | None) -> Word:
-    status = report.exit_status if known is None else known.exit_status_of(sharp=False, strict=False)
-    marks: dict[int, Word] = {0: "agrees", 1: "differs"}
-    return marks.get(status, "error")
 
 
 def _by_engine(report: Report) -> list[tuple[str, str, dict[Word, int], str]]:

@@ -8,10 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
 from ...records.check import Outcome
-from ...records.exit_status import AGREES, DIFFERS
 from ..causes import group_by_check
 from ..report import Report, TableCell, against, group_line
-from ..words import GLYPHS, LEGEND, Word, count, few, listed, one_line
+from ..words import GLYPHS, LEGEND, Word, count, few, listed, one_line, outcome_of
 from .console import PlainConsole
 
 if TYPE_CHECKING:
@@ -69,8 +68,7 @@ def print_report(
 def _print_verdict(report: Report, console: PlainConsole) -> None:
     for flaw in report.flaws:
         console.line(flaw, "bold reverse")
-    style = {AGREES: STYLES["agrees"], DIFFERS: STYLES["differs"]}.get(report.exit_status, STYLES["error"])
-    console.line(report.verdict, f"bold {style}")
+    console.line(report.verdict, f"bold {STYLES[outcome_of(report.exit_status)]}")
 
 
 def _print_table(report: Report, console: PlainConsole) -> None:
