@@ -13,7 +13,7 @@ from ..records.check import OUTCOMES, Alone, Diagnosis, EngineEntry, Footer, Hea
 from ..records.exit_status import AGREES, DIFFERS, INCOMPLETE
 from .alone import alone_in
 from .causes import Causes, CheckGroup, group_causes
-from .words import Word, count, few, figure, last_line, listed, one_line, tally, word
+from .words import WORDS, Word, count, few, figure, last_line, listed, one_line, tally, word
 
 # The outcome of a cell with several checks is the first of these that occurs: a difference outweighs a failure, and one
 # skipped check says little where others ran.
@@ -108,8 +108,7 @@ class Report:
     def words(self) -> Mapping[Word, int]:
         """Number of results of each word, the gravest first. Loose results are not among those that agree."""
         found = Counter(word(result) for result in self.results)
-        order: tuple[Word, ...] = ("differs", "error", "loose", "agrees", "skipped")
-        return {name: found[name] for name in order}
+        return {name: found[name] for name in WORDS}
 
     @cached_property
     def loose(self) -> tuple[Result, ...]:

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 # How a report calls a result: its outcome, or "loose" where it agrees only loosely.
 Word = Outcome | Literal["loose"]
+WORDS: tuple[Word, ...] = ("differs", "error", "loose", "agrees", "skipped")  # the gravest first
 # A glyph beside the word, so that no outcome is told by colour alone.
 GLYPHS: dict[Word, str] = {"agrees": "✓", "loose": "≈", "differs": "✗", "skipped": "–", "error": "!"}
 LEGEND = "ε: worst error as a multiple of rounding; ×: as a multiple of what is allowed"

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ...models.writers.whole_file import make_folder, write_whole
 from ..pages.rendering import render
-from ..words import GLYPHS
+from ..words import GLYPHS, WORDS
 from .badges import badges
 from .runs import History
 
@@ -15,7 +15,7 @@ PAGE = "history.html"
 
 def to_history_page(history: History) -> str:
     """The whole page as text; everything from the runs is escaped."""
-    return render("history.html.j2", ("style.css", "check.css"), history=history, glyphs=GLYPHS)
+    return render("history.html.j2", ("style.css", "check.css"), history=history, glyphs=GLYPHS, words=WORDS)
 
 
 def write_history(history: History, folder: Path) -> list[Path]:

@@ -16,10 +16,9 @@ from ...records.printable import printable
 from ..causes import Explanation
 from ..known import Known
 from ..report import Report, TableCell, share
-from ..words import GLYPHS, Word, count, figure, listed, one_line, package_of, word
+from ..words import GLYPHS, WORDS, count, figure, listed, one_line, package_of, word
 from .mechanism_drawing import draw_mechanism
 
-WORDS: tuple[Word, ...] = ("differs", "error", "loose", "agrees", "skipped")  # the gravest first
 HISTORY, MOTION = "errors over time", "motion"  # details that are drawn
 MOST_PLACES = 3000  # sentences of causes in all: a page is to be read, the stream has every one
 MOST_DRAWN = 30_000  # numbers in drawings of mechanisms: a sixth of a megabyte

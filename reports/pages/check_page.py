@@ -13,8 +13,8 @@ from functools import cache
 from ..causes import group_by_check
 from ..known import Known
 from ..report import Report, group_line
-from ..words import GLYPHS, LEGEND, Word, figure, outcome_of, package_of, word
-from .check_data import WORDS, page_data
+from ..words import GLYPHS, LEGEND, WORDS, Word, figure, outcome_of, package_of, word
+from .check_data import page_data
 from .rendering import TEMPLATES, environment, render
 
 PAGE = "report.html.j2"
