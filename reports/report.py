@@ -126,6 +126,11 @@ class Report:
         """Number of results that were taken from an earlier run with the very same inputs."""
         return sum(result.kept for result in self.results)
 
+    @property
+    def untested(self) -> tuple[str, ...]:
+        """A sentence for each installed version that furiko was not tested with."""
+        return tuple(dict.fromkeys(engine.untested for engine in self.header.engines if engine.untested))
+
     @cached_property
     def scenes(self) -> tuple[str, ...]:
         """Names of the scenes: the header's in its order, then any that only results name."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Literal
 
 from ..records.check import EngineEntry, Outcome, Result
@@ -38,9 +38,9 @@ def figure(value: float | None) -> str:
     return f"{mantissa}e{int(exponent)}"
 
 
-def package_of(engine: EngineEntry) -> str:
-    """An engine's package and its version; empty for an adapter that has none."""
-    return f"{engine.package} {engine.version or 'not installed'}" if engine.package else ""
+def package_of(engine: EngineEntry | None) -> str:
+    """An engine's package and its version; empty for an adapter that has none, and for one that is not known."""
+    return f"{engine.package} {engine.version or 'not installed'}" if engine and engine.package else ""
 
 
 def count(number: int, noun: str) -> str:
@@ -108,6 +108,12 @@ def listed(names: Iterable[str], most: int = 40) -> str:
     known = list(dict.fromkeys(names))
     shown = ", ".join(one_line(name, 80) for name in known[:most])
     return shown if len(known) <= most else f"{shown} and {len(known) - most} more"
+
+
+def list_of(values: Sequence[float], longest: int = 8) -> str:
+    """``1, 0.8, 0.6``; of more than ``longest``, how many there are."""
+    shown = ", ".join(f"{value:.6g}" for value in values[:longest])
+    return shown if len(values) <= longest else f"{shown}, … ({len(values)} in all)"
 
 
 def few(names: Iterable[str], noun: str) -> str:

@@ -11,12 +11,12 @@ from typing import Any, TypeGuard
 
 import msgspec
 
-from ...records.check import EngineEntry, Result, SceneEntry
+from ...records.check import Result, SceneEntry
 from ...records.printable import printable
 from ..causes import Explanation
 from ..known import Known
 from ..report import Report, TableCell, share
-from ..words import GLYPHS, WORDS, count, figure, listed, one_line, package_of, word
+from ..words import GLYPHS, WORDS, count, figure, list_of, listed, one_line, package_of, word
 from .mechanism_drawing import draw_mechanism
 
 HISTORY, MOTION = "errors over time", "motion"  # details that are drawn
@@ -256,8 +256,8 @@ def _about(entry: SceneEntry | None, results: Sequence[Result]) -> list[tuple[st
     about = [("system", f"{SYSTEMS.get(entry.system, entry.system)}, {size}")]
     about += [("your equations", "; ".join(entry.own))] if entry.own else []
     about += [("joints", listed(entry.joints, 12))] if entry.joints else []
-    about += [("lengths", f"{_list(entry.lengths)} m")] if entry.lengths else []
-    about += [("masses", f"{_list(entry.masses)} kg"), ("gravity", f"{entry.gravity} m/s²")]
+    about += [("lengths", f"{list_of(entry.lengths)} m")] if entry.lengths else []
+    about += [("masses", f"{list_of(entry.masses)} kg"), ("gravity", f"{entry.gravity} m/s²")]
     if entry.states:
         moving = f", trajectory of {entry.duration} s" if entry.duration else ""
         about.append(("compared in", count(entry.states, "state") + moving))
@@ -267,11 +267,6 @@ def _about(entry: SceneEntry | None, results: Sequence[Result]) -> list[tuple[st
         about.append(("Lyapunov time", f"{figure(lyapunov)} s, in which a small difference grows e-fold"))
     about += [("tags", listed(entry.tags, 12))] if entry.tags else []
     return about
-
-
-def _list(values: Sequence[float], longest: int = 8) -> str:
-    shown = ", ".join(f"{value:.6g}" for value in values[:longest])
-    return shown if len(values) <= longest else f"{shown}, … ({len(values)} in all)"
 
 
 def _drawing(entry: SceneEntry) -> list[Any] | None:
@@ -288,13 +283,9 @@ def _drawing(entry: SceneEntry) -> list[Any] | None:
 def _engine(name: str, report: Report, texts: Texts) -> dict[str, int]:
     return {
         "name": texts.number(name),
-        "about": texts.number(_package(report.engine(name))),
+        "about": texts.number(package_of(report.engine(name))),
         "option": texts.number(report.engine_option(name)),
     }
-
-
-def _package(entry: EngineEntry | None) -> str:
-    return package_of(entry) if entry else ""
 
 
 def _causes(explanations: Sequence[Explanation], texts: Texts) -> list[dict[str, Any]]:

@@ -43,7 +43,6 @@ def to_html(report: Report, known: Known | None = None) -> str:
         group_line=group_line,
         words=WORDS,
         loose=group_by_check(report.loose),
-        untested=list(dict.fromkeys(engine.untested for engine in report.header.engines if engine.untested)),
         most=MOST_LISTED,
         data=Markup(data),
         script=Markup(script),
@@ -78,7 +77,5 @@ def _by_engine(report: Report) -> list[tuple[str, str, dict[Word, int], str]]:
         results = [result for scene in report.scenes for result in report.table[scene, name].results]
         counts = {outcome: sum(word(result) == outcome for result in results) for outcome in WORDS}
         errors = [r.measured for r in results if r.unit == "ε" and r.measured is not None]
-        entry = report.engine(name)
-        package = package_of(entry) if entry else ""
-        found.append((name, package, counts, f"{figure(max(errors))} ε" if errors else ""))
+        found.append((name, package_of(report.engine(name)), counts, f"{figure(max(errors))} ε" if errors else ""))
     return found

@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..words import count, few, figure, last_line, listed, package_of, printable, tally, word
+from ..words import count, few, figure, list_of, listed, package_of, printable, tally
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -42,13 +42,11 @@ def environment() -> Environment:
         "figure": figure,
         "count": count,
         "few": few,
-        "last_line": last_line,
         "listed": listed,
-        "list_of": _list_of,
+        "list_of": list_of,
         "package": package_of,
         "tally": tally,
         "value": _value,
-        "word": word,
     }
     return made
 
@@ -59,8 +57,3 @@ def _inert(value: Any) -> Any:
 
 def _value(value: object) -> object:
     return figure(value) if isinstance(value, float) else value
-
-
-def _list_of(values: Sequence[float], longest: int = 8) -> str:
-    shown = ", ".join(f"{value:.6g}" for value in values[:longest])
-    return shown if len(values) <= longest else f"{shown}, … ({len(values)} in all)"

@@ -53,7 +53,7 @@ def print_report(
             console.line(one_line(f"\n{scene.name}: your equations: {'; '.join(scene.own)}", 2000))
     _print_reasons(report, "skipped", "Skipped", console)
     console.line()
-    for sentence in dict.fromkeys(engine.untested for engine in report.header.engines if engine.untested):
+    for sentence in report.untested:
         console.line(one_line(sentence))
     if report.kept:
         console.line(
