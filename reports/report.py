@@ -31,8 +31,7 @@ class TableCell:
     @cached_property
     def outcome(self) -> Outcome | None:
         """The gravest outcome; None where there is no result at all."""
-        found = {result.outcome for result in self.results}
-        return next((outcome for outcome in GRAVEST if outcome in found), None)
+        return gravest(result.outcome for result in self.results)
 
     @cached_property
     def word(self) -> Word | None:
@@ -56,8 +55,7 @@ class TableCell:
         """Worst error as a multiple of rounding [ε], over the checks that measure in it; of a loose cell, over its
         loose results."""
         deciding = [r for r in self.results if word(r) == "loose"] if self.word == "loose" else self.results
-        errors = [r.measured for r in deciding if r.unit == "ε" and r.measured is not None]
-        return max(errors, default=None)
+        return worst_rounding(deciding)
 
     @property
     def error(self) -> str:
@@ -344,6 +342,17 @@ def footer_of(results: Iterable[Result], diagnoses: Sequence[Diagnosis] = (), se
         diagnoses=len(diagnoses),
         seconds=seconds,
     )
+
+
+def gravest(outcomes: Iterable[Outcome]) -> Outcome | None:
+    """The gravest of these outcomes; None where there is none."""
+    found = set(outcomes)
+    return next((outcome for outcome in GRAVEST if outcome in found), None)
+
+
+def worst_rounding(results: Iterable[Result]) -> float | None:
+    """The largest error as a multiple of rounding [ε]; None where none is measured in it."""
+    return max((r.measured for r in results if r.unit == "ε" and r.measured is not None), default=None)
 
 
 def share(result: Result) -> float | None:

@@ -33,7 +33,7 @@ def _message(engine: OfEngine) -> str:
         return f"{engine.counts['differs']:,} differ" if engine.counts["differs"] > 1 else "1 differs"
     if engine.outcome == "error":
         return f"{engine.counts['error']:,} failed"
-    agreeing = engine.counts.get("agrees", 0) + engine.counts.get("loose", 0)
+    agreeing = engine.counts["agrees"] + engine.counts["loose"]
     return f"{count(agreeing, 'comparison')} agree{'s' if agreeing == 1 else ''}" if agreeing else "not compared"
 
 

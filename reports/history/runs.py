@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -10,7 +11,7 @@ from ...models.errors import InvalidInput
 from ...models.readers.bounded_file import shown
 from ...records.check import Outcome
 from ..compare import compare
-from ..report import GRAVEST, Report
+from ..report import Report, gravest, worst_rounding
 from ..stream import STREAM, read_stream
 from ..words import Word, word
 
@@ -28,17 +29,12 @@ class OfEngine:
     engine: str
     package: str
     version: str
-    counts: dict[Word, int]
+    counts: Counter[Word]
+    outcome: Outcome | None  # the gravest; None where nothing was asked of it
     rounding: float | None  # the worst error [ε]
     broke: int | None = None
     fixed: int | None = None
     other_version: bool = False
-
-    @property
-    def outcome(self) -> Outcome | None:
-        """The gravest outcome; None where nothing was asked of it."""
-        found = {"agrees" if name == "loose" else name for name, number in self.counts.items() if number}
-        return next((outcome for outcome in GRAVEST if outcome in found), None)
 
 
 @dataclass(frozen=True)
@@ -107,7 +103,6 @@ def _run(name: str, report: Report, before: Mapping[str, Report]) -> Run:
 def _of_engine(engine: str, report: Report, before: Report | None) -> OfEngine:
     results = [result for result in report.results if result.engine == engine]
     entry = report.engine(engine)
-    errors = [r.measured for r in results if r.unit == "ε" and r.measured is not None]
     broke = fixed = None
     other = False
     if before is not None:
@@ -116,15 +111,13 @@ def _of_engine(engine: str, report: Report, before: Report | None) -> OfEngine:
         broke = sum(change.mark == "!" for change in changes)
         fixed = sum(change.mark == "*" for change in changes)
         other = bool(entry and there and entry.version != there.version)
-    counts: dict[Word, int] = {}
-    for result in results:
-        counts[word(result)] = counts.get(word(result), 0) + 1
     return OfEngine(
         engine=engine,
         package=entry.package if entry else "",
         version=entry.version if entry else "",
-        counts=counts,
-        rounding=max(errors, default=None),
+        counts=Counter(word(result) for result in results),
+        outcome=gravest(result.outcome for result in results),
+        rounding=worst_rounding(results),
         broke=broke,
         fixed=fixed,
         other_version=other,

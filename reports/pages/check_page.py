@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import base64
 import hashlib
+from collections import Counter
 from functools import cache
 
 from ..causes import group_by_check
 from ..known import Known
-from ..report import Report, group_line
+from ..report import Report, group_line, worst_rounding
 from ..words import GLYPHS, LEGEND, WORDS, Word, figure, outcome_of, package_of, word
 from .check_data import page_data
 from .rendering import TEMPLATES, environment, render
@@ -70,12 +71,12 @@ def _digest(script: str) -> str:
     return base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
 
 
-def _by_engine(report: Report) -> list[tuple[str, str, dict[Word, int], str]]:
+def _by_engine(report: Report) -> list[tuple[str, str, Counter[Word], str]]:
     """Each engine: its name, its package, the number of results of each word, its worst error where it agrees."""
     found = []
     for name in report.engines:
         results = [result for scene in report.scenes for result in report.table[scene, name].results]
-        counts = {outcome: sum(word(result) == outcome for result in results) for outcome in WORDS}
-        errors = [r.measured for r in results if r.unit == "ε" and r.measured is not None]
-        found.append((name, package_of(report.engine(name)), counts, f"{figure(max(errors))} ε" if errors else ""))
+        worst = worst_rounding(results)
+        shown = "" if worst is None else f"{figure(worst)} ε"
+        found.append((name, package_of(report.engine(name)), Counter(map(word, results)), shown))
     return found
