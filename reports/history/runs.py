@@ -10,7 +10,7 @@ from pathlib import Path
 from ...models.errors import InvalidInput
 from ...models.readers.bounded_file import shown
 from ...records.check import Outcome
-from ..compare import compare
+from ..compare import Comparison, compare
 from ..report import Report, gravest, worst_rounding
 from ..stream import STREAM, read_stream
 from ..words import Word, word
@@ -96,20 +96,21 @@ def read_history(folder: Path) -> History:
 
 def _run(name: str, report: Report, before: Mapping[str, Report]) -> Run:
     header = report.header
-    engines = {engine: _of_engine(engine, report, before.get(engine)) for engine in report.engines}
+    earlier = {id(run): run for engine in report.engines if (run := before.get(engine))}  # most engines have the same
+    comparisons = {key: compare(run, report) for key, run in earlier.items()}
+    engines = {engine: _of_engine(engine, report, comparisons.get(id(before.get(engine)))) for engine in report.engines}
     return Run(name, header.started, header.furiko, header.profile, report.verdict, report.exit_status, engines)
 
 
-def _of_engine(engine: str, report: Report, before: Report | None) -> OfEngine:
+def _of_engine(engine: str, report: Report, since: Comparison | None) -> OfEngine:
     results = [result for result in report.results if result.engine == engine]
     entry = report.engine(engine)
     broke = fixed = None
     other = False
-    if before is not None:
-        there = before.engine(engine)
-        changes = [change for change in compare(before, report).changes if change.result.engine == engine]
-        broke = sum(change.mark == "!" for change in changes)
-        fixed = sum(change.mark == "*" for change in changes)
+    if since is not None:
+        there = since.before.engine(engine)
+        marks = Counter(change.mark for change in since.changes if change.result.engine == engine)
+        broke, fixed = marks["!"], marks["*"]
         other = bool(entry and there and entry.version != there.version)
     return OfEngine(
         engine=engine,
