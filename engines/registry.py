@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..models import EngineMissing, InvalidInput, System, TreeSystem
 from ..models.errors import installing, nearest
+from ..models.trees.own import OWN
 from . import elsewhere
 from .info import EngineInfo, Integrator, TreeInfo
 from .on_request import ON_REQUEST
@@ -149,7 +150,7 @@ ENGINES: dict[str, EngineInfo] = {
 
 # Takes part like an engine where a scene has a user's own equations; its answers are theirs, without rounding.
 OWN_EQUATIONS = EngineInfo(
-    name="own equations",
+    name=OWN,
     formulation="the equations of the scene file, in ball arithmetic",
     adapter="",
     module="",

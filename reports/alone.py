@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal
 
+from ..models.trees.own import IN_MODEL, OWN
 from ..records.check import Alone, Diagnosis
 from .words import count, listed
 
 if TYPE_CHECKING:
     from .report import Report
 
-OWN = "own equations"  # the name by which a user's equations take part
-IN_MODEL = "model: "  # how the place of a cause begins that is in the model, not in the equations
 MOST_SAID = 3  # causes
 
 
@@ -49,21 +48,18 @@ def _alone(report: Report, scene: str) -> Alone:
 
 
 def _equations_right(report: Report, scene: str, agree: Sequence[str], differ: Sequence[str]) -> Alone:
+    all_right = f"your equations{',' if agree else ' and'} the theory of the model{_and(agree)}"
     if not differ:
-        says = (
-            f"{scene}: your equations{_and(agree, 'and the theory of the model', ', the theory of the model')} agree."
-        )
-        return Alone(scene=scene, who="nobody", names=[], says=says)
+        return Alone(scene=scene, who="nobody", names=[], says=f"{scene}: {all_right} agree.")
     why = " ".join(said for name in differ if (said := _said(_diagnosis(report, scene, name))))
     verb = "is" if len(differ) == 1 else "are"
-    others = _and(agree, "and the theory of the model", ", the theory of the model")
-    says = f"{scene}: {listed(differ)} {verb} alone: your equations{others} agree. {why}"
+    says = f"{scene}: {listed(differ)} {verb} alone: {all_right} agree. {why}"
     return Alone(scene=scene, who="engine", names=list(differ), says=says.strip())
 
 
-def _and(agree: Sequence[str], alone: str = "", before: str = "") -> str:
-    """The engines that agree; ``alone``: what stands there if there are none, ``before``: in front of them."""
-    return f"{before} and {count(len(agree), 'engine')}" if agree else f" {alone}" if alone else ""
+def _and(agree: Sequence[str]) -> str:
+    """The engines that agree, behind something; empty if there are none."""
+    return f" and {count(len(agree), 'engine')}" if agree else ""
 
 
 def _diagnosis(report: Report, scene: str, engine: str) -> Diagnosis | None:

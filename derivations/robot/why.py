@@ -12,6 +12,7 @@ from itertools import combinations, product
 import numpy as np
 
 from ...models.errors import InvalidInput
+from ...models.trees.own import IN_MODEL
 from ...models.trees.system import TreeSystem
 from .coordinates import coordinates_in, other_conventions
 from .graded import wrong_terms
@@ -83,7 +84,7 @@ def _other_number(name: str, value: float, q: Quantity) -> Reason:
     unit = q.unit
     says = (f"the equations are right, and {q.words} is {q.value:.9g} {unit} in the model, where {name} is "
             f"{value:.9g} {unit} in the equations")  # fmt: skip
-    return Reason(True, q.kind if q.kind != "centre" else "com-displaced", f"model: {q.of!r}", q.value, value, says)
+    return Reason(True, q.kind if q.kind != "centre" else "com-displaced", f"{IN_MODEL}{q.of!r}", q.value, value, says)
 
 
 def _left_out(d: RobotDerivation, system: TreeSystem, true: TrueTerms) -> list[Reason]:
@@ -91,7 +92,7 @@ def _left_out(d: RobotDerivation, system: TreeSystem, true: TrueTerms) -> list[R
     for changed, what in _without(system, true):
         if rows_same(d.motion().accelerations(true.q, true.v), _accelerations(changed, true)):
             return [
-                Reason(True, cause, f"model: {of!r}", value, 0.0,
+                Reason(True, cause, f"{IN_MODEL}{of!r}", value, 0.0,
                        f"the model has {words} at {of!r} ({value:.9g} {unit}), and the equations, which are right "
                        "without it, have none")
                 for cause, of, value, words, unit in what

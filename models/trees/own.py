@@ -28,6 +28,8 @@ from typing import Any
 from ..errors import InvalidInput, nearest
 from .system import TreeSystem
 
+OWN = "own equations"  # the name by which they take part in a run, like an engine
+IN_MODEL = "model: "  # how the place of a cause begins that is in the mechanism, not in the equations
 LARGEST = 200_000  # characters of all equations together
 MOST = 200  # entries of a table
 KINDS_OF_TEXT = ("equations", "lagrangian", "function")
