@@ -12,6 +12,7 @@ from .words import last_line, one_line, printable, word
 
 # JUnit's element for an outcome, inside a test case. One that agrees has none.
 ELEMENTS: dict[Outcome, str] = {"differs": "failure", "error": "error", "skipped": "skipped"}
+COUNTED = {"failures": "failure", "errors": "error", "skipped": "skipped"}  # attribute of a suite, element in a case
 
 
 def to_junit(report: Report, known: Known | None = None) -> str:
@@ -30,7 +31,6 @@ def to_junit(report: Report, known: Known | None = None) -> str:
             for result in results:
                 entry = accepted.get((result.scene, result.engine, result.check))
                 _case(suite, result, report.causes.explanation_of(result), entry)
-            _count(suite)
     if report.flaws:
         suite = _suite(suites, "furiko", report)
         for flaw in report.flaws:
@@ -38,10 +38,20 @@ def to_junit(report: Report, known: Known | None = None) -> str:
                 suite, "testcase", {"classname": "furiko.run", "name": "the run is whole", "time": "0"}
             )
             XML.SubElement(case, "error", {"message": one_line(flaw), "type": "incomplete"})
-        _count(suite)
-    for field in ("tests", "failures", "errors", "skipped"):
-        suites.set(field, str(sum(int(suite.get(field, "0")) for suite in suites)))
+    for suite in suites:
+        suite.set("time", _seconds(sum(float(case.get("time", "0")) for case in suite)))
     suites.set("time", _seconds(sum(result.seconds for result in report.results)))
+    return document(suites)
+
+
+def document(suites: XML.Element) -> str:
+    """The XML document, with the counts that readers of JUnit take from the attributes of each suite and of all."""
+    for suite in suites:
+        suite.set("tests", str(len(suite)))
+        for field, element in COUNTED.items():
+            suite.set(field, str(len(suite.findall(f"testcase/{element}"))))
+    for field in ("tests", *COUNTED):
+        suites.set(field, str(sum(int(suite.get(field, "0")) for suite in suites)))
     XML.indent(suites)
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + XML.tostring(suites, encoding="unicode") + "\n"
 
@@ -80,14 +90,6 @@ def _code(result: Result, explanation: Explanation | None) -> str:
     if explanation is not None:
         return (explanation.together or explanation.alternatives)[0].code
     return result.cause or result.outcome
-
-
-def _count(suite: XML.Element) -> None:
-    """The counts that readers of JUnit take from the suite's attributes."""
-    suite.set("tests", str(len(suite)))
-    for field, element in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
-        suite.set(field, str(len(suite.findall(f"testcase/{element}"))))
-    suite.set("time", _seconds(sum(float(case.get("time", "0")) for case in suite)))
 
 
 def _seconds(seconds: float) -> str:

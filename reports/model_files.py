@@ -8,6 +8,7 @@ from xml.etree import ElementTree as XML
 
 from ..records.errors import Error
 from ..records.findings import DiagnoseDocument
+from .junit import document
 from .markdown import escape
 from .words import count, one_line, printable
 
@@ -96,10 +97,7 @@ def models_junit(answers: Sequence[Answer]) -> str:
                 if element != "skipped":
                     said.set("type", status)
                     said.text = printable("\n".join([answer.headline, *answer.causes]))
-        _count(suite, [suite])
-    _count(suites, list(suites))
-    XML.indent(suites)
-    return '<?xml version="1.0" encoding="UTF-8"?>\n' + XML.tostring(suites, encoding="unicode") + "\n"
+    return document(suites)
 
 
 def _cases(answer: Answer) -> list[tuple[str, str, str]]:
@@ -111,10 +109,3 @@ def _cases(answer: Answer) -> list[tuple[str, str, str]]:
     cases = [(name, said.status, said.says or first) for name, said in engines.items()]
     blamed = not answer.agrees and not any(status in ("differs", "refused", "failed") for _, status, _ in cases)
     return [("the file", "differs" if blamed else "agrees", first), *cases]
-
-
-def _count(element: XML.Element, suites: Sequence[XML.Element]) -> None:
-    cases = [case for suite in suites for case in suite.findall("testcase")]
-    element.set("tests", str(len(cases)))
-    for field, name in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
-        element.set(field, str(sum(case.find(name) is not None for case in cases)))
