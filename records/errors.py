@@ -12,6 +12,11 @@ class Error(msgspec.Struct, frozen=True, kw_only=True):
     where: str  # the file and field, engine, option or signal
     help: str  # what would be right
 
+    @property
+    def said(self) -> str:
+        """``where: what; help``, as far as each is known."""
+        return f"{self.where}: {self.what}".removeprefix(": ") + (f"; {self.help}" if self.help else "")
+
 
 class ErrorDocument(msgspec.Struct, frozen=True, kw_only=True):
     """The one JSON document of a command that failed; the exit status says which kind of failure it is."""

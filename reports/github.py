@@ -67,9 +67,8 @@ def _line(says: str, path: str) -> int:
 
 def of_error(error: Error, path: str = "") -> str:
     """A command that failed, at its file, at the line that its message names. ``path``: the file; empty for none."""
-    said = f"{error.where}: {error.what}".removeprefix(": ")
-    _, line, _ = place_of(said)
-    return annotation(said + (f"; {error.help}" if error.help else ""), title="furiko", path=path, line=line)
+    _, line, _ = place_of(error.said)
+    return annotation(error.said, title="furiko", path=path, line=line)
 
 
 def place_of(message: str) -> tuple[str, int, str]:

@@ -32,8 +32,7 @@ class Answer:
         """The answer in one sentence."""
         if isinstance(self.found, DiagnoseDocument):
             return self.found.headline
-        said = f"{self.found.where}: {self.found.what}".removeprefix(": ").removeprefix(self.path).lstrip(",: ")
-        return said + (f"; {self.found.help}" if self.found.help else "")
+        return self.found.said.removeprefix(self.path).lstrip(",: ")
 
     @property
     def causes(self) -> list[str]:

@@ -73,10 +73,10 @@ def _of_failure(folder: Path, status: int) -> list[str]:
     """The summary and the JUnit file of a check that never began, from what it said."""
     errors = folder / "errors.txt"
     said = read_text(errors, LONGEST_MESSAGE) if errors.is_file() else ""
-    last = said.strip().splitlines()[-1:] or [f"furiko ended with status {status}"]
-    path, line, message = github.place_of(last[0].removeprefix("furiko: "))
+    last = (said.strip().splitlines() or [f"furiko ended with status {status}"])[-1].removeprefix("furiko: ")
+    path, line, message = github.place_of(last)
     error = Error(what=message, where=f"{path}, line {line}" if line else path, help="")
-    write_whole(folder / SUMMARY, failure_markdown(last[0].removeprefix("furiko: ")))
+    write_whole(folder / SUMMARY, failure_markdown(last))
     write_whole(folder / JUNIT, models_junit([Answer(path or "furiko", error)]))
     return [github.of_error(error, path)]
 

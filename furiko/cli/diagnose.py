@@ -137,8 +137,7 @@ def _answered(model: Path, asked: _Asked) -> Diagnosis | Failure:
 def _entry(model: Path, found: Diagnosis | Failure) -> dict[str, Any]:
     entry: dict[str, Any] = {"model": str(model), "diagnosis": None, "error": None}
     if isinstance(found, Failure):
-        what, where, help_ = found.parts()
-        return entry | {"status": found.status, "error": {"what": what, "where": where, "help": help_}}
+        return entry | {"status": found.status, "error": found.record()}
     return entry | {"status": found.exit_status, "diagnosis": found.to_json()}
 
 

@@ -8,12 +8,16 @@ import re
 import tempfile
 import traceback
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import click
 
 from ..records.exit_status import BAD_INPUT, CLOSED_PIPE, INCOMPLETE, INTERNAL_ERROR, INTERRUPTED
 from ..records.printable import printable
 from .process import OutputFailed, Stopped
+
+if TYPE_CHECKING:
+    from ..records.errors import Error
 
 LONGEST = 2000  # characters of a message
 SHOW_TRACEBACK = "FURIKO_TRACEBACK"
@@ -40,6 +44,13 @@ class Failure:
 
     message: str
     status: int
+
+    def record(self) -> Error:
+        """The failure as documents have it."""
+        from ..records.errors import Error  # most runs print none
+
+        what, where, help_ = self.parts()
+        return Error(what=what, where=where, help=help_)
 
     def parts(self) -> tuple[str, str, str]:
         """What, where and help, each as far as the message has it."""

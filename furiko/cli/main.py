@@ -107,10 +107,9 @@ def _fail(failure: Failure, *, with_document: bool) -> int:
     if failure.message:
         print_failure(failure.message)
     if with_document and failure.status != CLOSED_PIPE:
-        from ..records.errors import Error, ErrorDocument
+        from ..records.errors import ErrorDocument
 
-        what, where, help_ = failure.parts()
         with contextlib.suppress(OutputFailed):
-            print_json(ErrorDocument(error=Error(what=what, where=where, help=help_)))
+            print_json(ErrorDocument(error=failure.record()))
             flush()
     return failure.status
