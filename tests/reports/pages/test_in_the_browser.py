@@ -17,12 +17,10 @@ pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium o
 
 CELL = "document.querySelector('[data-place=\"{}\"]')"
 CHANGE = "{{ const e = document.getElementById('{}'); e.value = '{}'; e.dispatchEvent(new Event('input')) }}"
-SOON = "new Promise((kept) => setTimeout(kept, 50))"  # events that are under way
-# A plot is drawn once the browser has laid out the place that it is drawn in: on a busy machine not at once.
-DRAWN = """new Promise((kept) => {
-  const look = () => document.querySelector('#evidence canvas') ? kept() : setTimeout(look, 20);
-  look();
-})"""
+# Events come, plots are drawn and motions end when the browser gets to it, on a busy machine not at once: each is
+# waited for. One that never comes ends the test, as the browser's own patience does.
+UNTIL = "new Promise((kept) => {{ const look = () => {} ? kept() : setTimeout(look, 20); look(); }})"
+TITLE = "document.getElementById('evidence-title').textContent"
 ROWS = "[...document.querySelectorAll('#matrix-body tr')].map(r => r.cells[0].textContent)"
 # Contrast as WCAG 2 defines it, of every element that has text of its own, against the first background behind it.
 LOW_CONTRAST = """(() => {
@@ -69,6 +67,15 @@ def page(browser, tmp_path):
     yield opened
     assert browser.errors == []
     assert [url for url in browser.requests if not url.startswith("file://")] == []
+
+
+def go(shown, place):
+    """Go to a place of the page's address, and wait until it is shown."""
+    shown.run(f"""new Promise((kept) => {{
+      if (location.hash.slice(1) === '{place}') return kept();
+      addEventListener('hashchange', () => kept(), {{ once: true }}); // after the page's own, which was there before
+      location.hash = '{place}';
+    }})""")
 
 
 def red(make) -> Report:
@@ -121,7 +128,7 @@ def test_search_filters_and_sort(make, page):
     assert shown.run(ROWS) == ["rods-3"]
     shown.run(CHANGE.format("query", "no such scene"))
     assert not shown.run("document.getElementById('nothing').hidden")
-    shown.run("document.querySelector('#nothing button').click(); new Promise((kept) => setTimeout(kept, 50))")
+    shown.run("document.querySelector('#nothing button').click(); " + UNTIL.format(f"{ROWS}.length"))
     assert len(shown.run(ROWS)) == 3
     shown.run(CHANGE.format("engine", "2"))
     assert shown.run("document.querySelectorAll('#matrix-head th').length") == 2
@@ -144,7 +151,7 @@ def test_a_cell_opens_its_evidence_and_the_keyboard_does_all(make, page):
     assert shown.run("document.activeElement.dataset.place") == "1-1"
     shown.key("ArrowLeft")
     shown.key("Enter")
-    assert shown.run("document.getElementById('evidence').open")
+    shown.run(UNTIL.format("document.getElementById('evidence').open"))
     assert shown.run("location.hash") == "#1-0"
     said = shown.run("document.getElementById('evidence').innerText")
     for expected in (
@@ -156,14 +163,16 @@ def test_a_cell_opens_its_evidence_and_the_keyboard_does_all(make, page):
     ):
         assert expected in said, expected
     shown.key("Escape")
-    shown.run(SOON)
+    shown.run(UNTIL.format("location.hash === ''"))
     assert not shown.run("document.getElementById('evidence').open")
     assert shown.run("document.activeElement.dataset.place") == "1-0"
     assert shown.run("location.hash") == ""
     shown = page(red(make), fragment="#0")
-    assert shown.run("document.getElementById('evidence-title').textContent") == "rods-2"
-    shown.run("document.querySelector('#evidence [data-place=\"0-2\"]').click(); new Promise((k) => setTimeout(k, 50))")
-    assert shown.run("document.getElementById('evidence-title').textContent") == "rods-2 × exudyn-tree≈ loose"
+    assert shown.run(TITLE) == "rods-2"
+    shown.run(
+        "document.querySelector('#evidence [data-place=\"0-2\"]').click(); " + UNTIL.format(f"{TITLE} !== 'rods-2'")
+    )
+    assert shown.run(TITLE) == "rods-2 × exudyn-tree≈ loose"
     assert "rounding gives at most 4 ε" in shown.run("document.getElementById('evidence-body').innerText")
 
 
@@ -173,7 +182,10 @@ def test_a_motion_plays_and_its_errors_are_said_at_every_time(make, page):
     motion = {"times": [t / 10 for t in range(6)], "theory": angles, "engine": [[a, b + 0.1] for a, b in angles]}
     details = {"errors over time": history, "motion": motion}
     shown = page(make.report(make.result(check="horizon RK4", details=details)), fragment="#0-0")
-    shown.run("document.querySelector('#evidence details').open = true; " + DRAWN)
+    shown.run(
+        "document.querySelector('#evidence details').open = true; "
+        + UNTIL.format("document.querySelector('#evidence canvas')")
+    )
     assert shown.run("document.querySelector('#evidence canvas').width") > 200
     shown.run("document.querySelector('#evidence [type=range]').focus()")
     for _ in range(2):
@@ -188,7 +200,8 @@ def test_a_motion_plays_and_its_errors_are_said_at_every_time(make, page):
     end = shown.run("document.querySelector('.motion .body.theory').getAttribute('d')").split("L")[1]
     x, y = 150 + 80 * 0.8 * math.sin(0.2), 150 + 80 * 0.8 * math.cos(0.2)
     assert [float(v) for v in end.split()] == pytest.approx([x, y], abs=0.06)
-    shown.run("document.querySelector('.player button').click(); new Promise((kept) => setTimeout(kept, 600))")
+    button = "document.querySelector('.player button')"
+    shown.run(f"{button}.click(); " + UNTIL.format(f"{button}.textContent === 'Play'"))
     assert shown.run("document.querySelector('.player output').textContent").startswith("0.50 s")
     assert shown.run("document.querySelector('.player button').textContent") == "Play"
 
@@ -239,9 +252,9 @@ def test_every_equation_of_the_documents_is_typeset_whole(page, make):
 @pytest.mark.parametrize("text", HOSTILE)
 def test_hostile_text_stays_text_when_it_is_looked_at(make, page, text):
     shown = page(everywhere(make, text, "differs"))
-    shown.run("location.hash = '0-0'; new Promise((kept) => setTimeout(kept, 50))")
+    go(shown, "0-0")
     shown.run("document.querySelectorAll('details').forEach((d) => { d.open = true })")
-    shown.run("location.hash = '0'; new Promise((kept) => setTimeout(kept, 50))")
+    go(shown, "0")
     assert shown.run("document.querySelectorAll('img, iframe, object, embed, form:not(#filters)').length") == 0
     assert shown.run("document.querySelectorAll('script').length") == 2
     assert shown.run("document.querySelector('[onerror], [onmouseover]')") is None
@@ -253,7 +266,7 @@ def test_it_fits_and_can_be_read(make, page, width, dark):
     shown = page(red(make), known_in(red(make), [Entry("n-leg-*", "mujoco", "issue 12")]))
     shown.view(width, 844, dark=dark)
     for place in ("", "1-0", "1"):
-        shown.run(f"location.hash = '{place}'; new Promise((kept) => setTimeout(kept, 50))")
+        go(shown, place)
         assert shown.run("document.documentElement.scrollWidth") <= width, place
         assert shown.run("document.getElementById('evidence').scrollWidth") <= width, place
         assert shown.run(LOW_CONTRAST) == [], place
