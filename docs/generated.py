@@ -9,7 +9,7 @@ from furiko.checks.registry import CHECKS
 from furiko.derivations.audit.audit import audit
 from furiko.derivations.audit.audit_record import JudgedEquation
 from furiko.diagnosis.finding import CAUSES
-from furiko.engines import engine_info, engine_names
+from furiko.engines import engine_info, engine_names, names_on_request
 from furiko.models import find_scenes
 from furiko.records.schema import SCHEMAS, schema
 from furiko.reference import EQUATIONS
@@ -54,13 +54,15 @@ def engines() -> Iterator[str]:
     yield "# Engines"
     yield ""
     yield "`furiko engines` has the same, with the versions that are installed."
+    yield "\\* runs only where it is named: `-e NAME`."
     yield ""
-    infos = [engine_info(name) for name in engine_names()]
+    always = engine_names()
+    infos = [engine_info(name) for name in (*always, *names_on_request())]
     yield from table(
         ("engine", "formulation", "package", "tested with", "integrators", "does not give"),
         [
             (
-                info.name,
+                info.name + ("" if info.name in always else " *"),
                 info.formulation,
                 info.package,
                 ", ".join(info.tested),

@@ -1,4 +1,4 @@
-"""Prints the README's table of worst acceleration errors from a report: ``python docs/worst_errors.py [FOLDER]``."""
+"""Prints the worst errors of ``reference/measured.md`` from a report: ``python docs/worst_errors.py [FOLDER]``."""
 
 import sys
 
