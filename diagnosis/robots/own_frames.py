@@ -55,7 +55,7 @@ def merged_like(expected: SpatialMechanism, found: SpatialMechanism) -> SpatialM
         whole = bodies[index]
         if body.parent != WORLD:
             above = bodies[body.parent]
-            inertial = above.inertial + whole.inertial.transformed(_pose(body))
+            inertial = above.inertial + whole.inertial.transformed(body.pose)
             bodies[body.parent] = replace(above, inertial=inertial, meshes=above.meshes + whole.meshes)
         bodies[index] = replace(whole, inertial=ZERO_INERTIAL, meshes=0.0)
     missing = {body.name for body in bodies if not body.joints and body.name not in theirs}
@@ -74,23 +74,19 @@ def _hung_on(bodies: Sequence[RigidBody], fixed: set[str], left_out: set[str]) -
     kept = 0
     for body in bodies:
         parent, outer = placed[body.parent] if body.parent != WORLD else (WORLD, IDENTITY)
-        placed.append((parent, outer @ _pose(body)) if body.name in fixed else (kept, IDENTITY))
+        placed.append((parent, outer @ body.pose) if body.name in fixed else (kept, IDENTITY))
         if body.name in left_out:
             continue
         kept += 1
         if outer is IDENTITY:
             yield replace(body, parent=parent)
         else:
-            pose = outer @ _pose(body)
+            pose = outer @ body.pose
             yield replace(body, parent=parent, position=pose.translation, quaternion=to_quaternion(pose.rotation))
 
 
 def _weightless(inertial: Inertial) -> bool:
     return not inertial.mass and not inertial.tensor.any()
-
-
-def _pose(body: RigidBody) -> Pose:
-    return Pose(from_quaternion(body.quaternion), body.position)
 
 
 def _structure(mechanism: SpatialMechanism) -> list[tuple[str, str, list[tuple[str, str]]]]:
@@ -166,7 +162,7 @@ def _displaced(other: RigidBody, body: RigidBody) -> float:
     """
     anchor = body.joints[0].anchor if body.joints else np.zeros(3)
     origins = float(np.linalg.norm(other.position - body.position))
-    return min(origins, float(np.linalg.norm(_pose(other).point(anchor) - _pose(body).point(anchor))))
+    return min(origins, float(np.linalg.norm(other.pose.point(anchor) - body.pose.point(anchor))))
 
 
 def _joint(one: Joint, joint: Joint, length: float) -> Iterator[FieldDifference]:

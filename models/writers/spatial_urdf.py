@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..errors import InvalidInput
 from ..spatial import IDENTITY, Inertial, Pose, from_axis_angle
 from ..spatial_mechanism import WORLD, Joint, RigidBody, SpatialMechanism
-from .explicit import placed_inertials, pose_of, positive, row, unique_names
+from .explicit import placed_inertials, positive, row, unique_names
 from .urdf import NO_LIMIT
 
 Array = NDArray[np.float64]
@@ -44,7 +44,7 @@ def spatial_urdf(mechanism: SpatialMechanism, name: str = "mechanism") -> str:
         frames.append(_frame(body))
         _link(robot, link, inertial.transformed(_inverse(frames[-1])))
         above = IDENTITY if body.parent == WORLD else frames[body.parent]
-        place = _inverse(above) @ pose_of(body) @ _at_zero(body) @ frames[-1]
+        place = _inverse(above) @ body.pose @ _at_zero(body) @ frames[-1]
         _joint(robot, body, link, "world" if body.parent == WORLD else names[body.parent], place)
     ElementTree.indent(robot)
     return ElementTree.tostring(robot, encoding="unicode") + "\n"
