@@ -47,14 +47,19 @@ class Inertial:
     centre: Array
     tensor: Array
 
+    @property
+    def weightless(self) -> bool:
+        """Whether there is neither mass nor inertia."""
+        return not self.mass and not self.tensor.any()
+
     def transformed(self, pose: Pose) -> Inertial:
         """The same inertial in the outer frame of ``pose``; it is given in the inner one."""
         return Inertial(self.mass, pose.point(self.centre), pose.rotation @ self.tensor @ pose.rotation.T)
 
     def __add__(self, other: Inertial) -> Inertial:
-        if other.mass == 0 and not other.tensor.any():
+        if other.weightless:
             return self
-        if self.mass == 0 and not self.tensor.any():
+        if self.weightless:
             return other
         mass = self.mass + other.mass
         share = other.mass / mass if mass > 0 else 0.5

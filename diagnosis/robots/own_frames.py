@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...models.spatial import IDENTITY, ZERO_INERTIAL, Inertial, Pose, from_quaternion, to_quaternion
+from ...models.spatial import IDENTITY, ZERO_INERTIAL, Pose, from_quaternion, to_quaternion
 from ...models.spatial_mechanism import WORLD, Joint, RigidBody, SpatialMechanism
 from .numbers import SAME, FieldDifference, inertial_differences, joint_numbers, plain, uncertain_tensor
 
@@ -50,7 +50,7 @@ def merged_like(expected: SpatialMechanism, found: SpatialMechanism) -> SpatialM
     theirs = {body.name: body.inertial for body in found.bodies}
     bodies = list(expected.bodies)
     for index, body in reversed([*enumerate(bodies)]):
-        if body.joints or not _weightless(theirs.get(body.name, ZERO_INERTIAL)):
+        if body.joints or not theirs.get(body.name, ZERO_INERTIAL).weightless:
             continue
         whole = bodies[index]
         if body.parent != WORLD:
@@ -83,10 +83,6 @@ def _hung_on(bodies: Sequence[RigidBody], fixed: set[str], left_out: set[str]) -
         else:
             pose = outer @ body.pose
             yield replace(body, parent=parent, position=pose.translation, quaternion=to_quaternion(pose.rotation))
-
-
-def _weightless(inertial: Inertial) -> bool:
-    return not inertial.mass and not inertial.tensor.any()
 
 
 def _structure(mechanism: SpatialMechanism) -> list[tuple[str, str, list[tuple[str, str]]]]:
@@ -129,7 +125,7 @@ def _carrying(mechanism: SpatialMechanism) -> list[bool]:
     """Of each body, whether it has a joint, moves with a mass, or carries one that does: other places are no matter."""
     moves = _moving(mechanism)
     matters = [
-        bool(body.joints) or (moving and not _weightless(body.inertial))
+        bool(body.joints) or (moving and not body.inertial.weightless)
         for body, moving in zip(mechanism.bodies, moves, strict=True)
     ]
     for index, body in reversed([*enumerate(mechanism.bodies)]):

@@ -145,7 +145,7 @@ def _model(mechanism: SpatialMechanism) -> tuple[Any, list[int]]:
             pose = Pose(np.eye(3), -anchor)
         held[b] = joint, pose
         inertial = body.inertial
-        if joint and (inertial.mass or inertial.tensor.any()):
+        if joint and not inertial.weightless:
             inertia = pinocchio.Inertia(float(inertial.mass), inertial.centre, inertial.tensor)
             model.appendBodyToJoint(joint, inertia, _se3(pose))
     armature = np.zeros(model.nv)
