@@ -101,7 +101,8 @@ def _differences(
     mesh_axes: float,
 ) -> Iterator[FieldDifference]:
     theirs = {body.name: body for body in found.bodies}
-    moves, matters = _moving(expected), _carrying(expected)
+    moves = _moving(expected)
+    matters = _carrying(expected, moves)
     for index, body in enumerate(expected.bodies):
         other = theirs[body.name]
         if matters[index]:
@@ -121,9 +122,11 @@ def _moving(mechanism: SpatialMechanism) -> list[bool]:
     return moves
 
 
-def _carrying(mechanism: SpatialMechanism) -> list[bool]:
-    """Of each body, whether it has a joint, moves with a mass, or carries one that does: other places are no matter."""
-    moves = _moving(mechanism)
+def _carrying(mechanism: SpatialMechanism, moves: list[bool]) -> list[bool]:
+    """Of each body, whether it has a joint, moves with a mass, or carries one that does: other places are no matter.
+
+    ``moves``: of each, whether a joint moves it.
+    """
     matters = [
         bool(body.joints) or (moving and not body.inertial.weightless)
         for body, moving in zip(mechanism.bodies, moves, strict=True)
