@@ -155,3 +155,8 @@ def from_x_and_y(six: Any) -> Array:
 def symmetric(xx: float, yy: float, zz: float, xy: float, xz: float, yz: float) -> Array:
     """The symmetric tensor (3, 3) of these six components."""
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
+def components(tensor: Array) -> list[float]:
+    """xx, yy, zz, xy, xz, yz of a symmetric tensor (3, 3), as :func:`symmetric` takes them."""
+    return [float(tensor[i, j]) for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]

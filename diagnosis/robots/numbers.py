@@ -8,14 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...models.readers.mjcf.inertials import POINT_MASS_BOUND
-from ...models.spatial import Inertial
+from ...models.spatial import Inertial, components
 from ...models.spatial_mechanism import Array, Joint
+from ...reference.rounding.bounds import EPSILON
 from .moving_links import MovingLink
 
 # Readers turn frames into one another, diagonalise tensors and add up meshes: 1e-14 of the sizes where both are right.
 # What is written with ten digits or fewer is far beyond this.
 SAME = 1e-11
-EPSILON = 2.0**-52
 NUMBERS = ("armature", "damping", "friction", "stiffness")  # of a joint, zero where it is ideal
 UNITS_TURNING = {"armature": "kg m²", "damping": "N m s/rad", "friction": "N m", "stiffness": "N m/rad"}
 UNITS_SLIDING = {"armature": "kg", "damping": "N s/m", "friction": "N", "stiffness": "N/m"}
@@ -97,7 +97,7 @@ def inertial_differences(
             float(np.abs(turn @ theirs.tensor @ turn.T - ours.tensor).max()),
         )
         if far > SAME * largest + rounding:
-            found, wanted = _six(theirs.tensor), _six(ours.tensor)
+            found, wanted = components(theirs.tensor), components(ours.tensor)
             yield FieldDifference("inertia", where, "inertia", found, wanted, "kg m²", far / largest)
 
 
@@ -114,12 +114,6 @@ def apart(found: Array, expected: Array, turn: Array) -> float:
     return float(min(np.linalg.norm(found - expected), np.linalg.norm(turn @ found - expected)))
 
 
-def plain(values: Array) -> list[float]:
-    """An array's numbers."""
+def plain(values: Iterable[float]) -> list[float]:
+    """An array's numbers, as Python has them."""
     return [float(value) for value in values]
-
-
-def _six(tensor: Array) -> list[float]:
-    """xx, yy, zz, xy, xz, yz."""
-    t = tensor
-    return [float(v) for v in (t[0, 0], t[1, 1], t[2, 2], t[0, 1], t[0, 2], t[1, 2])]
