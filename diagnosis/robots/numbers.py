@@ -54,13 +54,27 @@ def joint_numbers(theirs: Joint, ours: Joint, limits: bool, ignored: frozenset[s
             yield FieldDifference(CAUSE_OF.get(name, name), where, name, found, wanted, units[name], size)
     spring = ours.stiffness and theirs.stiffness and ours.kind in ("hinge", "slide")
     if spring and "stiffness" not in ignored:
-        found, wanted = theirs.springref, ours.springref
-        if abs(found - wanted) > SAME * max(abs(wanted), 1.0):
-            unit = "m" if ours.kind == "slide" else "rad"
-            yield FieldDifference("spring-reference", where, "springref", found, wanted, unit, abs(found - wanted))
+        yield from coordinate_difference("spring-reference", "springref", theirs, ours)
     if limits and not _same_limits(theirs.limits, ours.limits):
         found_, wanted_ = theirs.limits or "none", ours.limits or "none"
         yield FieldDifference("joint-limit", where, "limits", str(found_), str(wanted_), "", 1.0)
+
+
+def coordinate_difference(cause: str, name: str, theirs: Joint, ours: Joint) -> Iterator[FieldDifference]:
+    """Of a hinge or slide the coordinate that is called ``name``: nothing where it is the same."""
+    found, wanted = getattr(theirs, name), getattr(ours, name)
+    if abs(found - wanted) > SAME * max(abs(wanted), 1.0):
+        unit = "m" if ours.kind == "slide" else "rad"
+        yield FieldDifference(cause, f"joint {ours.name!r}", name, found, wanted, unit, abs(found - wanted))
+
+
+def axis_difference(theirs: Array, ours: Array, where: str, turn: Array) -> FieldDifference | None:
+    """Two axes of a joint, unit vectors (3,): None where they are the same, as they are or with ``theirs`` turned."""
+    size = apart(theirs, ours, turn)
+    if not size > SAME:
+        return None
+    cause = "angle-convention" if np.linalg.norm(theirs + ours) <= SAME else "joint-axis"
+    return FieldDifference(cause, where, "axis", plain(theirs), plain(ours), "", size)
 
 
 def _same_limits(found: tuple[float, float] | None, expected: tuple[float, float] | None) -> bool:

@@ -13,7 +13,16 @@ import numpy as np
 
 from ...models.spatial import IDENTITY, ZERO_INERTIAL, Pose, from_quaternion, to_quaternion
 from ...models.spatial_mechanism import WORLD, Joint, RigidBody, SpatialMechanism
-from .numbers import SAME, FieldDifference, inertial_differences, joint_numbers, plain, uncertain_tensor
+from .numbers import (
+    SAME,
+    FieldDifference,
+    axis_difference,
+    coordinate_difference,
+    inertial_differences,
+    joint_numbers,
+    plain,
+    uncertain_tensor,
+)
 
 SINGLE = ("hinge", "slide")
 
@@ -168,15 +177,11 @@ def _joint(one: Joint, joint: Joint, length: float) -> Iterator[FieldDifference]
     where, across = f"joint {joint.name!r}", one.anchor - joint.anchor
     if joint.kind in SINGLE:
         theirs, ours = (j.axis / np.linalg.norm(j.axis) for j in (one, joint))
-        if np.linalg.norm(theirs - ours) > SAME:
-            opposite = np.linalg.norm(theirs + ours) <= SAME
-            cause = "angle-convention" if opposite else "joint-axis"
-            size = float(np.linalg.norm(theirs - ours))
-            yield FieldDifference(cause, where, "axis", plain(theirs), plain(ours), "", size)
+        axis = axis_difference(theirs, ours, where, np.eye(3))
+        if axis is not None:
+            yield axis
         across = across - (across @ ours) * ours
-        if abs(one.ref - joint.ref) > SAME * max(abs(joint.ref), 1.0):
-            unit = "m" if joint.kind == "slide" else "rad"
-            yield FieldDifference("joint-reference", where, "ref", one.ref, joint.ref, unit, abs(one.ref - joint.ref))
+        yield from coordinate_difference("joint-reference", "ref", one, joint)
     size = float(np.linalg.norm(across)) / length
     if joint.kind in ("hinge", "ball") and size > SAME:
         yield FieldDifference("joint-placement", where, "anchor", plain(one.anchor), plain(joint.anchor), "m", size)
