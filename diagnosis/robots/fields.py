@@ -145,9 +145,9 @@ def _turned_axis_only(theirs: SeenJoint, ours: SeenJoint) -> bool:
 
 
 def _gravity(found: Array, expected: Array) -> Iterator[FieldDifference]:
-    apart, size = float(np.linalg.norm(found - expected)), float(np.linalg.norm(expected))
-    if apart <= SAME * max(size, 1e-300):
+    off, size = float(np.linalg.norm(found - expected)), float(np.linalg.norm(expected))
+    if off <= SAME * max(size, 1e-300):
         return
     turned = abs(float(np.linalg.norm(found)) - size) <= SAME * size
     cause = "gravity-turned" if turned else "gravity"
-    yield FieldDifference(cause, "gravity", "gravity", plain(found), plain(expected), "m/s²", apart / max(size, 1e-300))
+    yield FieldDifference(cause, "gravity", "gravity", plain(found), plain(expected), "m/s²", off / max(size, 1e-300))
