@@ -72,4 +72,4 @@ def test_a_tensor_that_differs_in_the_seventh_digit_is_told_with_so_many(tmp_pat
     fault = next(fault for fault in asked.faults() if (fault.kind, fault.body) == ("product", "upper"))
     (found,) = asked.findings(fault)
     theirs, ours = found.says.split(", the file says ")
-    assert theirs.rpartition("inertia ")[2] != ours.partition(" (/")[0]
+    assert not ours.startswith(theirs.rpartition("inertia ")[2])
