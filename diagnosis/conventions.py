@@ -111,12 +111,10 @@ def _conventions(engine: Any, m: Mechanism) -> Iterator[Convention]:
     if n > 1 and any(parent != SUPPORT for parent in m.parents):
         for mask in (7, 1, 2, 4, 3, 5, 6):
             which = " and ".join(words[bit] for bit in (1, 2, 4) if mask & bit)
-            for turned, says in (
-                (to_absolute, "absolute values are used as relative ones"),
-                (to_relative, "relative values are used as absolute ones"),
-            ):
-                # Answers go the other way: what comes back relative has been used as if it were absolute.
-                sentence = f"{which}: {says if mask != 4 else _turned_round(says)}"
+            says = ("absolute values are used as relative ones", "relative values are used as absolute ones")
+            # Answers go the other way: what comes back relative has been used as if it were absolute.
+            for turned, said in zip((to_absolute, to_relative), says if mask != 4 else says[::-1], strict=True):
+                sentence = f"{which}: {said}"
                 a, b, c = (turned if mask & bit else same for bit in (1, 2, 4))
                 yield Convention("angle-convention", sentence, a, b, c, sentence)
     for mask in (7, 1, 2, 4, 3, 5, 6):
@@ -140,10 +138,6 @@ def _conventions(engine: Any, m: Mechanism) -> Iterator[Convention]:
                 matrix,
                 measured=str(numbers),
             )
-
-
-def _turned_round(says: str) -> str:
-    return says.replace("absolute", "?").replace("relative", "absolute").replace("?", "relative")
 
 
 def _orders(engine: Any, m: Mechanism, to_absolute: Array) -> Iterator[list[int]]:

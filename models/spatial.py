@@ -47,14 +47,19 @@ class Inertial:
     centre: Array
     tensor: Array
 
+    @property
+    def weightless(self) -> bool:
+        """Whether there is neither mass nor inertia."""
+        return not self.mass and not self.tensor.any()
+
     def transformed(self, pose: Pose) -> Inertial:
         """The same inertial in the outer frame of ``pose``; it is given in the inner one."""
         return Inertial(self.mass, pose.point(self.centre), pose.rotation @ self.tensor @ pose.rotation.T)
 
     def __add__(self, other: Inertial) -> Inertial:
-        if other.mass == 0 and not other.tensor.any():
+        if other.weightless:
             return self
-        if self.mass == 0 and not self.tensor.any():
+        if self.weightless:
             return other
         mass = self.mass + other.mass
         share = other.mass / mass if mass > 0 else 0.5
@@ -150,3 +155,8 @@ def from_x_and_y(six: Any) -> Array:
 def symmetric(xx: float, yy: float, zz: float, xy: float, xz: float, yz: float) -> Array:
     """The symmetric tensor (3, 3) of these six components."""
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
+def components(tensor: Array) -> list[float]:
+    """xx, yy, zz, xy, xz, yz of a symmetric tensor (3, 3), as :func:`symmetric` takes them."""
+    return [float(tensor[i, j]) for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]

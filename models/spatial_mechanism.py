@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import InvalidInput
-from .spatial import ZERO_INERTIAL, Inertial
+from .spatial import ZERO_INERTIAL, Inertial, Pose, from_quaternion
 
 Array = NDArray[np.float64]
 
@@ -90,6 +90,11 @@ class RigidBody:
     inertial: Inertial = ZERO_INERTIAL
     where: str = ""
     meshes: float = 0.0
+
+    @property
+    def pose(self) -> Pose:
+        """Its frame in its parent's, in the reference configuration."""
+        return Pose(from_quaternion(self.quaternion), self.position)
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,6 @@ from itertools import count
 
 import numpy as np
 
-from furiko.models.spatial import Pose, from_quaternion
 from furiko.models.spatial_mechanism import SpatialMechanism
 
 
@@ -90,6 +89,6 @@ def merged(mechanism):
     found = {body.name: [body, body.inertial] for body in mechanism.bodies if body.joints}
     for body in mechanism.bodies:
         if not body.joints and body.parent >= 0:
-            pose = Pose(from_quaternion(body.quaternion), body.position)
+            pose = body.pose
             found[mechanism.bodies[body.parent].name][1] += body.inertial.transformed(pose)
     return found

@@ -27,7 +27,7 @@ from furiko.diagnosis.robots.moving_links import moving_links
 from furiko.diagnosis.robots.states import probe_states
 from furiko.engines.model_files.robot import ROBOT_READERS
 from furiko.models.readers.model_file import read_model
-from furiko.models.spatial import IDENTITY, Pose, from_quaternion
+from furiko.models.spatial import IDENTITY
 from furiko.models.spatial_mechanism import WORLD
 
 ROBOTS = ("arm-7", "quadruped", "humanoid", "hopper", "acrobot")
@@ -54,7 +54,7 @@ def robot_size(mechanism):
     poses = []
     for body in mechanism.bodies:
         outer = IDENTITY if body.parent == WORLD else poses[body.parent]
-        poses.append(outer @ Pose(from_quaternion(body.quaternion), body.position))
+        poses.append(outer @ body.pose)
     points = np.array([pose.translation for pose in poses])
     first = next(k for k, body in enumerate(mechanism.bodies) if body.joints)
     return float(np.linalg.norm(points - points[first], axis=1).max()) or float(

@@ -15,13 +15,14 @@ from ...models import InvalidInput
 from ...models.errors import installing
 from ...models.readers.model_file import ModelFile, read_model
 from ...models.readers.rules import Rules, mistakes_in
+from ...models.spatial import components
 from ...models.spatial_mechanism import SpatialMechanism
 from ..finding import Finding
 from .fields import field_differences
 from .free_armature import armature_finding, armature_in_body_axes
 from .measures import Measured, measured, worst
 from .misreadings import explain_reading
-from .numbers import FieldDifference
+from .numbers import FieldDifference, plain
 from .same_frame import frames_kept, moved_back, rounded
 from .simulation import simulation_findings
 from .wording import MOST_PLACES, Places, field_findings, mistake_finding
@@ -217,19 +218,18 @@ def mechanism_to_json(mechanism: SpatialMechanism) -> dict[str, Any]:
     """A mechanism for a report, SI units: bodies with parent, pose, joints and inertial in the body's own frame."""
     bodies = []
     for body in mechanism.bodies:
-        tensor = body.inertial.tensor
         entry: dict[str, Any] = {
             "name": body.name,
             "parent": mechanism.bodies[body.parent].name if body.parent >= 0 else None,
-            "position": _floats(body.position),
-            "quaternion": _floats(body.quaternion),
+            "position": plain(body.position),
+            "quaternion": plain(body.quaternion),
             "mass": float(body.inertial.mass),
-            "centre of mass": _floats(body.inertial.centre),
-            "inertia": _floats([tensor[0, 0], tensor[1, 1], tensor[2, 2], tensor[0, 1], tensor[0, 2], tensor[1, 2]]),
+            "centre of mass": plain(body.inertial.centre),
+            "inertia": components(body.inertial.tensor),
             "joints": [_joint(joint) for joint in body.joints],
         }
         bodies.append(entry)
-    return {"gravity": _floats(mechanism.gravity), "bodies": bodies}
+    return {"gravity": plain(mechanism.gravity), "bodies": bodies}
 
 
 def _joint(joint: Any) -> Mapping[str, Any]:
@@ -238,14 +238,10 @@ def _joint(joint: Any) -> Mapping[str, Any]:
     }
     entry: dict[str, Any] = {"name": joint.name, "kind": joint.kind}
     if joint.kind in ("hinge", "slide"):
-        entry["axis"] = _floats(joint.axis)
+        entry["axis"] = plain(joint.axis)
     if joint.kind in ("hinge", "ball"):
-        entry["anchor"] = _floats(joint.anchor)
+        entry["anchor"] = plain(joint.anchor)
     entry |= {name: value for name, value in numbers.items() if value}
     if joint.limits is not None:
-        entry["limits"] = _floats(joint.limits)
+        entry["limits"] = plain(joint.limits)
     return entry
-
-
-def _floats(values: Sequence[float] | Any) -> list[float]:
-    return [float(value) for value in values]

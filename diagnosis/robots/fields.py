@@ -12,6 +12,7 @@ from .numbers import (
     SAME,
     FieldDifference,
     apart,
+    axis_difference,
     inertial_differences,
     joint_numbers,
     largest_length,
@@ -124,12 +125,11 @@ def _turn(theirs: tuple[MovingLink, ...], other: MovingLink, ours: tuple[MovingL
 def _placement(other: MovingLink, link: MovingLink, turn: Array, length: float) -> Iterator[FieldDifference]:
     for theirs, ours in zip(other.joints, link.joints, strict=True):
         where = f"joint {ours.joint.name!r}"
-        size = apart(theirs.axis, ours.axis, turn)
-        if size > SAME:
-            if np.linalg.norm(theirs.axis + ours.axis) <= SAME:
-                yield FieldDifference("angle-convention", where, "axis", plain(theirs.axis), plain(ours.axis), "", size)
+        axis = axis_difference(theirs.axis, ours.axis, where, turn)
+        if axis is not None:
+            yield axis
+            if axis.cause == "angle-convention":
                 continue
-            yield FieldDifference("joint-axis", where, "axis", plain(theirs.axis), plain(ours.axis), "", size)
         size = apart(theirs.arm, ours.arm, turn) / length
         if size > SAME and not _turned_axis_only(theirs, ours):
             yield FieldDifference("joint-placement", where, "place", plain(theirs.arm), plain(ours.arm), "m", size)
@@ -145,9 +145,9 @@ def _turned_axis_only(theirs: SeenJoint, ours: SeenJoint) -> bool:
 
 
 def _gravity(found: Array, expected: Array) -> Iterator[FieldDifference]:
-    apart, size = float(np.linalg.norm(found - expected)), float(np.linalg.norm(expected))
-    if apart <= SAME * max(size, 1e-300):
+    off, size = float(np.linalg.norm(found - expected)), float(np.linalg.norm(expected))
+    if off <= SAME * max(size, 1e-300):
         return
     turned = abs(float(np.linalg.norm(found)) - size) <= SAME * size
     cause = "gravity-turned" if turned else "gravity"
-    yield FieldDifference(cause, "gravity", "gravity", plain(found), plain(expected), "m/s²", apart / max(size, 1e-300))
+    yield FieldDifference(cause, "gravity", "gravity", plain(found), plain(expected), "m/s²", off / max(size, 1e-300))

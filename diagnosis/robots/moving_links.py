@@ -67,7 +67,7 @@ def moving_links(mechanism: SpatialMechanism, q: Array | None = None) -> tuple[M
         outer = IDENTITY if at_world else poses[body.parent]
         link = WORLD if at_world else link_of_body[body.parent]
         point = np.zeros(3) if link == WORLD else points[link]
-        pose = outer @ Pose(from_quaternion(body.quaternion), body.position)
+        pose = outer @ body.pose
         seen = []
         for _ in body.joints:
             here = next(placed)

@@ -8,14 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...models.readers.mjcf.inertials import POINT_MASS_BOUND
-from ...models.spatial import Inertial
+from ...models.spatial import Inertial, components
 from ...models.spatial_mechanism import Array, Joint
+from ...reference.rounding.bounds import EPSILON
 from .moving_links import MovingLink
 
 # Readers turn frames into one another, diagonalise tensors and add up meshes: 1e-14 of the sizes where both are right.
 # What is written with ten digits or fewer is far beyond this.
 SAME = 1e-11
-EPSILON = 2.0**-52
 NUMBERS = ("armature", "damping", "friction", "stiffness")  # of a joint, zero where it is ideal
 UNITS_TURNING = {"armature": "kg m²", "damping": "N m s/rad", "friction": "N m", "stiffness": "N m/rad"}
 UNITS_SLIDING = {"armature": "kg", "damping": "N s/m", "friction": "N", "stiffness": "N/m"}
@@ -54,13 +54,27 @@ def joint_numbers(theirs: Joint, ours: Joint, limits: bool, ignored: frozenset[s
             yield FieldDifference(CAUSE_OF.get(name, name), where, name, found, wanted, units[name], size)
     spring = ours.stiffness and theirs.stiffness and ours.kind in ("hinge", "slide")
     if spring and "stiffness" not in ignored:
-        found, wanted = theirs.springref, ours.springref
-        if abs(found - wanted) > SAME * max(abs(wanted), 1.0):
-            unit = "m" if ours.kind == "slide" else "rad"
-            yield FieldDifference("spring-reference", where, "springref", found, wanted, unit, abs(found - wanted))
+        yield from coordinate_difference("spring-reference", "springref", theirs, ours)
     if limits and not _same_limits(theirs.limits, ours.limits):
         found_, wanted_ = theirs.limits or "none", ours.limits or "none"
         yield FieldDifference("joint-limit", where, "limits", str(found_), str(wanted_), "", 1.0)
+
+
+def coordinate_difference(cause: str, name: str, theirs: Joint, ours: Joint) -> Iterator[FieldDifference]:
+    """Of a hinge or slide the coordinate that is called ``name``: nothing where it is the same."""
+    found, wanted = getattr(theirs, name), getattr(ours, name)
+    if abs(found - wanted) > SAME * max(abs(wanted), 1.0):
+        unit = "m" if ours.kind == "slide" else "rad"
+        yield FieldDifference(cause, f"joint {ours.name!r}", name, found, wanted, unit, abs(found - wanted))
+
+
+def axis_difference(theirs: Array, ours: Array, where: str, turn: Array) -> FieldDifference | None:
+    """Two axes of a joint, unit vectors (3,): None where they are the same, as they are or with ``theirs`` turned."""
+    size = apart(theirs, ours, turn)
+    if not size > SAME:
+        return None
+    cause = "angle-convention" if np.linalg.norm(theirs + ours) <= SAME else "joint-axis"
+    return FieldDifference(cause, where, "axis", plain(theirs), plain(ours), "", size)
 
 
 def _same_limits(found: tuple[float, float] | None, expected: tuple[float, float] | None) -> bool:
@@ -97,7 +111,7 @@ def inertial_differences(
             float(np.abs(turn @ theirs.tensor @ turn.T - ours.tensor).max()),
         )
         if far > SAME * largest + rounding:
-            found, wanted = _six(theirs.tensor), _six(ours.tensor)
+            found, wanted = components(theirs.tensor), components(ours.tensor)
             yield FieldDifference("inertia", where, "inertia", found, wanted, "kg m²", far / largest)
 
 
@@ -114,12 +128,6 @@ def apart(found: Array, expected: Array, turn: Array) -> float:
     return float(min(np.linalg.norm(found - expected), np.linalg.norm(turn @ found - expected)))
 
 
-def plain(values: Array) -> list[float]:
-    """An array's numbers."""
+def plain(values: Iterable[float]) -> list[float]:
+    """An array's numbers, as Python has them."""
     return [float(value) for value in values]
-
-
-def _six(tensor: Array) -> list[float]:
-    """xx, yy, zz, xy, xz, yz."""
-    t = tensor
-    return [float(v) for v in (t[0, 0], t[1, 1], t[2, 2], t[0, 1], t[0, 2], t[1, 2])]

@@ -11,9 +11,18 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...models.spatial import IDENTITY, ZERO_INERTIAL, Inertial, Pose, from_quaternion, to_quaternion
+from ...models.spatial import IDENTITY, ZERO_INERTIAL, Pose, from_quaternion, to_quaternion
 from ...models.spatial_mechanism import WORLD, Joint, RigidBody, SpatialMechanism
-from .numbers import SAME, FieldDifference, inertial_differences, joint_numbers, plain, uncertain_tensor
+from .numbers import (
+    SAME,
+    FieldDifference,
+    axis_difference,
+    coordinate_difference,
+    inertial_differences,
+    joint_numbers,
+    plain,
+    uncertain_tensor,
+)
 
 SINGLE = ("hinge", "slide")
 
@@ -50,12 +59,12 @@ def merged_like(expected: SpatialMechanism, found: SpatialMechanism) -> SpatialM
     theirs = {body.name: body.inertial for body in found.bodies}
     bodies = list(expected.bodies)
     for index, body in reversed([*enumerate(bodies)]):
-        if body.joints or not _weightless(theirs.get(body.name, ZERO_INERTIAL)):
+        if body.joints or not theirs.get(body.name, ZERO_INERTIAL).weightless:
             continue
         whole = bodies[index]
         if body.parent != WORLD:
             above = bodies[body.parent]
-            inertial = above.inertial + whole.inertial.transformed(_pose(body))
+            inertial = above.inertial + whole.inertial.transformed(body.pose)
             bodies[body.parent] = replace(above, inertial=inertial, meshes=above.meshes + whole.meshes)
         bodies[index] = replace(whole, inertial=ZERO_INERTIAL, meshes=0.0)
     missing = {body.name for body in bodies if not body.joints and body.name not in theirs}
@@ -74,23 +83,15 @@ def _hung_on(bodies: Sequence[RigidBody], fixed: set[str], left_out: set[str]) -
     kept = 0
     for body in bodies:
         parent, outer = placed[body.parent] if body.parent != WORLD else (WORLD, IDENTITY)
-        placed.append((parent, outer @ _pose(body)) if body.name in fixed else (kept, IDENTITY))
+        placed.append((parent, outer @ body.pose) if body.name in fixed else (kept, IDENTITY))
         if body.name in left_out:
             continue
         kept += 1
         if outer is IDENTITY:
             yield replace(body, parent=parent)
         else:
-            pose = outer @ _pose(body)
+            pose = outer @ body.pose
             yield replace(body, parent=parent, position=pose.translation, quaternion=to_quaternion(pose.rotation))
-
-
-def _weightless(inertial: Inertial) -> bool:
-    return not inertial.mass and not inertial.tensor.any()
-
-
-def _pose(body: RigidBody) -> Pose:
-    return Pose(from_quaternion(body.quaternion), body.position)
 
 
 def _structure(mechanism: SpatialMechanism) -> list[tuple[str, str, list[tuple[str, str]]]]:
@@ -109,7 +110,8 @@ def _differences(
     mesh_axes: float,
 ) -> Iterator[FieldDifference]:
     theirs = {body.name: body for body in found.bodies}
-    moves, matters = _moving(expected), _carrying(expected)
+    moves = _moving(expected)
+    matters = _carrying(expected, moves)
     for index, body in enumerate(expected.bodies):
         other = theirs[body.name]
         if matters[index]:
@@ -129,11 +131,13 @@ def _moving(mechanism: SpatialMechanism) -> list[bool]:
     return moves
 
 
-def _carrying(mechanism: SpatialMechanism) -> list[bool]:
-    """Of each body, whether it has a joint, moves with a mass, or carries one that does: other places are no matter."""
-    moves = _moving(mechanism)
+def _carrying(mechanism: SpatialMechanism, moves: list[bool]) -> list[bool]:
+    """Of each body, whether it has a joint, moves with a mass, or carries one that does: other places are no matter.
+
+    ``moves``: of each, whether a joint moves it.
+    """
     matters = [
-        bool(body.joints) or (moving and not _weightless(body.inertial))
+        bool(body.joints) or (moving and not body.inertial.weightless)
         for body, moving in zip(mechanism.bodies, moves, strict=True)
     ]
     for index, body in reversed([*enumerate(mechanism.bodies)]):
@@ -166,22 +170,18 @@ def _displaced(other: RigidBody, body: RigidBody) -> float:
     """
     anchor = body.joints[0].anchor if body.joints else np.zeros(3)
     origins = float(np.linalg.norm(other.position - body.position))
-    return min(origins, float(np.linalg.norm(_pose(other).point(anchor) - _pose(body).point(anchor))))
+    return min(origins, float(np.linalg.norm(other.pose.point(anchor) - body.pose.point(anchor))))
 
 
 def _joint(one: Joint, joint: Joint, length: float) -> Iterator[FieldDifference]:
     where, across = f"joint {joint.name!r}", one.anchor - joint.anchor
     if joint.kind in SINGLE:
         theirs, ours = (j.axis / np.linalg.norm(j.axis) for j in (one, joint))
-        if np.linalg.norm(theirs - ours) > SAME:
-            opposite = np.linalg.norm(theirs + ours) <= SAME
-            cause = "angle-convention" if opposite else "joint-axis"
-            size = float(np.linalg.norm(theirs - ours))
-            yield FieldDifference(cause, where, "axis", plain(theirs), plain(ours), "", size)
+        axis = axis_difference(theirs, ours, where, np.eye(3))
+        if axis is not None:
+            yield axis
         across = across - (across @ ours) * ours
-        if abs(one.ref - joint.ref) > SAME * max(abs(joint.ref), 1.0):
-            unit = "m" if joint.kind == "slide" else "rad"
-            yield FieldDifference("joint-reference", where, "ref", one.ref, joint.ref, unit, abs(one.ref - joint.ref))
+        yield from coordinate_difference("joint-reference", "ref", one, joint)
     size = float(np.linalg.norm(across)) / length
     if joint.kind in ("hinge", "ball") and size > SAME:
         yield FieldDifference("joint-placement", where, "anchor", plain(one.anchor), plain(joint.anchor), "m", size)

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from ...models.spatial import IDENTITY, ZERO_INERTIAL, Inertial, Pose, from_quaternion, from_z_axis
+from ...models.spatial import IDENTITY, ZERO_INERTIAL, Inertial, Pose, from_z_axis
 from ...models.spatial_mechanism import WORLD, Joint, SpatialMechanism
 from ..exudyn_settings import Current, Initial, exudyn, items, quiet_settings, run
 from ..protocol import Array
@@ -135,7 +135,7 @@ def _links(mechanism: SpatialMechanism) -> tuple[list[int], list[Pose], list[Ine
     held: dict[int, tuple[int, Pose]] = {WORLD: (-1, IDENTITY)}  # of each body: its link, and its pose there
     for b, body in enumerate(mechanism.bodies):
         link, pose = held[body.parent]
-        pose = pose @ Pose(from_quaternion(body.quaternion), body.position)
+        pose = pose @ body.pose
         for joint in body.joints:
             at = _joint_frame(joint)
             parents.append(link)

@@ -24,7 +24,7 @@ from typing import Any
 
 import numpy as np
 
-from ...models.spatial import IDENTITY, Pose, from_quaternion
+from ...models.spatial import IDENTITY, Pose
 from ...models.spatial_mechanism import WORLD, Joint, SpatialMechanism
 from ...models.writers.spatial_mjcf import spatial_mjcf
 from ..model_files.robot_coordinates import Block, RobotCoordinates
@@ -136,7 +136,7 @@ def _model(mechanism: SpatialMechanism) -> tuple[Any, list[int]]:
     for b in _depth_first(mechanism):
         body = mechanism.bodies[b]
         joint, pose = held[body.parent]
-        pose = pose @ Pose(from_quaternion(body.quaternion), body.position)
+        pose = pose @ body.pose
         for k, moving in enumerate(body.joints, start=first.get(b, 0)):
             free = moving.kind == "free"
             anchor = np.zeros(3) if free else moving.anchor
@@ -145,7 +145,7 @@ def _model(mechanism: SpatialMechanism) -> tuple[Any, list[int]]:
             pose = Pose(np.eye(3), -anchor)
         held[b] = joint, pose
         inertial = body.inertial
-        if joint and (inertial.mass or inertial.tensor.any()):
+        if joint and not inertial.weightless:
             inertia = pinocchio.Inertia(float(inertial.mass), inertial.centre, inertial.tensor)
             model.appendBodyToJoint(joint, inertia, _se3(pose))
     armature = np.zeros(model.nv)

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 from ..errors import InvalidInput
 from ..projection import Body, SpatialHinge
-from ..spatial import Pose, from_quaternion
 from ..spatial_mechanism import Joint, RigidBody
 
 
@@ -16,7 +15,7 @@ def hinged(bodies: Sequence[RigidBody]) -> list[Body]:
         Body(
             body.name,
             body.parent,
-            Pose(from_quaternion(body.quaternion), body.position),
+            body.pose,
             tuple(map(_hinge, body.joints)),
             body.inertial,
             body.where,

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from ..errors import InvalidInput
-from ..spatial import ZERO_INERTIAL, Inertial, Pose, from_quaternion
+from ..spatial import ZERO_INERTIAL, Inertial
 from ..spatial_mechanism import WORLD, RigidBody, SpatialMechanism
 from .mjcf import LEAST_INERTIA
 
@@ -21,11 +21,6 @@ ROUNDED = 1e-9  # relative: principal moments may miss A + B ≥ C by this, as w
 def row(values: Iterable[float]) -> str:
     """Numbers, each with as many digits as it takes to read it back exactly."""
     return " ".join(repr(float(value) + 0.0) for value in values)
-
-
-def pose_of(body: RigidBody) -> Pose:
-    """Where the body is in its parent's frame."""
-    return Pose(from_quaternion(body.quaternion), body.position)
 
 
 def positive(inertial: Inertial) -> bool:
@@ -52,7 +47,7 @@ def placed_inertials(mechanism: SpatialMechanism) -> list[Inertial]:
                 found[index] = ZERO_INERTIAL
         elif not body.joints and (inertial.mass == 0 or not positive(inertial)):
             if not still[index]:
-                found[body.parent] = found[body.parent] + inertial.transformed(pose_of(body))
+                found[body.parent] = found[body.parent] + inertial.transformed(body.pose)
             found[index] = ZERO_INERTIAL
     for body, inertial in zip(mechanism.bodies, found, strict=True):
         if _impossible(inertial):

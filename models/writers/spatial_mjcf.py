@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from ..errors import InvalidInput
-from ..spatial import Inertial, Pose, from_axis_angle, from_quaternion, to_quaternion
+from ..spatial import Inertial, Pose, from_axis_angle, to_quaternion
 from ..spatial_mechanism import WORLD, Joint, RigidBody, SpatialMechanism
 from .explicit import placed_inertials, positive, row, unique_names
 from .mjcf import DEEPEST, LEAST_INERTIA
@@ -82,7 +82,7 @@ def _without_first_ref(body: RigidBody) -> RigidBody:
     else:
         turn = from_axis_angle(axis, -first.ref)
         back = Pose(turn, first.anchor - turn @ first.anchor)
-    pose = Pose(from_quaternion(body.quaternion), body.position) @ back
+    pose = body.pose @ back
     return replace(
         body,
         position=pose.translation,

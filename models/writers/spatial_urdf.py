@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InvalidInput
-from ..spatial import IDENTITY, Inertial, Pose, from_axis_angle
+from ..spatial import IDENTITY, Inertial, Pose, components, from_axis_angle
 from ..spatial_mechanism import WORLD, Joint, RigidBody, SpatialMechanism
-from .explicit import placed_inertials, pose_of, positive, row, unique_names
+from .explicit import placed_inertials, positive, row, unique_names
 from .urdf import NO_LIMIT
 
 Array = NDArray[np.float64]
@@ -44,7 +44,7 @@ def spatial_urdf(mechanism: SpatialMechanism, name: str = "mechanism") -> str:
         frames.append(_frame(body))
         _link(robot, link, inertial.transformed(_inverse(frames[-1])))
         above = IDENTITY if body.parent == WORLD else frames[body.parent]
-        place = _inverse(above) @ pose_of(body) @ _at_zero(body) @ frames[-1]
+        place = _inverse(above) @ body.pose @ _at_zero(body) @ frames[-1]
         _joint(robot, body, link, "world" if body.parent == WORLD else names[body.parent], place)
     ElementTree.indent(robot)
     return ElementTree.tostring(robot, encoding="unicode") + "\n"
@@ -104,9 +104,8 @@ def _link(robot: ElementTree.Element, name: str, inertial: Inertial) -> None:
     said = ElementTree.SubElement(element, "inertial")
     ElementTree.SubElement(said, "origin", xyz=row(inertial.centre), rpy="0 0 0")
     ElementTree.SubElement(said, "mass", value=row([inertial.mass]))
-    t = inertial.tensor
-    six = {"ixx": t[0, 0], "iyy": t[1, 1], "izz": t[2, 2], "ixy": t[0, 1], "ixz": t[0, 2], "iyz": t[1, 2]}
-    ElementTree.SubElement(said, "inertia", {key: row([value]) for key, value in six.items()})
+    six = zip(("ixx", "iyy", "izz", "ixy", "ixz", "iyz"), components(inertial.tensor), strict=True)
+    ElementTree.SubElement(said, "inertia", {key: row([value]) for key, value in six})
 
 
 def _joint(robot: ElementTree.Element, body: RigidBody, link: str, parent: str, place: Pose) -> None:

@@ -156,12 +156,12 @@ def eq_15(l: Array, rho: Array, L: Array) -> Members:
         by_case[j, :j] = 2 * rho * L[j] * l[:j]
         by_case[j, j] = 2 * rho * (L[j] - l[j] / 4) * l[j]
         by_case[j, j + 1 :] = 2 * rho * L[j + 1 :] * l[j + 1 :]
-    return by_case, 2 * rho * (_later(L) - _on_diagonal(l / 4)) * l
+    return by_case, 2 * rho * (later(L) - _on_diagonal(l / 4)) * l
 
 
 def eq_16(xp: Arithmetic, l: Array, rho: Array, g: Array, L: Array, p_ddot: Array, T: Array) -> Members:
     """(16) T_j + T_{j-1} from the directions' second derivatives [N], shape (…, n, 2); left and right side."""
-    coefficients = 2 * rho * (_later(L) - _on_diagonal(l / 4)) * l
+    coefficients = 2 * rho * (later(L) - _on_diagonal(l / 4)) * l
     return (
         T[..., 1:, :] + T[..., :-1, :],
         -_combined(coefficients, p_ddot) - (2 * rho * L * g)[..., None] * e_y(xp),
@@ -176,7 +176,7 @@ def p_second_derivative(xp: Arithmetic, theta: Array, omega: Array, alpha: Array
 def eq_17(xp: Arithmetic, l: Array, g: Array, theta: Array, omega: Array, alpha: Array, L: Array) -> Members:
     """(17) Equations of motion divided by ρ l_j, and zero [m²/s²], shape (…, n); a rod's own inertia stands apart."""
     cos, sin = xp.cos_sin_differences(theta)
-    lengths = (_later(L) - _on_diagonal(l / 4)) * l
+    lengths = (later(L) - _on_diagonal(l / 4)) * l
     inner = (lengths * (alpha[..., None, :] * cos + (omega**2)[..., None, :] * sin)).sum(-1)
     return l**2 / 12 * alpha + inner + L * g * xp.sin(theta), xp.array(np.zeros(theta.shape))
 
@@ -184,7 +184,7 @@ def eq_17(xp: Arithmetic, l: Array, g: Array, theta: Array, omega: Array, alpha:
 def eq_18(xp: Arithmetic, l: Array, g: Array, theta: Array, omega: Array, alpha: Array, L: Array) -> Members:
     """(18) Equations of motion divided by ρ l_j, and zero [m²/s²], shape (…, n)."""
     cos, sin = xp.cos_sin_differences(theta)
-    lengths = (_later(L) - _on_diagonal(l / 6)) * l
+    lengths = (later(L) - _on_diagonal(l / 6)) * l
     inner = (lengths * (alpha[..., None, :] * cos + (omega**2)[..., None, :] * sin)).sum(-1)
     return inner + L * g * xp.sin(theta), xp.array(np.zeros(theta.shape))
 
@@ -203,7 +203,7 @@ def eq_19(xp: Arithmetic, l: Array, g: Array, theta: Array, omega: Array, alpha:
 
 def eq_20(l: Array, L: Array) -> Members:
     """(20) α_jk [m], shape (n, n); symmetric."""
-    return (_later(L) - _on_diagonal(l / 6),)
+    return (later(L) - _on_diagonal(l / 6),)
 
 
 def eq_21(xp: Arithmetic, l: Array, theta: Array, alpha_jk: Array) -> Members:
@@ -226,7 +226,7 @@ def e_y(xp: Arithmetic) -> Array:
     return xp.array([0, 1])
 
 
-def _later(L: Array) -> Array:
+def later(L: Array) -> Array:
     """L_{j∨k}: the entry of the later of both indices, shape (n, n)."""
     index = np.arange(L.shape[-1])
     return np.asarray(L[np.maximum(index[:, None], index)])

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..arithmetic import Arithmetic, Array, sum_after
 from .equation import Equation, Members
-from .takeno import b_of_a, e_y, eq_21, p, q
+from .takeno import b_of_a, e_y, eq_21, later, p, p_second_derivative, q
 
 
 def directions(xp: Arithmetic, theta: Array) -> Members:
@@ -73,7 +73,7 @@ def second_derivative(xp: Arithmetic, theta: Array, omega: Array, alpha: Array) 
     cos, sin = xp.cos_sin(theta)
     first, second = np.stack([cos, sin], axis=-1), np.stack([-sin, cos], axis=-1)
     squares = (omega**2)[..., None]
-    return second * squares + first * alpha[..., None], -p(xp, theta) * squares + q(xp, theta) * alpha[..., None]
+    return second * squares + first * alpha[..., None], p_second_derivative(xp, theta, omega, alpha)
 
 
 def products(xp: Arithmetic, theta: Array) -> Members:
@@ -101,7 +101,7 @@ def rotation(
 ) -> Members:
     """(6) with (16) in it [N], shape (n,): three forms."""
     cos, sin = xp.cos_sin_differences(theta)
-    lengths = (_later(L) - np.diag(l / 4)) * l
+    lengths = (later(L) - np.diag(l / 4)) * l
     inner = (lengths * ((omega**2)[None, :] * sin + alpha[None, :] * cos)).sum(-1)
     return m * l / 12 * alpha, ((T[1:] + T[:-1]) * q(xp, theta)).sum(-1) / 2, -rho * inner - rho * L * g * xp.sin(theta)
 
@@ -114,25 +114,19 @@ def own_acceleration(l: Array, alpha: Array, L: Array) -> Members:
 def equal_lengths(l: Array, L: Array) -> Members:
     """α_jk for rods of one length [m], shape (n, n): three forms."""
     n, one = len(l), l[0]
-    later = np.maximum(np.arange(1, n + 1)[:, None], np.arange(1, n + 1))
     middle, last = np.empty((n, n), dtype=object), np.empty((n, n), dtype=object)
     for j in range(n):
         for k in range(n):
-            whole = int(n - later[j, k])
+            whole = n - max(j, k) - 1
             middle[j, k] = one * whole + one / 2 - (one / 6 if j == k else one * 0)
             last[j, k] = one * whole + (one / 3 if j == k else one / 2)
-    return _later(L) - np.diag(l / 6), middle, last
+    return later(L) - np.diag(l / 6), middle, last
 
 
 def symmetry(xp: Arithmetic, l: Array, theta: Array, alpha_jk: Array) -> Members:
     """A, its transpose, B and minus its transpose, for rods of one length [m²], shape (n, n) each."""
     ((a, b),) = eq_21(xp, l, theta, alpha_jk)
     return a, a.T, b, -b.T
-
-
-def _later(L: Array) -> Array:
-    index = np.arange(len(L))
-    return np.asarray(L[np.maximum(index[:, None], index)])
 
 
 def _pairs(n: int) -> Iterator[tuple[int, int]]:

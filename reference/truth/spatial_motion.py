@@ -79,7 +79,7 @@ def groups(mechanism: SpatialMechanism, bits: int) -> tuple[Group, ...]:
 def _add(group: Group, body: RigidBody, rotation: Any, position: Vector) -> None:
     """Add the body's inertial, its frame being there in the group's."""
     inertial = body.inertial
-    if inertial.mass == 0 and not inertial.tensor.any():
+    if inertial.weightless:
         return
     mass, tensor = arb(inertial.mass), _matrix(inertial.tensor)
     centre = _sum(position, _turned(rotation, _vector(inertial.centre)))

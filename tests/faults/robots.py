@@ -47,12 +47,11 @@ class Fault:
         return CAUSES[self.kind]
 
 
+@dataclass(frozen=True)
 class PlantedReader(RobotReader):
     """A known engine, whose model is changed after it has read the file."""
 
-    def planted(self, fault):
-        object.__setattr__(self, "fault", fault)
-        return self
+    fault: Any = None
 
     def load(self, path, language, folders=()):
         engine = super().load(path, language, folders)
@@ -64,7 +63,7 @@ class PlantedReader(RobotReader):
 
 def planted(reader, fault):
     """The reader of an engine that has this fault."""
-    return PlantedReader(**vars(reader)).planted(fault)
+    return PlantedReader(**vars(reader), fault=fault)
 
 
 def across(axis, rng):
@@ -76,7 +75,7 @@ def across(axis, rng):
 def with_component(tensor, kind, which):
     """A tensor with one of its moments larger by the fault's size, or a product by so much of the largest moment.
 
-    Seen in the tensor's principal axes, where products are zero: None where no body has such moments.
+    Seen in the tensor's principal axes, where products are zero. A moment that no body has so large is made smaller.
     """
     moments, axes = np.linalg.eigh(tensor)
     changed = np.diag(moments)

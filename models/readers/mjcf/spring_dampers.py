@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...errors import InvalidInput
-from ...spatial import Pose, from_quaternion
+from ...spatial import Pose
 from ...spatial_mechanism import Joint, RigidBody
 from ..attributes import Array
 
@@ -53,7 +53,7 @@ def _mass_matrix(bodies: Sequence[RigidBody]) -> Array:
     moving: list[Array] = []  # (3, nv) velocity of the point of each body that is at the world's origin
     at = 0
     for body in bodies:
-        here = Pose(from_quaternion(body.quaternion), body.position)
+        here = body.pose
         w, v = np.zeros((3, freedoms)), np.zeros((3, freedoms))
         if body.parent >= 0:
             here = poses[body.parent] @ here

@@ -59,7 +59,7 @@ def in_other_frames(mechanism, seed):
     bodies = []
     for body, frame in zip(mechanism.bodies, frames, strict=True):
         back = inverse(frame)
-        pose = Pose(from_quaternion(body.quaternion), body.position) @ frame
+        pose = body.pose @ frame
         if body.parent != WORLD:
             pose = inverse(frames[body.parent]) @ pose
         joints = tuple(
