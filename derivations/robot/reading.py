@@ -83,8 +83,7 @@ class RobotDerivation:
     def numeric(self, values: dict[str, float]) -> tuple[Formula, ...]:
         """The rows with these values of the constants, taken as exact; g stays a symbol."""
         space = self.submission.space
-        places = {4 * space.n + 2 + space.extra.index(name, space.n): value for name, value in values.items()}
-        formulas = {place: constant(fmpq(*value.as_integer_ratio())) for place, value in places.items()}
+        formulas = {space.own_place(name): constant(fmpq(*value.as_integer_ratio())) for name, value in values.items()}
         try:
             return tuple(space.replace(row, formulas) for row in self.rows)
         except ValueError:
