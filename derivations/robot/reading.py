@@ -170,7 +170,12 @@ def _constants(
     own: OwnEquations, usual: dict[str, Quantity], text: str, names: tuple[str, ...]
 ) -> tuple[dict[str, float], dict[str, Quantity]]:
     """The constants' values, and those that were taken from the file, where a usual name means one number of it."""
-    values = {plain_name(name) or name: value for name, value in own.numbers}
+    values: dict[str, float] = {}
+    for name, value in own.numbers:
+        plain = plain_name(name)
+        if plain is None:
+            raise InvalidInput(f"symbols.{name!s:.40}: a letter or a word, with an index if you like, is needed")
+        values[plain] = value
     if "g" in values:
         raise InvalidInput("symbols.g: gravity is the mechanism's; leave g out")
     taken = {plain_name(name) for name in (*names, *(name for name, _ in own.define))} | {"g"}

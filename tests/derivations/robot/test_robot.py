@@ -291,6 +291,8 @@ REFUSED = [
     (cart_pole("", UPRIGHT.replace('"hinge"', '"hinges"')), "symbols.theta: no joint is called 'hinges' (did you mean 'hinge'?); there are slider, hinge"),
     (cart_pole("", UPRIGHT[: UPRIGHT.index("2 =")]), "equations: 1 row for 2 joints; one for each joint is needed"),
     (cart_pole("", UPRIGHT.replace("x'' +", "x''*theta'' +")), "accelerations are multiplied by one another"),
+    (cart_pole("", UPRIGHT.replace("M = 1.1", '"M-1" = 1.1')), "symbols.M-1: a letter or a word, with an index"),
+    (cart_pole("", UPRIGHT.replace("M = 1.1", '"" = 1.1')), "symbols.: a letter or a word, with an index"),
     (cart_pole("", UPRIGHT.replace("M = 1.1", "M = nan")), "symbols.M: the name of a joint, or a finite number"),
     (cart_pole('lagrangian = "x"\n', UPRIGHT), "lagrangian: equations is given already"),
     (cart_pole('from = "upwards"\n', UPRIGHT), "from: 'upwards' is not known"),
