@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, TypeVar
@@ -149,10 +149,13 @@ def read_fields(data: dict[str, Any], reader: Reader) -> Submission:
     return reader.submission(rows, lagrangian)
 
 
-def opened(data: dict[str, Any], slashes: int = 0) -> Reader:
-    """A reader for the lines of these fields: mechanism, convention and the file's own names are read."""
+def opened(data: dict[str, Any], slashes: int = 0, constants: Sequence[str] = ()) -> Reader:
+    """A reader for the lines of these fields: mechanism, convention and the file's own names are read.
+
+    ``constants``: names of quantities besides those that a declared mechanism has.
+    """
     texts = list(_texts(data))
-    own = declared(data, texts)
+    own = declared(data, texts, constants)
     kind, n = _system(data) if own is None else ("mechanism", len(own.mechanism.bodies))
     convention = _convention(data, n)
     defined = data.get("define", {})

@@ -187,16 +187,12 @@ def _constants(
 
 def _reader(system: TreeSystem, own: OwnEquations, names: tuple[str, ...], constants: tuple[str, ...]) -> Reader:
     """The grader's own, told of coordinates and constants alone."""
-    bodies: list[dict[str, Any]] = [
-        {"name": f"body {k + 1}", "coordinate": name, "joint": joint.kind}
-        for k, (name, joint) in enumerate(zip(names, system.joints, strict=True))
+    bodies = [
+        {"name": f"body {k}", "coordinate": name, "joint": joint.kind}
+        for k, (name, joint) in enumerate(zip(names, system.joints, strict=True), 1)
     ]
-    fields = [(body, field) for body in bodies for field in ("mass", "length", "centre", "inertia", "at", "rest")]
-    for k, name in enumerate(constants):
-        body, field = fields[k % len(fields)]
-        body[field] = f"{body[field]} + {name}" if field in body else name
-    data = {"system": "mechanism", "bodies": bodies}
+    data: dict[str, Any] = {"system": "mechanism", "bodies": bodies}
     try:
-        return opened(data | ({"define": dict(own.define)} if own.define else {}))
+        return opened(data | ({"define": dict(own.define)} if own.define else {}), constants=constants)
     except InvalidInput as error:
         raise InvalidInput(f"symbols: {error}" if str(error).startswith("bodies") else str(error)) from None
