@@ -5,7 +5,7 @@ The change itself is that of :mod:`furiko.models.coordinates`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +33,10 @@ class RelativeCoordinates:
         relative[:, self._columns] = own
         return relative
 
+    def rows(self, *absolute: Array) -> Iterator[tuple[Array, ...]]:
+        """State after state, each of the given arrays (B, n) relative and in the engine's order, (n,)."""
+        return zip(*map(self.relative, absolute), strict=True)
+
     def absolute(self, relative: Array) -> Array:
         """θ = S q."""
         return to_absolute(self._parents, relative[:, self._columns])
@@ -40,3 +44,8 @@ class RelativeCoordinates:
     def absolute_forces(self, relative: Array) -> Array:
         """τ_abs = S⁻ᵀ τ_rel."""
         return forces_to_absolute(self._parents, relative[:, self._columns])
+
+
+def along_across(points: Iterable[Sequence[float] | Array]) -> Array:
+    """Points (x, y, z) of links that hang along -z at angle zero, as (along, across) of the planar tree, (n, 2)."""
+    return np.array([(-z, x) for x, _, z in points])

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..models import System, to_urdf
-from .coordinates import RelativeCoordinates
+from .coordinates import RelativeCoordinates, along_across
 from .protocol import Array, ModelFields
 from .quiet import silenced
 
@@ -43,8 +43,8 @@ class Dart:
         return ModelFields(
             dofs=int(self._skeleton.getNumDofs()),
             parents=tuple(-1 if parent is None else index[parent.getName()] for parent in parents),
-            hinges=_along_across([j.getTransformFromParentBodyNode().translation() for j in self._joints]),
-            centres=_along_across([inertia.getLocalCOM() for inertia in inertias]),
+            hinges=along_across([j.getTransformFromParentBodyNode().translation() for j in self._joints]),
+            centres=along_across([inertia.getLocalCOM() for inertia in inertias]),
             masses=np.array([inertia.getMass() for inertia in inertias]),
             inertias=np.array([inertia.getMoment()[1, 1] for inertia in inertias]),
             gravity=np.array(self._skeleton.getGravity()),
@@ -54,7 +54,7 @@ class Dart:
 
     def accelerations(self, theta: Array, omega: Array) -> Array:
         found = np.empty_like(theta)
-        for row, (q, v) in enumerate(self._relative(theta, omega)):
+        for row, (q, v) in enumerate(self._coordinates.rows(theta, omega)):
             self._set(q, v)
             self._skeleton.computeForwardDynamics()
             found[row] = self._skeleton.getAccelerations()
@@ -66,7 +66,7 @@ class Dart:
             self._skeleton.setGravity(np.zeros(3))
         found = np.empty_like(theta)
         try:
-            for row, (q, v, a) in enumerate(self._relative(theta, omega, alpha)):
+            for row, (q, v, a) in enumerate(self._coordinates.rows(theta, omega, alpha)):
                 self._set(q, v, a)
                 self._skeleton.computeInverseDynamics(False, False, False)
                 found[row] = self._skeleton.getForces()
@@ -77,7 +77,7 @@ class Dart:
 
     def joint_forces(self, theta: Array, omega: Array, alpha: Array) -> Array:
         found = np.empty((*theta.shape, 2))
-        for row, (q, v, a) in enumerate(self._relative(theta, omega, alpha)):
+        for row, (q, v, a) in enumerate(self._coordinates.rows(theta, omega, alpha)):
             self._set(q, v, a)
             self._skeleton.computeInverseDynamics(False, False, False)
             for link, body in enumerate(self._bodies):
@@ -89,7 +89,7 @@ class Dart:
 
     def energy(self, theta: Array, omega: Array) -> Array:
         found = np.empty((len(theta), 2))
-        for row, (q, v) in enumerate(self._relative(theta, omega)):
+        for row, (q, v) in enumerate(self._coordinates.rows(theta, omega)):
             self._set(q, v)
             found[row] = self._skeleton.computeKineticEnergy(), self._skeleton.computePotentialEnergy()
         return found
@@ -99,10 +99,3 @@ class Dart:
         self._skeleton.setVelocities(v)
         if a is not None:
             self._skeleton.setAccelerations(a)
-
-    def _relative(self, *absolute: Array) -> Any:
-        return zip(*map(self._coordinates.relative, absolute), strict=True)
-
-
-def _along_across(points: Any) -> Array:
-    return np.array([(-z, x) for x, _, z in points])

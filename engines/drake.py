@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..models import System, to_urdf
-from .coordinates import RelativeCoordinates
+from .coordinates import RelativeCoordinates, along_across
 from .protocol import Array, ModelFields
 from .quiet import silenced
 
@@ -45,8 +45,8 @@ class DrakeAba:
         return ModelFields(
             dofs=int(self._plant.num_velocities()),
             parents=tuple(index.get(joint.parent_body().index(), -1) for joint in self._joints),
-            hinges=_along_across([j.frame_on_parent().GetFixedPoseInBodyFrame().translation() for j in self._joints]),
-            centres=_along_across([inertia.get_com() for inertia in inertias]),
+            hinges=along_across([j.frame_on_parent().GetFixedPoseInBodyFrame().translation() for j in self._joints]),
+            centres=along_across([inertia.get_com() for inertia in inertias]),
             masses=np.array([inertia.get_mass() for inertia in inertias]),
             inertias=np.array([inertia.get_moments()[1] for inertia in about_centre]),
             gravity=np.array(self._plant.gravity_field().gravity_vector()),
@@ -56,7 +56,7 @@ class DrakeAba:
 
     def accelerations(self, theta: Array, omega: Array) -> Array:
         found = np.empty_like(theta)
-        for row, (q, v) in enumerate(self._relative(theta, omega)):
+        for row, (q, v) in enumerate(self._coordinates.rows(theta, omega)):
             self._set(q, v)
             found[row] = self._solve()
         return self._coordinates.absolute(found)
@@ -66,7 +66,7 @@ class DrakeAba:
 
     def inverse_dynamics(self, theta: Array, omega: Array, alpha: Array, *, gravity: bool = True) -> Array:
         found = np.empty_like(theta)
-        for row, (q, v, a) in enumerate(self._relative(theta, omega, alpha)):
+        for row, (q, v, a) in enumerate(self._coordinates.rows(theta, omega, alpha)):
             self._set(q, v)
             forces = trees.MultibodyForces_[float](self._plant)
             if gravity:
@@ -76,16 +76,13 @@ class DrakeAba:
 
     def energy(self, theta: Array, omega: Array) -> Array:
         found = np.empty((len(theta), 2))
-        for row, (q, v) in enumerate(self._relative(theta, omega)):
+        for row, (q, v) in enumerate(self._coordinates.rows(theta, omega)):
             self._set(q, v)
             found[row] = self._plant.CalcKineticEnergy(self._context), self._plant.CalcPotentialEnergy(self._context)
         return found
 
     def _set(self, q: Array, v: Array) -> None:
         self._plant.SetPositionsAndVelocities(self._context, np.concatenate([q, v]))
-
-    def _relative(self, *absolute: Array) -> Any:
-        return zip(*map(self._coordinates.relative, absolute), strict=True)
 
 
 class DrakeCrba(DrakeAba):
@@ -95,7 +92,3 @@ class DrakeCrba(DrakeAba):
         plant, context = self._plant, self._context
         forces = plant.CalcGravityGeneralizedForces(context) - plant.CalcBiasTerm(context)
         return np.linalg.solve(plant.CalcMassMatrix(context), forces)
-
-
-def _along_across(points: Any) -> Array:
-    return np.array([(-z, x) for x, _, z in points])

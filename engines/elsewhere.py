@@ -14,6 +14,7 @@ import importlib
 import os
 import sys
 import zlib
+from collections.abc import Iterable
 from functools import cache
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
@@ -35,6 +36,12 @@ def plugin_names() -> list[str]:
 def is_elsewhere(name: str) -> bool:
     """Whether a name is that of a class in a module, or of a file."""
     return ":" in name or _is_file(name)
+
+
+def look_in_current_folder(names: Iterable[str]) -> None:
+    """For adapters from elsewhere: put the current folder on Python's path, after all else."""
+    if any(map(is_elsewhere, names)) and os.getcwd() not in sys.path:
+        sys.path.append(os.getcwd())
 
 
 def adapter(name: str) -> Any:

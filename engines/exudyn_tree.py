@@ -84,7 +84,7 @@ class ExudynTree:
     def accelerations(self, theta: Array, omega: Array) -> Array:
         found = np.empty_like(theta)
         solver = exudyn.MainSolverImplicitSecondOrder()
-        for row, (q, v) in enumerate(self._relative(theta, omega)):
+        for row, (q, v) in enumerate(self._coordinates.rows(theta, omega)):
             self._start_at(q, v)
             solver.InitializeSolver(self._mbs, self._settings)
             found[row] = self._mbs.systemData.GetODE2Coordinates_tt()
@@ -95,7 +95,7 @@ class ExudynTree:
         forces = np.empty_like(theta)
         solver = exudyn.MainSolverImplicitSecondOrder()
         with self._in_unit_of_time(1.0 if gravity else 0.0):
-            for row, (q, v, a) in enumerate(self._relative(theta, omega, alpha)):
+            for row, (q, v, a) in enumerate(self._coordinates.rows(theta, omega, alpha)):
                 self._start_at(q, v)
                 solver.InitializeSolver(self._mbs, self._at_rest)
                 solver.ComputeMassMatrix(self._mbs)
@@ -137,7 +137,7 @@ class ExudynTree:
     def _energies(self, theta: Array, omega: Array) -> Array:
         data, outputs = self._mbs.systemData, exudyn.OutputVariableType
         energies = np.empty((len(theta), 2))
-        for row, (q, v) in enumerate(self._relative(theta, omega)):
+        for row, (q, v) in enumerate(self._coordinates.rows(theta, omega)):
             data.SetODE2Coordinates(q, Current)
             data.SetODE2Coordinates_t(v, Current)
             energies[row] = [
@@ -159,9 +159,6 @@ class ExudynTree:
     def _start_at(self, q: Array, v: Array) -> None:
         self._mbs.systemData.SetODE2Coordinates(q, Initial)
         self._mbs.systemData.SetODE2Coordinates_t(v, Initial)
-
-    def _relative(self, *absolute: Array) -> Any:
-        return zip(*map(self._coordinates.relative, absolute), strict=True)
 
 
 def _point(along_across: tuple[float, float]) -> list[float]:

@@ -28,7 +28,7 @@ import numpy as np
 
 from ..models import PlanarTree, System, to_mjcf
 from ..models.writers.mjcf import DEEPEST, LEAST_INERTIA
-from .coordinates import RelativeCoordinates
+from .coordinates import RelativeCoordinates, along_across
 from .protocol import Array, BareCall, ModelFields
 
 # MuJoCo's bindings have no type stubs that fit: Any, here and nowhere else.
@@ -70,8 +70,8 @@ class Mujoco:
         return ModelFields(
             dofs=int(model.nv),
             parents=tuple(link_of_body[int(parent)] for parent in model.body_parentid[bodies]),
-            hinges=_along_across(model.body_pos[bodies]),
-            centres=_along_across(model.body_ipos[bodies]),
+            hinges=along_across(model.body_pos[bodies]),
+            centres=along_across(model.body_ipos[bodies]),
             masses=model.body_mass[bodies].copy(),
             inertias=np.array([_inertia_about_y(model, body) for body in bodies]),
             gravity=np.zeros(3) if gravity_off else model.opt.gravity.copy(),
@@ -83,7 +83,7 @@ class Mujoco:
         model, data, forward = self._model, self._data, mujoco.mj_forward
         position, rate, acceleration = data.qpos, data.qvel, data.qacc
         found = np.empty_like(theta)
-        for row, (q, v) in enumerate(self._relative(theta, omega)):
+        for row, (q, v) in enumerate(self._coordinates.rows(theta, omega)):
             position[:], rate[:] = q, v
             forward(model, data)
             found[row] = acceleration
@@ -96,7 +96,7 @@ class Mujoco:
         if not gravity:
             model.opt.disableflags = kept | int(mujoco.mjtDisableBit.mjDSBL_GRAVITY)
         try:
-            for row, (q, v, a) in enumerate(self._relative(theta, omega, alpha)):
+            for row, (q, v, a) in enumerate(self._coordinates.rows(theta, omega, alpha)):
                 data.qpos[:], data.qvel[:], data.qacc[:] = q, v, a
                 mujoco.mj_inverse(model, data)
                 forces[row] = data.qfrc_inverse
@@ -107,7 +107,7 @@ class Mujoco:
     def joint_forces(self, theta: Array, omega: Array, alpha: Array) -> Array:
         model, data = self._model, self._data
         forces = np.empty((*theta.shape, 2))
-        for row, (q, v, a) in enumerate(self._relative(theta, omega, alpha)):
+        for row, (q, v, a) in enumerate(self._coordinates.rows(theta, omega, alpha)):
             data.qpos[:], data.qvel[:] = q, v
             mujoco.mj_fwdPosition(model, data)
             mujoco.mj_fwdVelocity(model, data)
@@ -120,7 +120,7 @@ class Mujoco:
     def energy(self, theta: Array, omega: Array) -> Array:
         model, data = self._model, self._data
         energies = np.empty((len(theta), 2))
-        for row, (q, v) in enumerate(self._relative(theta, omega)):
+        for row, (q, v) in enumerate(self._coordinates.rows(theta, omega)):
             data.qpos[:], data.qvel[:] = q, v
             mujoco.mj_fwdPosition(model, data)
             mujoco.mj_fwdVelocity(model, data)
@@ -155,7 +155,7 @@ class Mujoco:
         model, data, option = self._model, self._moving, self._model.opt
         mujoco.mj_resetData(model, data)
         _silence(data)
-        ((data.qpos[:], data.qvel[:]),) = self._relative(theta[None], omega[None])
+        ((data.qpos[:], data.qvel[:]),) = self._coordinates.rows(theta[None], omega[None])
         angles, rates = [data.qpos.copy()], [data.qvel.copy()]
         kept = option.integrator, option.timestep
         option.integrator, option.timestep = INTEGRATORS[integrator], step
@@ -167,9 +167,6 @@ class Mujoco:
         finally:
             option.integrator, option.timestep = kept
         return self._coordinates.absolute(np.array(angles)), self._coordinates.absolute(np.array(rates))
-
-    def _relative(self, *absolute: Array) -> Any:
-        return zip(*map(self._coordinates.relative, absolute), strict=True)
 
 
 def model_from_spec(tree: PlanarTree) -> Any:
@@ -252,10 +249,6 @@ def _silence(data: Any) -> None:
 def _point(along_across: tuple[float, float]) -> list[float]:
     along, across = along_across
     return [across, 0.0, 0.0 - along]
-
-
-def _along_across(points: Array) -> Array:
-    return np.stack([-points[:, 2], points[:, 0]], axis=1)
 
 
 def _inertia_about_y(model: Any, body: int) -> float:

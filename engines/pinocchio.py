@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 
 from ..models import InvalidInput, System, to_mjcf, to_urdf
-from .coordinates import RelativeCoordinates
+from .coordinates import RelativeCoordinates, along_across
 from .protocol import Array, BareCall, ModelFields, Native
 
 # Pinocchio is a C++ extension without types: Any, here and nowhere else.
@@ -58,8 +58,8 @@ class _Pinocchio:
         return ModelFields(
             dofs=int(model.nv),
             parents=tuple(link_of_joint[model.parents[joint]] for joint in joints),
-            hinges=_along_across(model.jointPlacements[joint].translation for joint in joints),
-            centres=_along_across(inertia.lever for inertia in inertias),
+            hinges=along_across(model.jointPlacements[joint].translation for joint in joints),
+            centres=along_across(inertia.lever for inertia in inertias),
             masses=np.array([inertia.mass for inertia in inertias]),
             inertias=np.array([inertia.inertia[1, 1] for inertia in inertias]),
             gravity=model.gravity.linear.copy(),
@@ -70,7 +70,7 @@ class _Pinocchio:
     def accelerations(self, theta: Array, omega: Array) -> Array:
         solve = self._solver()
         found = np.empty_like(theta)
-        for row, (q, v) in enumerate(self._relative(theta, omega)):
+        for row, (q, v) in enumerate(self._coordinates.rows(theta, omega)):
             found[row] = solve(q, v)
         return self._coordinates.absolute(found)
 
@@ -80,7 +80,7 @@ class _Pinocchio:
         if not gravity:
             model.gravity.linear = np.zeros(3)
         try:
-            forces = [pinocchio.rnea(model, data, q, v, a) for q, v, a in self._relative(theta, omega, alpha)]
+            forces = [pinocchio.rnea(model, data, q, v, a) for q, v, a in self._coordinates.rows(theta, omega, alpha)]
         finally:
             model.gravity.linear = kept
         return self._coordinates.absolute_forces(np.array(forces).reshape(theta.shape))
@@ -88,7 +88,7 @@ class _Pinocchio:
     def joint_forces(self, theta: Array, omega: Array, alpha: Array) -> Array:
         model, data = self._model, self._data
         forces = np.empty((*theta.shape, 2))
-        for row, (q, v, a) in enumerate(self._relative(theta, omega, alpha)):
+        for row, (q, v, a) in enumerate(self._coordinates.rows(theta, omega, alpha)):
             pinocchio.rnea(model, data, q, v, a)
             pinocchio.forwardKinematics(model, data, q)
             for link, joint in enumerate(self._joints):
@@ -100,15 +100,12 @@ class _Pinocchio:
         model, data = self._model, self._data
         energies = [
             (pinocchio.computeKineticEnergy(model, data, q, v), pinocchio.computePotentialEnergy(model, data, q))
-            for q, v in self._relative(theta, omega)
+            for q, v in self._coordinates.rows(theta, omega)
         ]
         return np.array(energies).reshape(-1, 2)
 
     def native(self) -> Native:
         return Native(self._solver(), self._coordinates.relative, self._coordinates.absolute)
-
-    def _relative(self, *absolute: Array) -> Any:
-        return zip(*map(self._coordinates.relative, absolute), strict=True)
 
 
 class PinocchioAba(_Pinocchio):
@@ -120,7 +117,7 @@ class PinocchioAba(_Pinocchio):
 
     def bare_calls(self, theta: Array, omega: Array, threads: int) -> dict[str, BareCall]:
         """``aba`` on the first state; ``threads`` has no use: there are no batches."""
-        ((q, v),) = self._relative(theta[:1], omega[:1])
+        ((q, v),) = self._coordinates.rows(theta[:1], omega[:1])
         torques = np.zeros(self._model.nv)
         return {"aba": BareCall(1, partial(pinocchio.aba, self._model, self._data, q, v, torques))}
 
@@ -151,7 +148,3 @@ class PinocchioCrba(_Pinocchio):
             return np.asarray(pinocchio.cholesky.solve(model, data, -bias))
 
         return solve
-
-
-def _along_across(points: Any) -> Array:
-    return np.array([(-z, x) for x, _, z in points])

@@ -202,6 +202,18 @@ def engine_info(name: str) -> EngineInfo:
     return elsewhere.info_of(name)
 
 
+def engine_adapter(name: str) -> Any:
+    """The class that ``name``, as for :func:`engine_info`, names; it and its engine are imported.
+
+    Raises :class:`InvalidInput` where it cannot be, and for a user's own equations, which are a scene file's.
+    """
+    if name == OWN_EQUATIONS.name:
+        raise InvalidInput(
+            f"engine: {name} are no engine of their own: a scene file has them, and furiko check runs it"
+        )
+    return elsewhere.adapter(_KNOWN[name].adapter if name in _KNOWN else name)
+
+
 def engine_version(name: str) -> str:
     """The installed version of an engine's package, without importing it; empty where it is not installed."""
     from importlib.metadata import PackageNotFoundError, version  # takes 20 ms, and workers never ask
@@ -255,8 +267,7 @@ def load_engine(name: str, system: System) -> AnyShape:
     if why_not is not None:
         raise InvalidInput(why_not)
     _require(info)
-    adapter = elsewhere.adapter(info.adapter if name in _KNOWN else name)
-    return AnyShape(adapter(system), info, system.n)
+    return AnyShape(engine_adapter(name)(system), info, system.n)
 
 
 def load_tree_engine(name: str, system: TreeSystem) -> TreeShape:

@@ -6,8 +6,6 @@ Known to pytest by its entry point. Without ``--furiko`` it adds options, a mark
 from __future__ import annotations
 
 import contextlib
-import os
-import sys
 from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
@@ -203,12 +201,12 @@ RUNS = pytest.StashKey[Runs]()
 def _runs(config: pytest.Config) -> Runs:
     from .checks.plan import make_plan
     from .engines import engine_names, engine_version
+    from .engines.elsewhere import look_in_current_folder
     from .reports import read_known
 
     profile: str = config.getoption("furiko_profile") or "quick"
     engines = config.getoption("furiko_engine") or [name for name in engine_names() if engine_version(name)]
-    if any(":" in name or name.endswith(".py") for name in engines) and os.getcwd() not in sys.path:
-        sys.path.append(os.getcwd())  # as the command line does
+    look_in_current_folder(engines)
     if not engines:
         raise pytest.UsageError("--furiko: no engine is installed: pip install 'furiko[mujoco]'")
     given: list[str] = config.getoption("furiko_scene") or []

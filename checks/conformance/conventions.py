@@ -16,7 +16,7 @@ from ...models.coordinates import absolute_from_relative
 from ...models.systems import DocumentSystem
 from ...records.conformance import ConformanceStep
 from ...reference import centrifugal_matrix, energies, gravity_vector, joint_forces, literal_accelerations, mass_matrix
-from .subject import GROSS, MECHANISMS, Array, Subject, Wrong, array, right, states
+from .subject import GROSS, MECHANISMS, Array, Subject, Wrong, apart, array, right, states
 
 SINGLE = 2.0**-23
 # Causes that lie in how an adapter asks and answers, with what to change.
@@ -48,10 +48,10 @@ def accelerations(subject: Subject) -> ConformanceStep:
         theta, omega = states(system.n)
         got = array("accelerations", engine.accelerations(theta.copy(), omega.copy()), theta.shape)
         wanted = literal_accelerations(system, theta, omega)
-        if _apart(got, wanted) <= GROSS:
+        if apart(got, wanted) <= GROSS:
             continue
         found = explanation(_Silent(engine), system, who="it", accuracy=max(subject.info.accuracy, 1e-9), slight=False)
-        raise _accused(found, name, _apart(got, wanted))
+        raise _accused(found, name, apart(got, wanted))
     return right("accelerations", "they are the theory's, in order, sign and units, to six digits and more")
 
 
@@ -90,7 +90,7 @@ def precision(subject: Subject) -> ConformanceStep:
                 f"for {name} it has single precision, and {subject.info.accuracy:.2g} is declared",
                 "accuracy=2.0**-23 in its EngineInfo, with accuracy_reason; or ask the engine for double precision.",
             )
-        digits = max(digits, _apart(got, literal_accelerations(system, theta, omega)))
+        digits = max(digits, apart(got, literal_accelerations(system, theta, omega)))
     if subject.info.accuracy >= SINGLE / 2 and digits < SINGLE / 1e4:
         return right(
             "precision",
@@ -213,11 +213,11 @@ def _energy_mistakes(got: Array, kinetic: Array, potential: Array) -> Iterator[M
 
 
 def _compare(quantity: str, name: str, got: Array, wanted: Array, mistakes: Iterator[Mistake]) -> None:
-    if _apart(got, wanted) <= GROSS:
+    if apart(got, wanted) <= GROSS:
         return
-    size = f"{quantity}: for {name} off by {_apart(got, wanted):.3g} of the largest"
+    size = f"{quantity}: for {name} off by {apart(got, wanted):.3g} of the largest"
     for says, help_, mistaken in mistakes:
-        if _apart(got, mistaken) <= GROSS:
+        if apart(got, mistaken) <= GROSS:
             raise Wrong(f"{size}: {says}", help_)
     raise Wrong(
         f"{size}, and no usual mistake of an adapter explains it",
@@ -259,14 +259,8 @@ def fields(subject: Subject) -> ConformanceStep:
 def _about_hinge(field: str, values: Array, name: str) -> str:
     links = MECHANISMS[name].tree().links
     about = np.array([link.inertia + link.mass * (link.com[0] ** 2 + link.com[1] ** 2) for link in links])
-    return " These are about the hinge." if field == "inertias" and _apart(values, about) <= GROSS else ""
+    return " These are about the hinge." if field == "inertias" and apart(values, about) <= GROSS else ""
 
 
 def _short(values: Array) -> str:
     return np.array2string(values, precision=4, separator=", ", max_line_width=200).replace("\n", "")
-
-
-def _apart(one: Array, other: Array) -> float:
-    if one.shape != other.shape:
-        return np.inf
-    return float(np.abs(one - other).max(initial=0.0)) / max(float(np.abs(other).max(initial=0.0)), 1e-300)

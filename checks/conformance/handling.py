@@ -9,7 +9,7 @@ import numpy as np
 
 from ...engines import Quantity
 from ...records.conformance import ConformanceStep
-from .subject import MECHANISMS, Array, Subject, Wrong, array, right, states
+from .subject import MECHANISMS, Array, Subject, Wrong, apart, array, right, states
 
 ARGUMENTS = {
     "fields": (),
@@ -140,7 +140,7 @@ def memory(subject: Subject) -> ConformanceStep:
         for other, when in ((again, "at once"), (later, "after another question")):
             if not _alike(first, other):
                 raise Wrong(
-                    f"the same question, asked again {when}, gets another answer (by {_apart(first, other):.3g} of it)",
+                    f"the same question, asked again {when}, gets another answer (by {apart(other, first):.3g} of it)",
                     "Something is kept from call to call: reset the engine's data, warm starts and time before each.",
                 )
         subject.adapter(next(other for other in MECHANISMS.values() if other != system))
@@ -171,7 +171,7 @@ def _mixed_rows(together: Array, alone: Array) -> str:
         return "each row of a batch has the answer to the row before: it is read before it is computed"
     if _alike(together, alone[::-1]):
         return "the rows of a batch come back in the reverse order"
-    return f"a state alone and in a batch gets another answer (by {_apart(together, alone):.3g} of it)"
+    return f"a state alone and in a batch gets another answer (by {apart(alone, together):.3g} of it)"
 
 
 def _ask(engine: Any, theta: Array, omega: Array) -> Array:
@@ -179,8 +179,4 @@ def _ask(engine: Any, theta: Array, omega: Array) -> Array:
 
 
 def _alike(one: Array, other: Array) -> bool:
-    return _apart(one, other) <= SAME
-
-
-def _apart(one: Array, other: Array) -> float:
-    return float(np.abs(one - other).max(initial=0.0)) / max(float(np.abs(one).max(initial=0.0)), 1e-300)
+    return apart(other, one) <= SAME

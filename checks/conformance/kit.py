@@ -8,8 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from ...engines import engine_info
-from ...engines.elsewhere import adapter, is_elsewhere
+from ...engines import engine_adapter, engine_info
 from ...engines.workers.messages import Failed, Send, Step
 from ...engines.workers.pool import Lost, Pool, Said
 from ...engines.workers.processes import worker_processes
@@ -54,7 +53,7 @@ def steps(name: str) -> Iterator[ConformanceStep]:
     """Test an adapter in this process, step by step; ``name`` as for :func:`~furiko.engines.engine_info`."""
     try:
         info = engine_info(name)
-        subject = Subject(name, adapter(name if is_elsewhere(name) else info.adapter), info)
+        subject = Subject(name, engine_adapter(name), info)
     except (InvalidInput, EngineMissing) as error:
         yield ConformanceStep(step="class", outcome="wrong", says=str(error), help="See furiko.engines.protocol.")
         return

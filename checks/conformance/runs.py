@@ -12,6 +12,7 @@ from ...engines import Integrator
 from ...models.systems import DocumentSystem
 from ...records.conformance import ConformanceStep
 from ...reference import literal_accelerations
+from ...reference.integration.schemes import classical_step
 from .subject import MECHANISMS, Array, Subject, Wrong, array, right, states
 
 STEP = 2.0**-9  # [s]
@@ -144,14 +145,11 @@ def _textbook(system: DocumentSystem, theta: Array, omega: Array, duration: floa
 
 @cache
 def _computed(system: DocumentSystem, theta: tuple[float, ...], omega: tuple[float, ...], duration: float) -> Array:
-    def slope(y: Array) -> Array:
+    def slope(_: float, y: Array) -> Array:
         return np.stack([y[1], literal_accelerations(system, y[None, 0], y[None, 1])[0]])
 
     count = max(1, round(duration / STEP * FINE))
     h, y = duration / count, np.array([theta, omega])
     for _ in range(count):
-        a = slope(y)
-        b = slope(y + h / 2 * a)
-        c = slope(y + h / 2 * b)
-        y = y + h / 6 * (a + 2 * b + 2 * c + slope(y + h * c))
+        y = classical_step(slope, y, h)
     return y

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
@@ -18,10 +16,12 @@ Names = TypeVar("Names", str, tuple[str, ...])
 
 
 def found_here(_context: click.Context, _parameter: click.Parameter, names: Names) -> Names:
-    """The names; for an adapter from elsewhere the current folder is on Python's path, after all else."""
+    """The names; an adapter from elsewhere is looked for in the current folder too."""
     each = (names,) if isinstance(names, str) else names
-    if any(":" in name or name.endswith(".py") for name in each) and os.getcwd() not in sys.path:
-        sys.path.append(os.getcwd())
+    if each:  # most commands name no engine, and need not know of any
+        from ..engines.elsewhere import look_in_current_folder
+
+        look_in_current_folder(each)
     return names
 
 

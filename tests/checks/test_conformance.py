@@ -1,6 +1,7 @@
 """``furiko engine-test``: sound adapters conform, and each broken one is told what is wrong with it."""
 
 import json
+import math
 
 import pytest
 from broken_adapters import BROKEN, IN_A_PROCESS
@@ -8,8 +9,8 @@ from click.testing import CliRunner
 
 from furiko.checks.conformance.kit import PARTS, engine_test, steps
 from furiko.cli.main import cli
-from furiko.engines import ENGINES, engine_info
-from furiko.models import InvalidInput
+from furiko.engines import ENGINES, elsewhere, engine_info, load_engine, plugin_names
+from furiko.models import InvalidInput, RodChain
 
 ADAPTER = """
 import numpy as np
@@ -88,3 +89,31 @@ def test_a_file_that_is_no_adapter_is_one_line(tmp_path, text, says):
     path.write_text(text, encoding="utf-8")
     with pytest.raises(InvalidInput, match=says):
         engine_info(str(path))
+
+
+def test_a_plug_in_is_an_engine_by_its_name(tmp_path, monkeypatch):
+    """As an installed package declares it; what its info calls the adapter is its own affair."""
+    (tmp_path / "rod_package.py").write_text(ADAPTER, encoding="utf-8")
+    metadata = tmp_path / "rod_package-1.0.dist-info"
+    metadata.mkdir()
+    (metadata / "METADATA").write_text("Metadata-Version: 2.1\nName: rod-package\nVersion: 1.0\n", encoding="utf-8")
+    points = "[furiko.engines]\nplugged-rod = rod_package:Rod\nmujoco = rod_package:Rod\n"
+    (metadata / "entry_points.txt").write_text(points, encoding="utf-8")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    elsewhere._plugins.cache_clear()
+    try:
+        assert plugin_names() == ["plugged-rod"]  # furiko's own engines keep their names
+        found = list(steps("plugged-rod"))
+        assert [step for step in found if step.outcome == "wrong"] == []
+        assert [step.outcome for step in found if step.step == "accelerations"] == ["right"]
+        rod = load_engine("plugged-rod", RodChain([0.5]))
+        # θ̈ = −(3/2)(g/l) sin θ
+        assert rod.accelerations([1.0], [0.0])[0] == pytest.approx(-1.5 * 9.81 / 0.5 * math.sin(1.0), rel=1e-15)
+    finally:
+        elsewhere._plugins.cache_clear()
+
+
+def test_own_equations_are_refused_in_one_line():
+    (found,) = steps("own equations")
+    assert found.outcome == "wrong"
+    assert "no engine of their own" in found.says
