@@ -98,6 +98,11 @@ class Submission:
         )  # fmt: skip
 
     @property
+    def uses_momenta(self) -> bool:
+        """Whether it is a Hamiltonian, or equations of first order whose variables are meant as momenta."""
+        return self.first_order is not None and self.first_order.canonical
+
+    @property
     def symbols(self) -> Symbols:
         """The documents' mechanism that is nearest."""
         return symbols_of(self.kind if self.kind in KINDS else "n-leg" if self.kind == "point-masses" else "rod-chain",
