@@ -222,8 +222,12 @@ class Space:
         return 4 * self.n + 2 + len(self.extra)
 
     def own(self, name: str) -> Formula:
-        """A symbol of ``extra`` by its name, behind the coordinates there: one of the author's may be called q1 too."""
-        return self.symbol(4 * self.n + 2 + self.extra.index(name, self.n))
+        """A symbol of ``extra`` by its name."""
+        return self.symbol(self.own_place(name))
+
+    def own_place(self, name: str) -> int:
+        """Where it stands: behind the coordinates there, since one of the author's may be called q1 too."""
+        return 4 * self.n + 2 + self.extra.index(name, self.n)
 
     def q(self, k: int) -> Formula:
         """Coordinate k outside cos and sin; only in a general space."""

@@ -24,7 +24,8 @@ from ...models.errors import InvalidInput
 from ...models.readers.bounded_file import read_text, shown
 from ..grading.grade import graded
 from ..grading.grade_record import Grade
-from ..reading.submission import LARGEST_FILE, read_table, table_of
+from ..reading.derivation import read_derivation
+from ..reading.submission import LARGEST_FILE, table_of
 from .file_record import FileAudit, FileJudgement, JudgedEntry
 
 MOST_ENTRIES = 200
@@ -56,7 +57,7 @@ def _judged(entry: object, place: int, shared: dict[str, Any]) -> JudgedEntry:
     number = number or f"({place})"
     fields = shared | {field: value for field, value in entry.items() if field not in OWN}
     try:
-        grade, _ = graded(lambda slashes: read_table(fields, slashes), pinned=False)
+        grade, _ = graded(lambda slashes: read_derivation(fields, slashes), pinned=False)
     except InvalidInput as error:
         raise InvalidInput(f"entry {number:.40}: {error}") from None
     judgement = _judgement(grade)

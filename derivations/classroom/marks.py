@@ -36,7 +36,7 @@ def marks(problem: Problem, s: Submission, grade: Grade) -> tuple[Part, ...]:
     """The points of equations of motion or of a Lagrangian that was graded."""
     if s.stages is not None or problem.points.stages:
         parts = _stages(problem, s, grade)
-    elif s.first_order is not None and s.first_order.canonical:
+    elif s.uses_momenta:
         parts = (_first_order(problem, s, grade),)
     else:
         parts = _lagrangian(problem, s, grade) if s.lagrangian is not None else _rows(problem, s, grade)

@@ -46,7 +46,7 @@ def wrong(s: Submission, *, pinned: bool = False) -> Grade:
 def _wrong(s: Submission, *, pinned: bool) -> Grade:
     meant = next(hypotheses(s, pinned=True))
     found = Grade(verdict="wrong", links=s.space.n)
-    if s.first_order is not None and s.first_order.canonical:
+    if s.uses_momenta:
         nearest = meant if pinned else _nearest(s, meant)
         found = _with_cause(s, nearest, _by_terms(s, nearest, found))
         return replace(found, system=s.kind, reading=readback(s, nearest))
@@ -143,7 +143,7 @@ def _by_terms(s: Submission, h: Hypothesis, found: Grade) -> Grade:
     """The terms that differ, in the author's coordinates, symbols and scale."""
     assumes = tuple(en for en, _ in h.assumes), tuple(ja for _, ja in h.assumes)
     found = replace(found, assumes=assumes[0], assumes_ja=assumes[1])
-    if s.first_order is not None and s.first_order.canonical:
+    if s.uses_momenta:
         return replace(found, findings=first_order_differences(s, h.mechanism, h.variant.given))
     if s.lagrangian is None:
         return replace(found, findings=row_differences(s, h.mechanism), notes=(), notes_ja=())
@@ -167,7 +167,7 @@ def _nearest(s: Submission, meant: Hypothesis) -> Hypothesis:
 
 
 def _count(s: Submission, h: Hypothesis) -> int:
-    if s.first_order is not None and s.first_order.canonical:
+    if s.uses_momenta:
         return len(first_order_differences(s, h.mechanism, h.variant.given))
     if s.lagrangian is not None:
         return len(lagrangian_differences(s, h.mechanism)[0])

@@ -21,10 +21,9 @@ def energy_mistakes_anywhere(p: Parts) -> Iterator[AnyMistake]:
 
 def _speeds(p: Parts, b: int) -> Iterator[AnyMistake]:
     """The square of a speed that is made of several velocities."""
-    way, vs, name = p.ways[b], p.velocities[b], p.words.bodies[b]
-    mass = p.m.bodies[b].mass
+    way, name, mass = p.ways[b], p.words.bodies[b], p.m.bodies[b].mass
     for i, j in combinations(range(len(way)), 2):
-        cross = mass * (vs[i][0] * vs[j][0] + vs[i][1] * vs[j][1])
+        cross = p.cross(b, i, j)
         if not cross:
             continue
         pair = f"{angle_name(p, way[i].direction)}, {angle_name(p, way[j].direction)}"
@@ -166,12 +165,7 @@ def _together(p: Parts) -> Iterator[AnyMistake]:
     t = add(p.kinetic(b, p.velocities[b]) for b in bodies)
     u = add(p.weight(b) * add(p.heights[b]) for b in bodies)
     spring = p.m.elastic
-    pairs = {(i, j, b) for b in bodies for i, j in combinations(range(len(p.ways[b])), 2)}
-    cross = add(
-        p.m.bodies[b].mass
-        * (p.velocities[b][i][0] * p.velocities[b][j][0] + p.velocities[b][i][1] * p.velocities[b][j][1])
-        for i, j, b in sorted(pairs)
-    )
+    cross = add(p.cross(b, i, j) for b in bodies for i, j in combinations(range(len(p.ways[b])), 2))
     if len(p.m.bodies) > 1:
         yield AnyMistake(
             "half-missing-everywhere",

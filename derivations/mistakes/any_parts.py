@@ -65,6 +65,11 @@ class Parts:
         x, y = add(v[0] for v in vectors), add(v[1] for v in vectors)
         return self.m.bodies[b].mass.times(HALF) * (x * x + y * y)
 
+    def cross(self, b: int, i: int, j: int) -> Formula:
+        """m v_i · v_j: what ½ m |Σ v|² has of two segments together."""
+        (x, y), (other_x, other_y) = self.velocities[b][i], self.velocities[b][j]
+        return self.m.bodies[b].mass * (x * other_x + y * other_y)
+
     def weight(self, b: int) -> Formula:
         """m g."""
         return self.m.bodies[b].mass * (self.space.g if self.m.weight is None else self.m.weight)

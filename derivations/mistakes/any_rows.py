@@ -305,14 +305,10 @@ def linear(s: Space, f: Formula) -> Formula:
     for (e, h, phase), c in f.terms.items():
         flat = Formula({(e, 0, COS): c})
         if phase == SIN:
-            argument = add(s.q(k).times(half).times(HALF) for k, half in enumerate(_halves(s, h)) if half)
+            argument = add(s.q(k).times(half).times(HALF) for k, half in enumerate(digits(h, s.n)) if half)
             flat = flat * argument
         total = total + flat
     return total
-
-
-def _halves(s: Space, h: int) -> tuple[int, ...]:
-    return digits(h, s.n)
 
 
 def slip_mistakes(m: Mechanism, words: Words) -> Iterator[AnyMistake]:

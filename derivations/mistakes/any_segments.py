@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..algebra.trig import CONSTANT_ONE, COS, NOTHING, SIN
+from ..algebra.trig import CONSTANT_ONE, NOTHING
 from ..steps.derivation import Stage, add
 from ..steps.mechanism import Direction, Segment
 from .any_parts import AnyMistake, Change, Made, Parts, angle_name, rate_name
@@ -106,9 +106,7 @@ def _segment_changes(p: Parts) -> Iterator[tuple[str, Stage, Change, str, str]]:
             turns = x.direction.turns
             if not any(turns) or p.rate(turns) == space.w(k):
                 return None
-            length = space.by_time(x.length)
-            d = x.direction
-            grown = (length * d.wave(space, SIN, 0), -(length * d.wave(space, COS, 0)))
+            grown = x.direction.vector(space, space.by_time(x.length))
             turned = p.turning(x, space.w(k))
             return Made((grown[0] + turned[0], grown[1] + turned[1]), rate=space.w(k))
 
@@ -143,10 +141,8 @@ def _segment_changes(p: Parts) -> Iterator[tuple[str, Stage, Change, str, str]]:
         return Made(p.turning(x, p.rate(x.direction.turns))) if slow and any(x.direction.turns) else None
 
     def no_turning(x: Segment) -> Made | None:
-        slow, d = space.by_time(x.length), x.direction
-        if not slow or not any(d.turns):
-            return None
-        return Made((slow * d.wave(space, SIN, 0), -(slow * d.wave(space, COS, 0))))
+        slow = space.by_time(x.length)
+        return Made(x.direction.vector(space, slow)) if slow and any(x.direction.turns) else None
 
     def sign(x: Segment) -> Made | None:
         along, up = p.velocity(x)

@@ -66,8 +66,11 @@ class Own:
     variable: Variable | None
 
 
-def declared(data: dict[str, Any], texts: Sequence[str] = ()) -> Own | None:
-    """The mechanism that a file declares; None where it names one. ``texts``: its lines of mathematics."""
+def declared(data: dict[str, Any], texts: Sequence[str] = (), constants: Sequence[str] = ()) -> Own | None:
+    """The mechanism that a file declares; None where it names one.
+
+    ``texts``: its lines of mathematics; ``constants``: names of quantities besides those of the bodies.
+    """
     system = data.get("system")
     if isinstance(system, str) and system in PRESETS and "bodies" not in data:
         bodies: object = [_with_rest(body, data) for body in PRESETS[system]]
@@ -87,7 +90,7 @@ def declared(data: dict[str, Any], texts: Sequence[str] = ()) -> Own | None:
                 raise InvalidInput(f"bodies {place}: {name!r:.40} is not known{nearest(name, FIELDS)}")
             if not isinstance(value, str) or len(value) > 200:
                 raise InvalidInput(f"bodies {place}: {name}: a text in quotes is needed, got {value!r:.40}")
-    names, apart = _names(bodies)
+    names, apart = _names([*(b[q] for b in bodies for q in QUANTITIES if q in b), *constants])
     coordinates = tuple(_coordinate(b, place) for place, b in enumerate(bodies, 1))
     taken = frozenset({*names, *(base for base, _ in coordinates), *map(str, data.get("define", {}))})
     names += [_reaction(k) for k, body in enumerate(bodies) if _is_given(body, k)]
@@ -118,9 +121,8 @@ def _with_rest(body: dict[str, str], data: dict[str, Any]) -> dict[str, str]:
     return {**body, "rest": there[0]} if len(there) == 1 else body
 
 
-def _names(bodies: list[dict[str, str]]) -> tuple[list[str], frozenset[str]]:
+def _names(texts: list[str]) -> tuple[list[str], frozenset[str]]:
     """The names of all quantities, plain; and those that as one word are two of them side by side."""
-    texts = [b[q] for b in bodies for q in QUANTITIES if q in b]
     alone = {plain: text for text in texts if (plain := plain_name(text)) is not None}
     known, joined = set(alone), {plain for plain, text in alone.items() if is_joined(text)}
     for text in texts:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, TypeVar
@@ -98,6 +98,11 @@ class Submission:
         )  # fmt: skip
 
     @property
+    def uses_momenta(self) -> bool:
+        """Whether it is a Hamiltonian, or equations of first order whose variables are meant as momenta."""
+        return self.first_order is not None and self.first_order.canonical
+
+    @property
     def symbols(self) -> Symbols:
         """The documents' mechanism that is nearest."""
         return symbols_of(self.kind if self.kind in KINDS else "n-leg" if self.kind == "point-masses" else "rod-chain",
@@ -149,12 +154,15 @@ def read_fields(data: dict[str, Any], reader: Reader) -> Submission:
     return reader.submission(rows, lagrangian)
 
 
-def opened(data: dict[str, Any], slashes: int = 0) -> Reader:
-    """A reader for the lines of these fields: mechanism, convention and the file's own names are read."""
+def opened(data: dict[str, Any], slashes: int = 0, constants: Sequence[str] = ()) -> Reader:
+    """A reader for the lines of these fields: mechanism, convention and the file's own names are read.
+
+    ``constants``: names of quantities besides those that a declared mechanism has.
+    """
     texts = list(_texts(data))
-    own = declared(data, texts)
+    own = declared(data, texts, constants)
     kind, n = _system(data) if own is None else ("mechanism", len(own.mechanism.bodies))
-    convention = _convention(data, n)
+    convention = convention_of(data, n)
     defined = data.get("define", {})
     if not isinstance(defined, dict) or len(defined) > MOST_DEFINITIONS:
         raise InvalidInput(f'define: a table of at most {MOST_DEFINITIONS} names is needed, as in M = "m1 + m2"')
@@ -193,12 +201,14 @@ def _system(data: dict[str, Any]) -> tuple[str, int]:
     return kind, links
 
 
-def _convention(data: dict[str, Any], n: int) -> Convention:
+def convention_of(data: dict[str, Any], n: int) -> Convention:
+    """As the fields angles, from and sense declare it, for n angles. Raises InvalidInput with the field."""
     angles, origin, sense = data.get("angles", "absolute"), data.get("from", "down"), data.get("sense", ())
     if angles not in ANGLES:
         raise InvalidInput(f"angles: {angles!r:.40} is not known; give 'absolute' (from the vertical) or 'relative'")
     if not isinstance(origin, str) or origin not in ORIGINS:
-        raise InvalidInput(f"from: {origin!r:.40} is not known; give one of {', '.join(ORIGINS)}")
+        close = nearest(origin, ORIGINS) if isinstance(origin, str) and len(origin) < 100 else ""
+        raise InvalidInput(f"from: {origin!r:.40} is not known{close}; give one of {', '.join(ORIGINS)}")
     senses = [sense] * n if isinstance(sense, str) else sense
     if not isinstance(senses, list | tuple) or (senses and len(senses) != n) or any(s not in SENSES for s in senses):
         raise InvalidInput(f"sense: {sense!r:.60} is not known; give 'counter-clockwise' or 'clockwise', or a list")

@@ -10,16 +10,15 @@ from typing import Any
 
 from flint import arb
 
-from ...models.errors import InvalidInput, nearest
+from ...models.errors import InvalidInput
 from ...models.trees.own import OwnEquations
 from ...models.trees.system import TreeSystem
-from ..reading.submission import ORIGINS, SENSES
-from ..steps.conventions import Convention
+from ..reading.submission import convention_of
+from ..steps.conventions import MOST_SENSES, Convention
 from ..steps.mechanism import QUARTERS
 from .plane import Plane
 
 SNAPPED = 1e-9  # rad; a direction so near to a quarter turn is one: files print angles with that many digits or more
-MOST_SENSES = 3  # hinges whose senses are tried one by one
 
 
 @dataclass(frozen=True)
@@ -48,21 +47,13 @@ def joint_coordinates(n: int) -> Coordinates:
     return Coordinates(turns, (0,) * n, (0.0,) * n)
 
 
-def convention_of(own: OwnEquations, n: int) -> Convention | None:
+def declared_convention(own: OwnEquations, n: int) -> Convention | None:
     """As the file declares it; None where it does not. Raises :class:`InvalidInput`."""
     if not own.declares_angles:
         return None
-    if own.angles not in ("", "absolute", "relative"):
-        raise InvalidInput(f"angles: {own.angles!r:.40} is not known; give 'absolute' or 'relative'")
-    if own.origin and own.origin not in ORIGINS:
-        raise InvalidInput(f"from: {own.origin!r:.40} is not known{nearest(own.origin, ORIGINS)}; "
-                           f"give one of {', '.join(ORIGINS)}")  # fmt: skip
-    if any(sense not in SENSES for sense in own.senses) or len(own.senses) not in (0, 1, n):
-        raise InvalidInput("sense: give 'counter-clockwise' or 'clockwise', or a list of one for each joint")
-    senses = tuple(SENSES[sense] for sense in own.senses)
-    return Convention(
-        own.angles == "relative", ORIGINS[own.origin or "down"], senses * n if len(senses) == 1 else senses
-    )
+    senses = own.senses[0] if len(own.senses) == 1 else own.senses
+    given = {"angles": own.angles, "from": own.origin, "sense": senses}
+    return convention_of({field: value for field, value in given.items() if value}, n)
 
 
 def coordinates_in(plane: Plane, convention: Convention) -> Coordinates:
@@ -109,7 +100,7 @@ def other_conventions(plane: Plane) -> Iterator[Convention]:
 
 def read_coordinates(system: TreeSystem, own: OwnEquations, plane: Plane | None, why_not: str) -> Coordinates:
     """As the file declares them. Raises :class:`InvalidInput` where it declares angles of no plane."""
-    convention = convention_of(own, system.n)
+    convention = declared_convention(own, system.n)
     if convention is None:
         return joint_coordinates(system.n)
     if plane is None:

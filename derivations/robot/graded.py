@@ -51,7 +51,8 @@ def _declared(d: RobotDerivation) -> Declared | None:
     if plane is None or not plane.gravity:
         return None
     symbols = _symbols(d)
-    used = {name for name in d.values if any(_place(d, name) in space.places(row) for row in d.rows)}
+    places = set().union(*map(space.places, d.rows))
+    used = {name for name in d.values if space.own_place(name) in places}
     if not used <= set(symbols.values()):
         return None
 
@@ -108,11 +109,6 @@ def _slide(slide: tuple[float, float], line: tuple[float, float] | None) -> Alon
     size = math.hypot(*line)
     straight = size > 0 and math.dist((line[0] / size, line[1] / size), slide) <= PARALLEL
     return "link" if straight else None
-
-
-def _place(d: RobotDerivation, name: str) -> int:
-    space = d.submission.space
-    return 4 * space.n + 2 + space.extra.index(name, space.n)
 
 
 def _symbols(d: RobotDerivation) -> dict[tuple[str, int], str]:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...models.errors import InvalidInput
+from ...models.spatial import ZERO_INERTIAL, Inertial, Pose, from_quaternion, symmetric
 from ...models.trees.system import TreeJoint, TreeLink, TreeSystem
 
 Array = NDArray[np.float64]
@@ -89,7 +90,7 @@ def plane_of(system: TreeSystem) -> Plane:
         raise InvalidInput("a ball or a free joint moves it out of a plane")
     poses = _poses(system)
     joints = [(i, joint) for i, link in enumerate(system.links) for joint in link.joints]
-    axes = [_unit(poses[i][1] @ np.array(joint.axis)) for i, joint in joints]
+    axes = [_unit(poses[i].rotation @ np.array(joint.axis)) for i, joint in joints]
     right, up = _directions(system, axes)
     normal = np.cross(right, up)
     seen = np.array([right, up])
@@ -101,12 +102,11 @@ def plane_of(system: TreeSystem) -> Plane:
         parent = k - 1 if before is not None else _moved_by(system, link.parent, last)
         final = joint is link.joints[-1]
         last[i] = k
-        place, turned = poses[i]
         mass, centre, inertia = _inertial(system, i, poses, seen, normal) if final else (0.0, (0.0, 0.0), 0.0)
         hinge = joint.kind == "hinge"
         sense = (1 if axes[k] @ normal > 0 else -1) if hinge else 1
         slide = (0.0, 0.0) if hinge else _pair(seen @ axes[k])
-        anchor = _pair(seen @ (place + turned @ np.array(joint.anchor)))
+        anchor = _pair(seen @ poses[i].point(np.array(joint.anchor)))
         bodies.append(PlaneBody(link.name, joint, parent, sense, slide, anchor, mass, centre, inertia))
     return Plane(tuple(bodies), math.hypot(*system.gravity))
 
@@ -142,22 +142,18 @@ def _moved_by(system: TreeSystem, link: int, last: dict[int, int]) -> int:
 
 
 def _inertial(
-    system: TreeSystem, index: int, poses: list[tuple[Array, Array]], seen: Array, normal: Array
+    system: TreeSystem, index: int, poses: list[Pose], seen: Array, normal: Array
 ) -> tuple[float, tuple[float, float], float]:
     """Mass, centre and moment of inertia of a link and all that is fixed to it."""
     parts = [(i, link) for i, link in enumerate(system.links) if link.mass and _carrier(system, i) == index]
-    mass = sum(link.mass for _, link in parts)
-    if not mass:
+    if not parts:
         return 0.0, (0.0, 0.0), 0.0
-    centres = [seen @ (poses[i][0] + poses[i][1] @ np.array(link.centre)) for i, link in parts]
-    if len(parts) == 1:
-        return mass, _pair(centres[0]), _about(parts[0][1], poses[parts[0][0]][1], normal)
-    centre = sum(link.mass * c for (_, link), c in zip(parts, centres, strict=True)) / mass
-    inertia = sum(
-        _about(link, poses[i][1], normal) + link.mass * float((c - centre) @ (c - centre))
-        for (i, link), c in zip(parts, centres, strict=True)
-    )
-    return mass, _pair(np.asarray(centre)), float(inertia)
+    whole = sum((_of_link(link).transformed(poses[i]) for i, link in parts), ZERO_INERTIAL)
+    return whole.mass, _pair(seen @ whole.centre), float(normal @ whole.tensor @ normal)
+
+
+def _of_link(link: TreeLink) -> Inertial:
+    return Inertial(link.mass, np.array(link.centre), symmetric(*link.inertia))
 
 
 def _carrier(system: TreeSystem, i: int) -> int:
@@ -167,28 +163,13 @@ def _carrier(system: TreeSystem, i: int) -> int:
     return i
 
 
-def _about(link: TreeLink, turned: Array, normal: Array) -> float:
-    xx, yy, zz, xy, xz, yz = link.inertia
-    axis = turned.T @ normal
-    return float(axis @ np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) @ axis)
-
-
-def _poses(system: TreeSystem) -> list[tuple[Array, Array]]:
-    """Place and rotation of each link in the world, in the reference configuration."""
-    found: list[tuple[Array, Array]] = []
+def _poses(system: TreeSystem) -> list[Pose]:
+    """Of each link in the world, in the reference configuration."""
+    found: list[Pose] = []
     for link in system.links:
-        place, turned = found[link.parent] if link.parent >= 0 else (np.zeros(3), np.eye(3))
-        found.append((place + turned @ np.array(link.position), turned @ _rotation(link.quaternion)))
+        own = Pose(from_quaternion(link.quaternion), np.array(link.position))
+        found.append(found[link.parent] @ own if link.parent >= 0 else own)
     return found
-
-
-def _rotation(quaternion: tuple[float, ...]) -> Array:
-    w, x, y, z = np.array(quaternion) / np.linalg.norm(quaternion)
-    return np.array([
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ])  # fmt: skip
 
 
 def _unit(vector: Array) -> Array:

@@ -83,8 +83,7 @@ class RobotDerivation:
     def numeric(self, values: dict[str, float]) -> tuple[Formula, ...]:
         """The rows with these values of the constants, taken as exact; g stays a symbol."""
         space = self.submission.space
-        places = {4 * space.n + 2 + space.extra.index(name, space.n): value for name, value in values.items()}
-        formulas = {place: constant(fmpq(*value.as_integer_ratio())) for place, value in places.items()}
+        formulas = {space.own_place(name): constant(fmpq(*value.as_integer_ratio())) for name, value in values.items()}
         try:
             return tuple(space.replace(row, formulas) for row in self.rows)
         except ValueError:
@@ -171,7 +170,12 @@ def _constants(
     own: OwnEquations, usual: dict[str, Quantity], text: str, names: tuple[str, ...]
 ) -> tuple[dict[str, float], dict[str, Quantity]]:
     """The constants' values, and those that were taken from the file, where a usual name means one number of it."""
-    values = {plain_name(name) or name: value for name, value in own.numbers}
+    values: dict[str, float] = {}
+    for name, value in own.numbers:
+        plain = plain_name(name)
+        if plain is None:
+            raise InvalidInput(f"symbols.{name!s:.40}: a letter or a word, with an index if you like, is needed")
+        values[plain] = value
     if "g" in values:
         raise InvalidInput("symbols.g: gravity is the mechanism's; leave g out")
     taken = {plain_name(name) for name in (*names, *(name for name, _ in own.define))} | {"g"}
@@ -183,16 +187,12 @@ def _constants(
 
 def _reader(system: TreeSystem, own: OwnEquations, names: tuple[str, ...], constants: tuple[str, ...]) -> Reader:
     """The grader's own, told of coordinates and constants alone."""
-    bodies: list[dict[str, Any]] = [
-        {"name": f"body {k + 1}", "coordinate": name, "joint": joint.kind}
-        for k, (name, joint) in enumerate(zip(names, system.joints, strict=True))
+    bodies = [
+        {"name": f"body {k}", "coordinate": name, "joint": joint.kind}
+        for k, (name, joint) in enumerate(zip(names, system.joints, strict=True), 1)
     ]
-    fields = [(body, field) for body in bodies for field in ("mass", "length", "centre", "inertia", "at", "rest")]
-    for k, name in enumerate(constants):
-        body, field = fields[k % len(fields)]
-        body[field] = f"{body[field]} + {name}" if field in body else name
-    data = {"system": "mechanism", "bodies": bodies}
+    data: dict[str, Any] = {"system": "mechanism", "bodies": bodies}
     try:
-        return opened(data | ({"define": dict(own.define)} if own.define else {}))
+        return opened(data | ({"define": dict(own.define)} if own.define else {}), constants=constants)
     except InvalidInput as error:
         raise InvalidInput(f"symbols: {error}" if str(error).startswith("bodies") else str(error)) from None

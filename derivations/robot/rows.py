@@ -13,7 +13,6 @@ from .motion import OwnMotion
 
 Floats = NDArray[np.float64]
 SAME = 1e-9  # relative: rows are told apart, not judged; numbers of files and equations are rounded to fewer digits
-STATES = 6
 
 
 @dataclass(frozen=True)

@@ -89,8 +89,9 @@ def _other_number(name: str, value: float, q: Quantity) -> Reason:
 
 def _left_out(d: RobotDerivation, system: TreeSystem, true: TrueTerms) -> list[Reason]:
     """What the mechanism has and the equations have not."""
+    mine = d.motion().accelerations(true.q, true.v)
     for changed, what in _without(system, true):
-        if rows_same(d.motion().accelerations(true.q, true.v), _accelerations(changed, true)):
+        if rows_same(mine, _accelerations(changed, true)):
             return [
                 Reason(True, cause, f"{IN_MODEL}{of!r}", value, 0.0,
                        f"the model has {words} at {of!r} ({value:.9g} {unit}), and the equations, which are right "

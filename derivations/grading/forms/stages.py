@@ -17,6 +17,7 @@ from ...algebra.fingerprint import point_of
 from ...algebra.multiples import is_multiple
 from ...algebra.quotient import Budget
 from ...algebra.trig import CONSTANT_ONE, HALF, Formula
+from ...reading.forms.hamilton import places
 from ...reading.submission import Submission
 from ...steps.derivation import add, lagrange_rows
 from ...steps.first_order import WORK, FirstOrder, Momenta, substituted, without_momenta
@@ -160,6 +161,11 @@ class StageJudge:
         """T - U."""
         return self.kinetic(said) - self.potential(said) if said.lagrangian is None else said.lagrangian
 
+    def momenta(self, said: Said) -> list[Formula]:
+        """∂L/∂q̇ for each coordinate."""
+        lagrangian = self.lagrangian(said)
+        return [self.space.by_rate(lagrangian, k) for k in range(self.space.n)]
+
     def rows(self, said: Said) -> list[Formula]:
         """Lagrange's equations with the mechanism's forces."""
         return self._forced(lagrange_rows(self.space, self.lagrangian(said)))
@@ -245,15 +251,13 @@ class StageJudge:
         return [term_finding(self.s, scaled, key, "", where, wo) for key in scaled.wrong]
 
     def _momenta(self, said: Said) -> list[WrongTerm]:
-        lagrangian = self.lagrangian(said)
-        right = [self.space.by_rate(lagrangian, k) for k in range(self.space.n)]
-        first = self.space.symbol_count - 2 * self.space.n
+        right, momenta = self.momenta(said), places(self.space).momenta
         found: list[WrongTerm] = []
         for label, relation in self.stages.momenta:
-            own = [k for k in range(self.space.n) if self.space.by_symbol(relation, first + k)]
+            own = [k for k, place in enumerate(momenta) if self.space.by_symbol(relation, place)]
             if len(own) != 1:
                 continue
-            given = self.space.symbol(first + own[0]) - relation
+            given = self.space.symbol(momenta[own[0]]) - relation
             found += self._compared("momenta", given, right[own[0]], label)
         return found
 
@@ -267,9 +271,8 @@ class StageJudge:
         expected, written = self.rows(said), self.stages.written
         if written is None:
             return self._rows(self.stages.equations, expected)
-        right = [self.space.by_rate(self.lagrangian(said), k) for k in range(self.space.n)]
         found: list[WrongTerm] = []
-        for momenta in (written.momenta, Momenta(tuple(right), CONSTANT_ONE)):
+        for momenta in (written.momenta, Momenta(tuple(self.momenta(said)), CONSTANT_ONE)):
             budget = Budget(WORK)
             slopes = [f for _, f in written.slopes]
             rows = without_momenta(self.space, written.at, slopes, momenta, budget)
@@ -318,7 +321,7 @@ class StageJudge:
             case "lagrangian" | "hamiltonian":
                 formulas = [m.lagrangian]
             case "momenta":
-                formulas = [self.space.by_rate(m.kinetic, k) for k in range(self.space.n)]
+                formulas = self.momenta(said)
             case _:
                 formulas = list(m.rows)
         return sum(len(without_constants(terms(self.space, f, apart=True))) for f in formulas)

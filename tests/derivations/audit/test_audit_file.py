@@ -6,7 +6,7 @@ import json
 import pytest
 
 from furiko.cli.main import run
-from furiko.derivations.audit.audit_file import audit_file
+from furiko.derivations.audit.audit_file import audit_entries, audit_file
 from furiko.derivations.audit.prose import of_file
 from furiko.models import InvalidInput
 
@@ -69,6 +69,27 @@ def test_the_command_writes_a_page_and_json(notes, capsys, tmp_path):
     assert "<td>(3)</td>" in page
     assert run(["audit", str(notes), "--json"]) == 1
     assert [e["judgement"] for e in json.loads(capsys.readouterr().out)["entries"]].count("wrong") == 1
+
+
+# One bob from the downward vertical, first principles: T = m l² ω²/2, U = -m g l cos θ, H = p²/(2 m l²) + U.
+BOB = "m*l^2*w1^2/2 + m*g*l*cos(t1)"
+
+
+@pytest.mark.parametrize(
+    ("entry", "judgement"),
+    [
+        ({"lagrangian": BOB, "kinetic": "m*l^2*w1^2/2"}, "holds"),
+        ({"lagrangian": BOB, "kinetic": "m*l^2*w1^2"}, "wrong"),
+        ({"lagrangian": BOB, "potential": "m*g*l*cos(t1)"}, "wrong"),
+        ({"equations": ["l*a1 = -g*sin(t1)"], "solved": ["a1 = g/l*sin(t1)"]}, "wrong"),
+        ({"hamiltonian": "p^2/(2*m*l^2) - m*g*l*cos(t1)"}, "holds"),
+        ({"hamiltonian": "p^2/(m*l^2) - m*g*l*cos(t1)"}, "wrong"),
+    ],
+)  # fmt: skip
+def test_an_entry_is_judged_by_all_that_it_states_and_in_every_form(entry, judgement):
+    found = audit_entries({"system": "simple-pendulum", "from": "down", "entry": [entry]}, "notes")
+    assert found.entries[0].judgement == judgement
+    assert bool(found.entries[0].told) == (judgement == "wrong")
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 
+from furiko.derivations.robot.plane import plane_of
 from furiko.derivations.robot.reading import read_robot
 from furiko.derivations.robot.rows import alignment, true_terms
 from furiko.derivations.robot.why import reasons
@@ -92,6 +93,26 @@ kind = "slide"
 axis = [0, 0, -1]
 stiffness = 40.0
 springref = 0.6
+"""
+
+FIXED = """
+[system]
+kind = "tree"
+[[system.links]]
+name = "rod"
+mass = 2.0
+centre = [0, 0, -1]
+[[system.links.joints]]
+name = "hinge"
+axis = [0, 1, 0]
+[[system.links]]
+name = "weight"
+parent = "rod"
+position = [0, 0, -3]
+quaternion = [0, 1, 0, 0]
+mass = 1.0
+centre = [0, 0, 1]
+inertia = [0.4, 0.5, 0.2]
 """
 
 
@@ -276,6 +297,27 @@ OTHER_MODELS = [
 ]  # fmt: skip
 
 
+def test_dampers_and_springs_that_are_both_left_out_are_both_named():
+    d, system, true = read(cart_pole("", UPRIGHT, damping="damping = 0.4\nstiffness = 3.0"))
+    found = reasons(d, system, true)
+    assert [(x.in_model, x.cause, x.measured) for x in found] == [(True, "damping", 0.4), (True, "stiffness", 3.0)]
+
+
+def test_what_is_fixed_to_a_link_is_counted_to_it():
+    # 2 kg 1 m and 1 kg 4 m below the hinge, the second fixed and turned: 3 kg at 2 m; about that 2·1² + 1·2² + 0.5
+    plane = plane_of(scene_from_toml(FIXED, "mine").system)
+    (body,) = plane.bodies
+    assert (body.mass, body.centre, body.inertia) == (3.0, pytest.approx((0, -2)), pytest.approx(6.5))
+
+
+def test_the_length_of_a_rod_is_not_taken_from_its_centre():
+    rod = cart_pole("", UPRIGHT.replace("l = 0.7\n", ""), inertia="inertia = [0.02, 0.02, 0.001]")
+    with pytest.raises(InvalidInput, match="'l' is not known here"):
+        read(rod)
+    d, *_ = read(cart_pole("", UPRIGHT.replace("l = 0.7\n", "")))  # of a point mass it is
+    assert d.values["l"] == 0.7
+
+
 @pytest.mark.parametrize(("text", "cause", "says"), OTHER_MODELS)
 def test_right_equations_of_another_mechanism_are_told_from_wrong_ones(text, cause, says):
     d, system, true = read(text)
@@ -291,6 +333,8 @@ REFUSED = [
     (cart_pole("", UPRIGHT.replace('"hinge"', '"hinges"')), "symbols.theta: no joint is called 'hinges' (did you mean 'hinge'?); there are slider, hinge"),
     (cart_pole("", UPRIGHT[: UPRIGHT.index("2 =")]), "equations: 1 row for 2 joints; one for each joint is needed"),
     (cart_pole("", UPRIGHT.replace("x'' +", "x''*theta'' +")), "accelerations are multiplied by one another"),
+    (cart_pole("", UPRIGHT.replace("M = 1.1", '"M-1" = 1.1')), "symbols.M-1: a letter or a word, with an index"),
+    (cart_pole("", UPRIGHT.replace("M = 1.1", '"" = 1.1')), "symbols.: a letter or a word, with an index"),
     (cart_pole("", UPRIGHT.replace("M = 1.1", "M = nan")), "symbols.M: the name of a joint, or a finite number"),
     (cart_pole('lagrangian = "x"\n', UPRIGHT), "lagrangian: equations is given already"),
     (cart_pole('from = "upwards"\n', UPRIGHT), "from: 'upwards' is not known"),
