@@ -12,7 +12,7 @@ from typing import Any
 
 import msgspec
 
-from . import bench, check, classroom, conformance, errors, findings, listings, stress
+from . import bench, check, classroom, conformance, enclosures, errors, findings, listings, stress
 
 FOLDER = Path(__file__).parent / "schemas"
 
@@ -26,6 +26,7 @@ SCHEMAS: dict[str, tuple[str, Any]] = {
     "cache": ("furiko cache --json", listings.CacheContents),
     "bench": (f"furiko bench --json, and bench.json, format {bench.FORMAT}", bench.Bench),
     "stress": ("furiko stress --json", stress.StressSummary),
+    "enclose": ("furiko enclose --json", enclosures.EnclosureDocument),
     "grade": ("furiko grade --json", findings.GradeDocument),
     "class": ("furiko grade --problem --json, and class.json", classroom.ClassDocument),
     "audit": ("furiko audit --json", findings.AuditDocument),

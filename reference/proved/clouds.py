@@ -13,7 +13,7 @@ cost twice as many series as there are coordinates. Without directions a cloud i
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,7 +22,7 @@ import numpy as np
 from .form import Form
 from .series import Numbers, Series, motion_series
 from .sizes import log2_largest, log2_of
-from .tangents import Tangent, row
+from .tangents import Tangent, convolve, derivatives, solver
 
 
 @dataclass(frozen=True)
@@ -124,57 +124,29 @@ class Spread:
 
 def spread_series(form: Form, cloud: Cloud, order: int) -> Spread:
     """The series of every motion from the cloud. Raises ZeroDivisionError as :func:`motion_series` does."""
-    from flint import arb_mat
-
     point = motion_series(form, cloud.x, cloud.v, order)
     if not cloud.frame:
         return Spread(point, point, [], [])
     x, v = cloud.values()
     size = len(cloud.reach)
-    seeds = [arb_mat(1, size, line) for line in cloud.frame]
     moving = motion_series(
         form,
-        [Tangent(a, parts) for a, parts in zip(x, seeds[: form.n], strict=True)],
-        [Tangent(a, parts) for a, parts in zip(v, seeds[form.n :], strict=True)],
+        [Tangent(a, parts) for a, parts in zip(x, cloud.frame[: form.n], strict=True)],
+        [Tangent(a, parts) for a, parts in zip(v, cloud.frame[form.n :], strict=True)],
         order,
-        tangent_solver,
+        solver,
+        convolve(size),
     )
-    derivatives = [[row(c, size) for c in one] for one in (*moving.x, *moving.v)]
-    slopes = [[[of_power[j] for of_power in one] for j in range(size)] for one in derivatives]
+    slopes = [[[derivatives(c, size)[j] for c in one] for j in range(size)] for one in (*moving.x, *moving.v)]
 
     def whole(centre: list[Numbers], around: list[Numbers]) -> list[Numbers]:
         return [
-            _spread(a, [row(c, size) for c in b], cloud.reach)
+            _spread(a, [derivatives(c, size) for c in b], cloud.reach)
             for a, b in zip(centre, around, strict=True)
         ]
 
     parts = ((getattr(point, name), getattr(moving, name)) for name in ("x", "v", "cos", "sin", "u", "w"))
     return Spread(point, Series(*(whole(*pair) for pair in parts)), slopes, cloud.reach)
-
-
-def tangent_solver(rows: list[Numbers]) -> Callable[[Numbers], Numbers]:
-    """Solutions with their derivatives: M a = r, M ∂a = ∂r - ∂M a. Raises ZeroDivisionError as for balls."""
-    from flint import arb_mat
-
-    n = len(rows)
-    inverse = arb_mat(n, n, [e.value if isinstance(e, Tangent) else e for line in rows for e in line]).inv()
-
-    def solve(right: Numbers) -> Numbers:
-        value = (inverse * arb_mat(n, 1, [r.value for r in right])).entries()
-        size = next(r.parts.ncols() for r in right if r.parts is not None)
-        rest = []
-        for line, r in zip(rows, right, strict=True):
-            moved = r
-            for e, a in zip(line, value, strict=True):
-                if isinstance(e, Tangent):
-                    moved = moved - e * a
-            rest += row(moved, size)
-        parts = inverse * arb_mat(n, size, rest)
-        return [
-            Tangent(a, arb_mat(1, size, [parts[i, j] for j in range(size)])) for i, a in enumerate(value)
-        ]
-
-    return solve
 
 
 def _spread(balls: Numbers, rows: list[Numbers], reach: Numbers) -> Numbers:

@@ -42,8 +42,13 @@ class Planar:
         """Number of coordinates."""
         return self.mechanism.n
 
+    @property
+    def depth(self) -> int:
+        """Number of links of the longest chain."""
+        return PlanarTree(self.mechanism.links, 0.0).depth
 
-def planar(system: System | PlanarTree | Mechanism) -> Planar:
+
+def planar(system: System | PlanarTree | Mechanism | Planar) -> Planar:
     """The mechanism of a document's system or of a planar tree.
 
     Raises InvalidInput where a hinge rubs (friction jumps with the sign of the rate: there is no Taylor series), or

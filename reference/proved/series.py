@@ -24,7 +24,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import islice
 from operator import mul
 from typing import Any
 
@@ -60,7 +59,19 @@ def ball_solver(rows: list[Numbers]) -> Callable[[Numbers], Numbers]:
     return lambda right: (inverse * arb_mat(n, 1, right)).entries()
 
 
-def motion_series(form: Form, x: Sequence[Any], v: Sequence[Any], order: int, solver: Solver = ball_solver) -> Series:
+def ball_product(a: Sequence[Any], b: Sequence[Any]) -> Any:
+    """Σ a_i b_i, as long as the shorter."""
+    return sum(map(mul, a, b))
+
+
+def motion_series(
+    form: Form,
+    x: Sequence[Any],
+    v: Sequence[Any],
+    order: int,
+    solver: Solver = ball_solver,
+    product: Callable[[Sequence[Any], Sequence[Any]], Any] = ball_product,
+) -> Series:
     """The series of the motion from coordinates ``x`` and rates ``v``, n numbers each, up to t^``order``.
 
     Raises ZeroDivisionError where the mass matrix is not shown to be regular.
@@ -82,8 +93,8 @@ def motion_series(form: Form, x: Sequence[Any], v: Sequence[Any], order: int, so
     for k in range(order):
         e_x, e_y = [zero] * n, [zero] * n
         for i in turning:
-            e_x[i] = sum(map(mul, sin[i], vs[i])) * -(k + 1)
-            e_y[i] = sum(map(mul, cos[i], vs[i])) * (k + 1)
+            e_x[i] = product(sin[i], vs[i]) * -(k + 1)
+            e_y[i] = product(cos[i], vs[i]) * (k + 1)
         weight = form.gravity if k == 0 else None
         u, w, force = forces(form, e_x, e_y, weight)
         rows = [zero] * n
@@ -92,8 +103,8 @@ def motion_series(form: Form, x: Sequence[Any], v: Sequence[Any], order: int, so
             if slide is None:
                 known = first_cos[i] * u[i] - first_sin[i] * w[i]
                 if k:
-                    known = known + sum(map(mul, islice(cos[i], 1, None), us[i]))
-                    known = known - sum(map(mul, islice(sin[i], 1, None), ws[i]))
+                    known = known + product(cos[i][1:], us[i])
+                    known = known - product(sin[i][1:], ws[i])
                 rows[i] = known
             else:
                 rows[i] = slide[0] * force[i][0] + slide[1] * force[i][1]

@@ -22,7 +22,7 @@ from typing import Any
 from ...models.tree import SUPPORT
 from .form import Form
 from .series import Numbers, Series, forces, mass_matrix
-from .tangents import Tangent, row, unit
+from .tangents import Tangent, derivatives, unit
 
 
 def radius(
@@ -88,8 +88,8 @@ def _piece(form: Form, box: tuple[Numbers, Numbers], rows: Numbers) -> tuple[Any
     alpha = (inverse * arb_mat(n, 1, [-one.value for one in bias])).entries()
     slopes = _rows(form, x, v, alpha, sin, cos)
     zero = arb(0)
-    derivatives = inverse * arb_mat(n, 2 * n, [part for one in slopes for part in row(one, 2 * n)])
-    entries = [entry.abs_upper() for entry in derivatives.entries()]
+    slope = inverse * arb_mat(n, 2 * n, [part for one in slopes for part in derivatives(one, 2 * n)])
+    entries = [entry.abs_upper() for entry in slope.entries()]
     weights = [entry.abs_upper() for entry in inverse.entries()]
     by_x = by_v = off = zero
     for i in range(n):
@@ -105,6 +105,8 @@ def _rows(form: Form, x: Numbers, v: Numbers, alpha: Numbers, sin: Numbers, cos:
     With α such that the rows are zero, M ∂α = -∂rows. I α and the armatures, which are constant factors of α, have no
     such derivatives and are left out of the values: they are wanted without α only.
     """
+    from flint import arb
+
     n, m = form.n, 2 * form.n
     e_x: Numbers = [0] * n
     e_y: Numbers = [0] * n
@@ -117,8 +119,8 @@ def _rows(form: Form, x: Numbers, v: Numbers, alpha: Numbers, sin: Numbers, cos:
         e_x[i] = -sin[i] * alpha[i] - cos[i] * squared
         e_y[i] = cos[i] * alpha[i] - sin[i] * squared
         e_x[i], e_y[i] = (
-            Tangent(e_x[i], unit(i, -e_y[i], m) + unit(n + i, cos[i] * v[i] * -2, m)),
-            Tangent(e_y[i], unit(i, e_x[i], m) + unit(n + i, sin[i] * v[i] * -2, m)),
+            Tangent(e_x[i], _two(unit(i, -e_y[i], m), n + i, cos[i] * v[i] * -2)),
+            Tangent(e_y[i], _two(unit(i, e_x[i], m), n + i, sin[i] * v[i] * -2)),
         )
     u, w, force = forces(form, e_x, e_y, form.gravity)
     rows: list[Tangent] = []
@@ -130,15 +132,20 @@ def _rows(form: Form, x: Numbers, v: Numbers, alpha: Numbers, sin: Numbers, cos:
             rows.append(slide[0] * force[i][0] + slide[1] * force[i][1])
     for i in form.own:
         parent = form.turning_parent[i]
-        turn, rate = Tangent(x[i], unit(i, 1, m)), Tangent(v[i], unit(n + i, 1, m))
+        turn, rate = Tangent(x[i], unit(i, arb(1), m)), Tangent(v[i], unit(n + i, arb(1), m))
         if parent != SUPPORT:
-            turn = turn - Tangent(x[parent], unit(parent, 1, m))
-            rate = rate - Tangent(v[parent], unit(n + parent, 1, m))
+            turn = turn - Tangent(x[parent], unit(parent, arb(1), m))
+            rate = rate - Tangent(v[parent], unit(n + parent, arb(1), m))
         torque = form.damping[i] * rate + form.stiffness[i] * turn - form.preload[i]
         rows[i] = rows[i] + torque
         if parent != SUPPORT:
             rows[parent] = rows[parent] - torque
     return rows
+
+
+def _two(parts: Numbers, key: int, value: Any) -> Numbers:
+    parts[key] = value
+    return parts
 
 
 def _larger(a: Any, b: Any) -> Any:
