@@ -36,6 +36,7 @@ from ...records.check import Result
 from ...reference.integration.richardson import amplified, at_step_zero, follows
 from ...reference.integration.schemes import SCHEMES
 from ...reference.kernels.forward_dynamics import plain_accelerations
+from ...reference.proved.kept import proof, sure
 from ...reference.rounding.bounds import EPSILON
 from ...reference.truth.end_points import PARTS, lookup
 from .. import sharp
@@ -92,11 +93,12 @@ class Moving(Protocol):
 
 @dataclass(frozen=True)
 class EndPoint:
-    """The true angles [rad] at a time [s], (n,), and how sure they are [rad]."""
+    """The true angles [rad] at a time [s], (n,), how sure they are [rad], and whether that is proved."""
 
     time: float
     theta: Array
     error: float
+    proved: bool = False
 
 
 @dataclass(frozen=True)
@@ -170,13 +172,14 @@ def compare(cell: Cell) -> Iterator[Result]:
     if scene.theta is None or scene.omega is None:
         return
     truth = lookup(scene.system, scene.theta, scene.omega, scene.duration)
-    error = truth.error + EPSILON * np.abs(truth.theta).max(-1)
-    points = tuple(map(EndPoint, [scene.duration * part for part in PARTS], truth.theta, error.tolist()))
+    off, proved = sure(truth, proof(scene.system, scene.theta, scene.omega, scene.duration))
+    error = off + EPSILON * np.abs(truth.theta).max(-1)
+    points = tuple(map(EndPoint, [scene.duration * part for part in PARTS], truth.theta, error.tolist(), proved))
     theta, omega = np.array([scene.theta, *truth.theta]), np.array([scene.omega, *truth.omega])
     alpha = plain_accelerations(scene.system, theta, omega)
-    off = measured_error(cell, theta, omega, alpha)
+    inexact = measured_error(cell, theta, omega, alpha)
     for integrator in cell.info.integrators:
-        rounded = rounding(cell, integrator, theta, omega, alpha, off)
+        rounded = rounding(cell, integrator, theta, omega, alpha, inexact)
         yield _compare(cell, integrator, points, rounded, Passed(theta, omega, alpha))
 
 
@@ -217,6 +220,7 @@ def _compare(
             "measured order": None if math.isnan(order) else order,
             "measured order, coarser runs": None if math.isnan(coarser) else coarser,
             "time": point.time,
+            "truth": "proved" if point.proved else "estimated",
             "steps": [ladder.step / 2**k for k in range(4)],
             "errors": [_finite(float(np.abs(end[0] - point.theta).max())) for end in ladder.ends],
             "extrapolated error": missed,

@@ -37,9 +37,7 @@ LINES = 8  # times in the table where none are asked for
 )
 @click.option("--seconds", type=click.FloatRange(0.1), help="Stop after so long, with what is proved by then.")
 @json_option
-def enclose(
-    scene: str, digits: int, until: float | None, radius: float, seconds: float | None, as_json: bool
-) -> int:
+def enclose(scene: str, digits: int, until: float | None, radius: float, seconds: float | None, as_json: bool) -> int:
     """Prove where a scene's motion is: intervals that contain it.
 
     The motion starts in the scene's own state. Status 3 if it is proved for a part of the time only.
@@ -49,7 +47,9 @@ def enclose(
 
     found = find_scene(scene)
     if not isinstance(found, Scene):
-        raise InvalidInput(f"{found.name}: motions of open mechanisms in space are not enclosed: choose a chain or N legs")
+        raise InvalidInput(
+            f"{found.name}: motions of open mechanisms in space are not enclosed: choose a chain or N legs"
+        )
     if found.theta is None or found.omega is None:
         raise InvalidInput(f"{found.name}: [state] is missing: theta and omega say where the motion starts")
     end = found.duration if until is None else until

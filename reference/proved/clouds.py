@@ -1,14 +1,15 @@
 """Sets of states that are carried through time, and what a step makes of them.
 
-A cloud is ŷ + A r + a box: a point, directions (the columns of A), how far it goes along each (|r_j| ≤ reach_j), and the
-balls' own radii. The polynomials p of a motion's series are functions of the state at the start, and by the mean value
-theorem those of every state of the cloud are in
+A cloud is ŷ + A r + a box: a point, directions (the columns of A), how far it goes along each (|r_j| ≤ reach_j), and
+the balls' own radii. The polynomials p of a motion's series are functions of the state at the start, and by the mean
+value theorem those of every state of the cloud are in
 
     p(ŷ) + Σ_j (∂p/∂r_j over the cloud) r_j
 
 with the derivatives carried through the recurrences (:mod:`.tangents`). At the step's end the same formula is the next
-cloud, whose directions are made orthogonal (Lohner 1987): boxes around turned boxes would grow without bound. Derivatives
-cost twice as many series as there are coordinates. Without directions a cloud is a box, and only more precision helps.
+cloud, whose directions are made orthogonal (Lohner 1987): boxes around turned boxes would grow without bound.
+Derivatives cost twice as many series as there are coordinates. Without directions a cloud is a box, and only more
+precision helps.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ from .tangents import Tangent, convolve, derivatives, solver
 
 @dataclass(frozen=True)
 class Cloud:
-    """States: balls ``x``, ``v`` of coordinates and rates, and ``frame`` [coordinate, then rate][direction], ``reach``."""
+    """States: balls ``x``, ``v`` of coordinates and rates; ``frame`` [coordinate, then rate][direction], ``reach``."""
 
     x: Numbers
     v: Numbers
@@ -43,22 +44,23 @@ class Cloud:
         """log₂ of the largest radius, to within one."""
         return log2_largest(a.rad() for part in self.values() for a in part)
 
-    def upright(self) -> Cloud:
+    def upright(self, pace: int = 0) -> Cloud:
         """The same or more states around a point, with orthogonal directions; itself if it has none.
 
         ŷ + F r + box is in ŷ + Q (Q⁻¹F r + Q⁻¹ box) for any regular Q, here of doubles: the orthogonal factor of F, its
-        columns sorted by how far the cloud goes along them.
+        columns sorted by how far the cloud goes along them. Orthogonal are they where rates are in units of 2^``pace``
+        1/s: an oscillation is then a turn, and what turns does not grow.
         """
         if not self.frame:
             return self
         from flint import arb, arb_mat
 
         size = len(self.frame)
+        units = np.where(np.arange(size) < len(self.x), 1.0, 2.0**pace)[:, None]
         lengths = np.array([2.0 ** max(-900.0, min(900.0, log2_of(r) - _base(self.reach))) for r in self.reach])
-        columns = np.array([[float(entry) for entry in line] for line in self.frame]) * lengths
-        order = np.argsort(-np.linalg.norm(columns, axis=0), kind="stable")
-        plain = np.array([[float(entry) for entry in line] for line in self.frame])
-        q = np.linalg.qr(plain[:, order])[0]
+        columns = np.array([[float(entry) for entry in line] for line in self.frame]) / units
+        order = np.argsort(-np.linalg.norm(columns * lengths, axis=0), kind="stable")
+        q = np.linalg.qr(columns[:, order])[0] * units
         turned = arb_mat(size, size, q.ravel().tolist())
         back = turned.inv()
         forward = back * arb_mat(size, len(self.reach), [entry for line in self.frame for entry in line])
@@ -140,10 +142,7 @@ def spread_series(form: Form, cloud: Cloud, order: int) -> Spread:
     slopes = [[[derivatives(c, size)[j] for c in one] for j in range(size)] for one in (*moving.x, *moving.v)]
 
     def whole(centre: list[Numbers], around: list[Numbers]) -> list[Numbers]:
-        return [
-            _spread(a, [derivatives(c, size) for c in b], cloud.reach)
-            for a, b in zip(centre, around, strict=True)
-        ]
+        return [_spread(a, [derivatives(c, size) for c in b], cloud.reach) for a, b in zip(centre, around, strict=True)]
 
     parts = ((getattr(point, name), getattr(moving, name)) for name in ("x", "v", "cos", "sin", "u", "w"))
     return Spread(point, Series(*(whole(*pair) for pair in parts)), slopes, cloud.reach)

@@ -71,9 +71,7 @@ class Defect:
                     force=_tail(u, 0) + _tail(w, 0),
                 )
             )
-        self.own = [
-            (i, _own_tail(form, series, i, order)) for i in form.own
-        ]
+        self.own = [(i, _own_tail(form, series, i, order)) for i in form.own]
 
     def rows(self, length: Any) -> Numbers:
         """Upper bounds of |E| of each row on [0, ``length``] or, if it is negative, on [``length``, 0]."""

@@ -29,7 +29,11 @@ MOST_DIGITS = 1000
 MOST_BITS = 4096  # of a step: beyond, a motion is called out of reach
 WIDEST = -3.0  # log₂ of the largest radius of a cloud with a start as wide as asked: an eighth of a radian
 SPARE = 6  # bits more than the growth seen so far asks for
-DEEP = 3  # links in a row from which directions are carried: balls alone grow too fast along a chain
+# Directions (see clouds.py) cost twice as many series as there are coordinates, and save what balls alone lose. They
+# are carried along chains, where that is hundreds of bits a second, and where a run has shown it to be as much.
+DEEP = 3  # links in a row
+LOST = 400  # bits, from the start to the end
+MOST_DIRECTED = 24  # coordinates and rates: beyond, precision is cheaper whatever is lost
 
 
 @dataclass(frozen=True)
@@ -67,7 +71,7 @@ class Enclosed:
     @property
     def radius(self) -> Floats:
         """The largest radius at each time, of all angles [rad] and rates [rad/s], rounded up; shape (m,)."""
-        found = [max(_above(a.rad()) for a in (*t, *w)) for t, w in zip(self.theta, self.omega, strict=True)]
+        found = [max(above(a.rad()) for a in (*t, *w)) for t, w in zip(self.theta, self.omega, strict=True)]
         return np.array(found, dtype=np.float64)
 
     def contains(self, theta: Any, omega: Any) -> NDArray[np.bool_]:
@@ -115,7 +119,7 @@ def enclose(
     start = box(
         [arb(a, x_radius) for a in angles],
         [arb(a, v_radius) for a in rates],
-        directions=wide or mechanism.depth >= DEEP,
+        directions=wide or (mechanism.depth >= DEEP and 2 * mechanism.n <= MOST_DIRECTED),
     )
     goal = WIDEST if wide else -math.log2(10.0) * int(digits) - 1e-9
     if wide:
@@ -128,7 +132,7 @@ def enclose(
 
 def _with_enough_bits(p: Planar, start: Cloud, times: list[float], limits: Limits) -> tuple[int, Progress]:
     """The first run that comes to its end, each with as many bits more as the growth seen before asks for."""
-    bits = math.ceil(-limits.widest) + 32
+    bits = math.ceil(-limits.widest) + (64 if start.frame else 32)
     best: tuple[int, Progress] | None = None
     whole = abs(times[-1] - times[0])
     while True:
@@ -138,9 +142,12 @@ def _with_enough_bits(p: Planar, start: Cloud, times: list[float], limits: Limit
         if progress.stopped != "width" or bits >= MOST_BITS:
             return best
         done = abs(progress.time - times[0])
-        lost = bits + limits.widest
-        ratio = 1.1 * whole / done if done else 4.0
-        bits = min(MOST_BITS, max(bits + 32, math.ceil(min(3.0, ratio) * lost - limits.widest) + SPARE))
+        lost, ratio = bits + limits.widest, whole / done if done else math.inf
+        if not start.frame and lost * ratio > LOST and 2 * p.n <= MOST_DIRECTED:
+            start = box(start.x, start.v, directions=True)
+            bits = math.ceil(-limits.widest) + 64
+        else:
+            bits = min(MOST_BITS, max(bits + 32, math.ceil(min(3.0, 1.1 * ratio) * lost - limits.widest) + SPARE))
 
 
 def _further(a: Progress, b: Progress, start: float) -> bool:
@@ -179,11 +186,11 @@ def outward(balls: Balls) -> tuple[Floats, Floats]:
     """Lower and upper ends of balls as doubles, rounded outwards; the same shape."""
     low, high = np.empty(balls.shape), np.empty(balls.shape)
     for place, ball in np.ndenumerate(balls):
-        low[place], high[place] = -_above(-ball), _above(ball)
+        low[place], high[place] = -above(-ball), above(ball)
     return low, high
 
 
-def _above(ball: Any) -> float:
+def above(ball: Any) -> float:
     """The least double that is not below the ball's upper end, or the next."""
     from flint import arb
 
@@ -193,7 +200,7 @@ def _above(ball: Any) -> float:
 
 
 def _state(p: Planar, theta: Any, omega: Any) -> tuple[list[float], list[float]]:
-    angles, rates = checked_state(p, theta, omega)
+    angles, rates = checked_state(p.mechanism, theta, omega)
     if angles.ndim != 1:
         raise InvalidInput(f"theta: one state is enclosed at a time, shape ({p.n},), got shape {angles.shape}")
     return angles.tolist(), rates.tolist()

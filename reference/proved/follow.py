@@ -71,7 +71,9 @@ def follow(p: Planar, start: Cloud, times: Sequence[float], bits: int, limits: L
             if precision not in forms:
                 forms[precision] = form_of(p)
             span = (progress.time, end)
-            stretch, reached = walk.step(forms[precision], cloud.upright(), order_for(scale - wanted), wanted, span, shortest)
+            stretch, reached = walk.step(
+                forms[precision], cloud.upright(walk.pace), order_for(scale - wanted), wanted, span, shortest
+            )
             if stretch is None:
                 progress.stopped = "step"
                 return progress

@@ -20,7 +20,8 @@ import numpy as np
 from ...models import DocumentSystem, Scene
 from ...models.writers.whole_file import write_whole
 from ..truth.end_points import PARTS, key
-from .enclose import Balls, Enclosed, enclose
+from ..truth.quadruple import QuadrupleTrajectory
+from .enclose import Balls, Enclosed, Floats, above, enclose
 
 PATH = Path(__file__).parent.parent / "data" / "proved_endpoints.json"
 DIGITS = 30  # as many as the end points in quadruple precision promise
@@ -30,7 +31,7 @@ READ_BITS = 192  # of the balls that are read: more than KEPT_DIGITS hold
 
 @dataclass(frozen=True)
 class Proof:
-    """Proved end points: ``times`` [s], balls ``theta`` [rad] and ``omega`` [rad/s], shape (times, n), as far as proved.
+    """Proved end points: ``times`` [s], balls ``theta`` [rad] and ``omega`` [rad/s], (times, n), as far as proved.
 
     ``radius``: the largest at each time; ``bits``, ``steps``, ``seconds``: of the run that proved them.
     """
@@ -45,9 +46,7 @@ class Proof:
     seconds: float
 
 
-def proof(
-    system: DocumentSystem, theta: Sequence[float], omega: Sequence[float], duration: float
-) -> Proof | None:
+def proof(system: DocumentSystem, theta: Sequence[float], omega: Sequence[float], duration: float) -> Proof | None:
     """The proved states at 1/8, 1/4, 1/2 and all of ``duration`` [s]; None where none are kept."""
     entry = _kept().get(key(system, theta, omega, duration))
     if entry is None:
@@ -58,9 +57,36 @@ def proof(
         balls = np.array([[flint.arb(text) for text in row] for row in entry["states"]], dtype=object)
     n = system.n
     numbers = (entry[name] for name in ("bits", "steps", "seconds"))
-    return Proof(
-        entry["scene"], tuple(entry["times"]), balls[:, :n], balls[:, n:], tuple(entry["radius"]), *numbers
-    )
+    return Proof(entry["scene"], tuple(entry["times"]), balls[:, :n], balls[:, n:], tuple(entry["radius"]), *numbers)
+
+
+def sure(truth: QuadrupleTrajectory, proof: Proof | None) -> tuple[Floats, tuple[bool, ...]]:
+    """How far off the angles and rates of ``truth`` are at each of its times, shape (times,), and whether it is proved.
+
+    Where there is a proof it is a bound: the largest distance of the states from the far ends of the intervals.
+    Elsewhere it is the estimate that ``truth`` has.
+    """
+    off = truth.error.copy()
+    count = 0 if proof is None else len(proof.times)
+    if proof is not None:
+        for i in range(count):
+            off[i] = above(max(_distances(truth, proof, i)))
+    return off, tuple(i < count for i in range(len(off)))
+
+
+def _distances(truth: QuadrupleTrajectory, proof: Proof, i: int) -> list[Any]:
+    """Upper ends of how far each angle and rate is off at time ``i``."""
+    import flint
+
+    with flint.ctx.workprec(READ_BITS):
+        return [
+            abs(ball - high - low).upper()
+            for balls, highs, lows in (
+                (proof.theta[i], truth.theta[i], truth.theta_low[i]),
+                (proof.omega[i], truth.omega[i], truth.omega_low[i]),
+            )
+            for ball, high, low in zip(balls, highs.tolist(), lows.tolist(), strict=True)
+        ]
 
 
 def proved(scene: Scene, digits: int = DIGITS, seconds: float | None = None) -> Enclosed:
@@ -77,18 +103,27 @@ def entry(scene: Scene, found: Enclosed) -> dict[str, Any]:
 
     with flint.ctx.workprec(found.bits + 64):
         states = [
-            [ball.str(KEPT_DIGITS) for ball in (*theta, *omega)]
+            [ball.str(KEPT_DIGITS, more=True) for ball in (*theta, *omega)]
             for theta, omega in zip(found.theta[1:], found.omega[1:], strict=True)
         ]
     return {
         "scene": scene.name,
         "times": found.times[1:].tolist(),
         "states": states,
-        "radius": [float(f"{r:.1e}") for r in found.radius[1:] * 1.1],
+        "radius": radii(states),
         "bits": found.bits,
         "steps": found.steps,
         "seconds": round(found.seconds, 1),
     }
+
+
+def radii(states: Sequence[Sequence[str]]) -> list[float]:
+    """The largest radius of each row of decimal balls, two digits of it, rounded up."""
+    import flint
+
+    with flint.ctx.workprec(READ_BITS):
+        found = [max(above(flint.arb(text).rad()) for text in row) for row in states]
+    return [float(f"{1.05 * radius:.1e}") for radius in found]
 
 
 @cache

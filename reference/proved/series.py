@@ -97,17 +97,14 @@ def motion_series(
             e_y[i] = product(cos[i], vs[i]) * (k + 1)
         weight = form.gravity if k == 0 else None
         u, w, force = forces(form, e_x, e_y, weight)
-        rows = [zero] * n
-        for i in range(n):
-            slide = form.slide[i]
-            if slide is None:
-                known = first_cos[i] * u[i] - first_sin[i] * w[i]
-                if k:
-                    known = known + product(cos[i][1:], us[i])
-                    known = known - product(sin[i][1:], ws[i])
-                rows[i] = known
-            else:
-                rows[i] = slide[0] * force[i][0] + slide[1] * force[i][1]
+        rows = [
+            form.slide[i][0] * force[i][0] + form.slide[i][1] * force[i][1]  # type: ignore[index]
+            if form.slide[i]
+            else first_cos[i] * u[i] - first_sin[i] * w[i]
+            for i in range(n)
+        ]
+        for i in turning if k else ():
+            rows[i] = rows[i] + product(cos[i][1:], us[i]) - product(sin[i][1:], ws[i])
         if form.own:
             _add_own(form, rows, xs, vs, k)
         alpha = [-a for a in solve(rows)]
@@ -141,7 +138,8 @@ def forces(
     n, parents = form.n, form.parents
     at: list[tuple[Any, Any]] = []  # u, the acceleration of the hinge
     force: list[tuple[Any, Any]] = []
-    u, w = [], []
+    u: Numbers = []
+    w: Numbers = []
     for i in range(n):
         x, y = e_x[i], e_y[i]
         parent = parents[i]

@@ -9,10 +9,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 from . import tube
-from .clouds import Stretch, Cloud, spread_series
+from .clouds import Cloud, Stretch, spread_series
 from .defect import Defect
 from .form import Form
 from .series import Numbers
@@ -26,11 +25,13 @@ MOST_TRIES = 60  # of one step; each is shorter, or in more pieces
 @dataclass
 class Walk:
     """Steps one after another. Remembered from step to step: ``ratio``, of the length that was proved to what the
-    coefficients promise, and ``pieces`` of the tube. They are guesses: what is proved rests on none of them.
+    coefficients promise, ``pieces`` of the tube, and ``pace``: log₂ of how fast the motion is [1/s], the inverse of its
+    series' radius. They are guesses: what is proved rests on none of them.
     """
 
     ratio: float = 0.7
     pieces: int = 1
+    pace: int = 0
     tries: int = 0
 
     def step(
@@ -50,6 +51,7 @@ class Walk:
             return None, start
         series = spread.whole
         promised = _promised(series.x, series.v, order, wanted)
+        self.pace = min(60, max(-60, round(wanted / order - math.log2(promised)))) if promised < math.inf else 0
         to_go = abs(end - start)
         length = min(promised * self.ratio, to_go)
         with flint.ctx.workprec(LOW_BITS):

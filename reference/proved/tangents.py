@@ -28,17 +28,15 @@ class Tangent:
         return Tangent(-self.value, None if self.parts is None else [-a for a in self.parts])
 
     def __sub__(self, other: Any) -> Tangent:
-        return self + -other
+        return self.__add__(-other)
 
     def __rsub__(self, other: Any) -> Tangent:
-        return -self + other
+        return (-self).__add__(other)
 
     def __mul__(self, other: Any) -> Tangent:
         if not isinstance(other, Tangent):
             return Tangent(self.value * other, _times(self.parts, other))
-        return Tangent(
-            self.value * other.value, _sum(_times(self.parts, other.value), _times(other.parts, self.value))
-        )
+        return Tangent(self.value * other.value, _sum(_times(self.parts, other.value), _times(other.parts, self.value)))
 
     __rmul__ = __mul__
 

@@ -59,9 +59,7 @@ def boxes(series: Series, length: Any, width: Any, pieces: int) -> list[tuple[Nu
     found = []
     for j in range(pieces):
         middle = arb_poly([half * (2 * j + 1), 1])
-        found.append(
-            tuple([_around(p(middle), half) + arb(0, width) for p in polynomials] for polynomials in (x, v))
-        )
+        found.append(tuple([_around(p(middle), half) + arb(0, width) for p in polynomials] for polynomials in (x, v)))
     return found  # type: ignore[return-value]
 
 

@@ -1,9 +1,9 @@
-"""What a proof rests on, part by part: the residual's bound, the tube's boxes and derivatives, orthogonal directions."""
+"""What a proof rests on, part by part: the residual's bound, the tube's boxes and derivatives, turned directions."""
 
 import numpy as np
 import pytest
-from leaning_tree import general
 from flint import arb, arb_mat, arb_poly
+from leaning_tree import general
 
 from furiko.models import NLegPendulum, RodChain
 from furiko.models.mechanism import mechanism_of
