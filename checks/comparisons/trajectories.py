@@ -57,9 +57,7 @@ Array = NDArray[np.float64]
 
 NAME = "trajectory"
 
-NEAR = (
-    1e-2  # [rad] the runs at h/2 and h/4 part less than this: within it, an error's growth is linear to about a percent
-)
+NEAR = 1e-2  # [rad] the runs at h/2 and h/4 part less than this: an error's growth is then linear to about a percent
 FIRST_STEPS = 8  # of the coarsest run; doubled until the expansion in h holds
 # The measured order is off by a part that is in proportion to h: once the expansion's first term rules, the finer one
 # is no further below the nominal one than this, and the coarser one no further than twice this.
@@ -173,14 +171,13 @@ def compare(cell: Cell) -> Iterator[Result]:
         return
     truth = lookup(scene.system, scene.theta, scene.omega, scene.duration)
     off, proved = sure(truth, proof(scene.system, scene.theta, scene.omega, scene.duration))
-    error = off + EPSILON * np.abs(truth.theta).max(-1)
-    points = tuple(map(EndPoint, [scene.duration * part for part in PARTS], truth.theta, error.tolist(), proved))
+    error = (off + EPSILON * np.abs(truth.theta).max(-1)).tolist()
+    points = tuple(map(EndPoint, [scene.duration * part for part in PARTS], truth.theta, error, proved))
     theta, omega = np.array([scene.theta, *truth.theta]), np.array([scene.omega, *truth.omega])
-    alpha = plain_accelerations(scene.system, theta, omega)
-    inexact = measured_error(cell, theta, omega, alpha)
+    states = theta, omega, plain_accelerations(scene.system, theta, omega)
+    inexact = measured_error(cell, *states)
     for integrator in cell.info.integrators:
-        rounded = rounding(cell, integrator, theta, omega, alpha, inexact)
-        yield _compare(cell, integrator, points, rounded, Passed(theta, omega, alpha))
+        yield _compare(cell, integrator, points, rounding(cell, integrator, *states, inexact), Passed(*states))
 
 
 @dataclass(frozen=True)

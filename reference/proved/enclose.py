@@ -30,9 +30,8 @@ MOST_BITS = 4096  # of a step: beyond, a motion is called out of reach
 WIDEST = -3.0  # log₂ of the largest radius of a cloud with a start as wide as asked: an eighth of a radian
 SPARE = 6  # bits more than the growth seen so far asks for
 # Directions (see clouds.py) cost twice as many series as there are coordinates, and save what balls alone lose. They
-# are carried along chains, where that is hundreds of bits a second, and where a run has shown it to be as much.
-DEEP = 3  # links in a row
-LOST = 400  # bits, from the start to the end
+# are carried for a start that is a set, and where a run has shown that it is as much as this.
+LOST = 700  # bits, from the start to the end; measured on three rods (cheaper without) and five (as cheap)
 MOST_DIRECTED = 24  # coordinates and rates: beyond, precision is cheaper whatever is lost
 
 
@@ -119,7 +118,7 @@ def enclose(
     start = box(
         [arb(a, x_radius) for a in angles],
         [arb(a, v_radius) for a in rates],
-        directions=wide or (mechanism.depth >= DEEP and 2 * mechanism.n <= MOST_DIRECTED),
+        directions=wide,
     )
     goal = WIDEST if wide else -math.log2(10.0) * int(digits) - 1e-9
     if wide:
@@ -132,7 +131,7 @@ def enclose(
 
 def _with_enough_bits(p: Planar, start: Cloud, times: list[float], limits: Limits) -> tuple[int, Progress]:
     """The first run that comes to its end, each with as many bits more as the growth seen before asks for."""
-    bits = math.ceil(-limits.widest) + (64 if start.frame else 32)
+    bits = math.ceil(-limits.widest) + 32
     best: tuple[int, Progress] | None = None
     whole = abs(times[-1] - times[0])
     while True:

@@ -42,11 +42,6 @@ class Planar:
         """Number of coordinates."""
         return self.mechanism.n
 
-    @property
-    def depth(self) -> int:
-        """Number of links of the longest chain."""
-        return PlanarTree(self.mechanism.links, 0.0).depth
-
 
 def planar(system: System | PlanarTree | Mechanism | Planar) -> Planar:
     """The mechanism of a document's system or of a planar tree.

@@ -133,11 +133,13 @@ def test_a_start_as_wide_as_asked_holds_the_motions_of_all_its_states():
 
 
 def test_directions_and_balls_alone_prove_the_same(monkeypatch):
-    alone = furiko.enclose(DOUBLE, START, REST, [0.0, 0.4])
-    monkeypatch.setattr(module, "DEEP", 2)
-    along = furiko.enclose(DOUBLE, START, REST, [0.0, 0.4])
+    alone = furiko.enclose(DOUBLE, START, REST, [0.0, 1.0])
+    assert alone.bits > 100
+    monkeypatch.setattr(module, "LOST", 0)
+    along = furiko.enclose(DOUBLE, START, REST, [0.0, 1.0])
     with precision(200):
         assert all(a.overlaps(b) for a, b in zip(alone.theta.flat, along.theta.flat, strict=True))
+    assert along.bits == math.ceil(15 * math.log2(10)) + 64
 
 
 def test_a_tree_with_dampers_and_springs_is_that_of_the_articulated_body_algorithm():
