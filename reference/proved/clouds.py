@@ -67,8 +67,8 @@ class Cloud:
         radii = [a.rad() for a in (*self.x, *self.v)]
         reach = []
         for i in range(size):
-            along = sum(forward[i, j].abs_upper() * r for j, r in enumerate(self.reach))
-            reach.append((along + sum(back[i, j].abs_upper() * r for j, r in enumerate(radii))).upper())
+            along = sum((forward[i, j].abs_upper() * r for j, r in enumerate(self.reach)), arb(0))
+            reach.append((along + sum((back[i, j].abs_upper() * r for j, r in enumerate(radii)), arb(0))).upper())
         frame = [[arb(float(entry)) for entry in line] for line in q]
         return Cloud([a.mid() for a in self.x], [a.mid() for a in self.v], frame, reach)
 

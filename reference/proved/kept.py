@@ -132,6 +132,26 @@ def _kept() -> dict[str, dict[str, Any]]:
     return found
 
 
+def table() -> str:
+    """What is kept, as a table in Markdown: in the order of the catalogue."""
+    from ...models import document_scenes
+
+    lines = ["| scene | proved until [s] | radius there | bits | steps | seconds |", "|---|---|---|---|---|---|"]
+    for scene in document_scenes():
+        if scene.theta is None or scene.omega is None or not scene.duration:
+            continue
+        found = proof(scene.system, scene.theta, scene.omega, scene.duration)
+        if found is None or not found.times:
+            lines.append(f"| {scene.name} | not yet of {scene.duration:g} | | | | |")
+            continue
+        until, radius = found.times[-1], f"{found.radius[-1]:.0e}"
+        part = "" if until == scene.duration else f" of {scene.duration:g}"
+        lines.append(
+            f"| {scene.name} | {until:g}{part} | {radius} | {found.bits} | {found.steps} | {found.seconds:.0f} |"
+        )
+    return "\n".join(lines)
+
+
 def main(names: Sequence[str]) -> None:
     """Prove the end points of these scenes, or of all that have a duration, and write them."""
     from ...models import document_scenes

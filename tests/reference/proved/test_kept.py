@@ -1,6 +1,7 @@
 """Every kept proof: against quadruple precision, against ``simulate``'s own error estimates, and proved anew."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -75,6 +76,11 @@ def test_a_new_proof_meets_the_kept_one(name):
             for a, b in zip(new[1:].flat, old.flat, strict=True):
                 assert (a + arb(0, b.rad())).contains(b)
                 assert a.overlaps(b)
+
+
+def test_the_table_in_the_documentation_is_that_of_what_is_kept():
+    page = Path(__file__).parents[3] / "docs" / "theory" / "proved-trajectories.md"
+    assert f"<!-- proved -->\n{kept.table()}\n<!-- /proved -->" in page.read_text(encoding="utf-8")
 
 
 def test_an_entry_holds_what_was_proved(tmp_path):
