@@ -18,7 +18,10 @@ Vector = tuple[Formula, Formula]
 
 @dataclass(frozen=True)
 class AnyMistake:
-    """A mistake in any mechanism. ``energy``: what it adds to T - U; ``rows``: what it adds to each row."""
+    """A mistake in any mechanism. ``energy``: what it adds to T - U; ``rows``: what it adds to each row.
+
+    ``half_hidden``: a position is wrong and only one of the two energies shows it: a mistake there says as much in less.
+    """
 
     code: str
     stage: Stage
@@ -26,6 +29,12 @@ class AnyMistake:
     japanese: str
     energy: Formula = NOTHING
     rows: dict[int, Formula] = field(default_factory=dict)
+    half_hidden: bool = False
+
+    @property
+    def size(self) -> int:
+        """How many terms it changes: of the energies, or of the rows."""
+        return len(self.energy) + sum(map(len, self.rows.values()))
 
 
 @dataclass(frozen=True)

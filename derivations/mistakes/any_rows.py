@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 
 from flint import fmpq
 
@@ -15,15 +15,15 @@ from ..steps.mechanism import Mechanism
 from .any_parts import AnyMistake, Words
 
 
-def derivative_mistakes(m: Mechanism, words: Words) -> Iterator[AnyMistake]:
-    """Mistakes in Lagrange's derivatives: in one row, and the same in all rows."""
-    s, n = m.space, m.space.n
-    momenta = [s.by_rate(m.kinetic, i) for i in range(n)]
+def derivative_mistakes(s: Space, kinetic: Formula, potential: Formula, words: Words) -> Iterator[AnyMistake]:
+    """Mistakes in Lagrange's derivatives of T and U: in one row, and the same in all rows."""
+    n = s.n
+    momenta = [s.by_rate(kinetic, i) for i in range(n)]
     through = [
         [s.by_angle(p, j) * s.w(j) for j in range(n)] for p in momenta
     ]  # d/dt of ∂T/∂q̇ by way of each coordinate
-    slope = [s.by_angle(m.kinetic, i) for i in range(n)]
-    height = [s.by_angle(m.potential, i) for i in range(n)]
+    slope = [s.by_angle(kinetic, i) for i in range(n)]
+    height = [s.by_angle(potential, i) for i in range(n)]
     whole = [add(parts) for parts in through]
     inertial = [add(s.by_rate(p, j) * s.a(j) for j in range(n)) for p in momenta]
     kinds: list[tuple[str, str, str, list[Formula]]] = [
@@ -311,10 +311,13 @@ def linear(s: Space, f: Formula) -> Formula:
     return total
 
 
-def slip_mistakes(m: Mechanism, words: Words) -> Iterator[AnyMistake]:
-    """One term of one row: its sign, its factor, left out, sin for cos; named however the rows are combined."""
-    s = m.space
-    for i, row in enumerate(m.rows):
+def slip_mistakes(s: Space, rows: Mapping[int, Formula], lengths: Sequence[Formula]) -> Iterator[AnyMistake]:
+    """One term of one row: its sign, its factor, left out, sin for cos; named however the rows are combined.
+
+    ``lengths``: those that a weight's moment may have lost.
+    """
+    for i, row in rows.items():
+        yield from _lost_lengths(s, i, row, lengths)
         groups: dict[tuple[int, int, int], dict[Key, fmpq]] = {}
         for (e, h, phase), c in row.terms.items():
             groups.setdefault((s.motion(e) + s.outside(e), h, phase), {})[e, h, phase] = c
@@ -361,3 +364,36 @@ def slip_mistakes(m: Mechanism, words: Words) -> Iterator[AnyMistake]:
                         f"{wo}：{inner} の符号が逆です。",
                         rows={i: part.times(-2)},
                     )
+                    yield AnyMistake(
+                        "part-factor",
+                        "equation",
+                        f"{where}: the part {inner} has an extra factor 2.",
+                        f"{wo}：{inner} に余分な 2 が掛かっています。",
+                        rows={i: part},
+                    )
+                    yield AnyMistake(
+                        "part-factor",
+                        "equation",
+                        f"{where}: the part {inner} lacks its factor 2.",
+                        f"{wo}：{inner} に 2 が足りません。",
+                        rows={i: part.times(-HALF)},
+                    )
+
+
+def _lost_lengths(s: Space, i: int, row: Formula, lengths: Sequence[Formula]) -> Iterator[AnyMistake]:
+    """All that neither moves nor is a spring's, or one wave of it, divided by a length."""
+    waves: dict[tuple[int, int], dict[Key, fmpq]] = {}
+    for key, c in row.terms.items():
+        if key[1] and not s.motion(key[0]):
+            waves.setdefault(key[1:], {})[key] = c
+    parts = [Formula(terms) for terms in waves.values()]
+    for f in (*([add(parts)] if len(parts) > 1 else ()), *parts):
+        for length in lengths:
+            lost = pretty(text(s, length))
+            yield AnyMistake(
+                "factor-missing",
+                "equation",
+                f"In row {i + 1}, gravity lacks the factor {lost}.",
+                f"第{i + 1}式の重力に {lost} が足りません。",
+                rows={i: f * length.inverse_monomial() - f},
+            )
