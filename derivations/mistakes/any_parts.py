@@ -20,7 +20,7 @@ Vector = tuple[Formula, Formula]
 class AnyMistake:
     """A mistake in any mechanism. ``energy``: what it adds to T - U; ``rows``: what it adds to each row.
 
-    ``half_hidden``: a position is wrong and only one of the two energies shows it: a mistake there says as much in less.
+    ``half_hidden``: a position is wrong and only one of the two energies shows it, where a mistake would say as much.
     """
 
     code: str

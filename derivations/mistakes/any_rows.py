@@ -49,13 +49,13 @@ def derivative_mistakes(s: Space, kinetic: Formula, potential: Formula, words: W
             "inner-derivative-of-cosine",
             "the inner derivative is forgotten in d/dt of cos or sin in ∂T/∂q̇",
             "d/dt cos の中身の微分が抜けています",
-            [by_argument(p, 1) - f for p, f in zip(momenta, whole, strict=True)],
+            [by_argument(s, p, 1) - f for p, f in zip(momenta, whole, strict=True)],
         ),
         (
             "inner-derivative-of-cosine",
             "the inner derivative is forgotten in d/dt of cos or sin in ∂T/∂q̇",
             "d/dt cos の中身の微分が抜けています",
-            [by_argument(p, -1) - f for p, f in zip(momenta, whole, strict=True)],
+            [by_argument(s, p, -1) - f for p, f in zip(momenta, whole, strict=True)],
         ),
         (
             "cosine-time-derivative-sign",
@@ -117,12 +117,13 @@ def _by_row(
         )
 
 
-def by_argument(f: Formula, sign: int) -> Formula:
-    """The derivative of every cos and sin by its whole argument, with ``sign`` for how the difference is written."""
+def by_argument(s: Space, f: Formula, sign: int) -> Formula:
+    """The derivative of every cos and sin by its whole argument, with ``sign`` for how a difference is written."""
     out: dict[Key, fmpq] = {}
     for (e, h, phase), c in f.terms.items():
         if h:
-            out[e, h, 1 - phase] = c * (sign if phase == SIN else -sign)
+            is_difference = min(digits(h, s.n)) < 0
+            out[e, h, 1 - phase] = c * (sign if is_difference else 1) * (1 if phase == SIN else -1)
     return Formula(out)
 
 
@@ -284,6 +285,13 @@ def small_angle_mistakes(m: Mechanism) -> Iterator[AnyMistake]:
         "重力の項に小さい角の近似 sin θ ≈ θ が使われています。",
         rows={i: linear(s, f) - f for i, f in enumerate(gravity) if f},
     )
+    yield AnyMistake(
+        "small-angle-early",
+        "equation",
+        "Gravity is taken for small angles: sin θ has become θ; the exact equations have sin θ.",
+        "重力の項に小さい角の近似 sin θ ≈ θ が使われています。",
+        rows={i: linear(s, sines) - sines for i, f in enumerate(gravity) if (sines := _sines(f))},
+    )
     rows = [f + force for f, force in zip(m.rows, m.driven, strict=True)]
     made = {}
     for i, row in enumerate(rows):
@@ -297,6 +305,10 @@ def small_angle_mistakes(m: Mechanism) -> Iterator[AnyMistake]:
         "小さい角の近似式です。厳密な式が求められています。",
         rows=made,
     )
+
+
+def _sines(f: Formula) -> Formula:
+    return Formula({key: c for key, c in f.terms.items() if key[2] == SIN})
 
 
 def linear(s: Space, f: Formula) -> Formula:

@@ -6,7 +6,8 @@ every two mistakes (:mod:`.trial`): so it does not matter how the rows were comb
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 
 from ...algebra.fingerprint import PRIME
 from ...algebra.notation import pretty
@@ -34,6 +35,7 @@ MOST_TERMS = 400  # in the right rows: a second or two
 MOST_NAMED = 6
 MOST_SCALES = 4  # that a Lagrangian may have
 MOST_PAIRS = 20  # that are proved
+STRANGE = 2  # terms
 BODIES = {"rod-chain": ("rod", "棒"), "rods": ("rod", "棒"), "links": ("link", "リンク")}
 
 
@@ -60,8 +62,12 @@ def named_anywhere(s: Submission, h: Hypothesis) -> tuple[NamedMistake, ...]:
     found = [mistake for mistake in mistakes if trial.explains(mistake)]
     if found:
         return (_named(found),)
-    two = _pair(trial, mistakes) or (() if is_lagrangian else _one_after_another(trial, mistakes, words_of(s)))
-    return tuple(_named(twins) for twins in two)
+    pairs = [*_sums(trial, mistakes), *_derived(trial, mistakes, words_of(s))]
+    pairs.sort(key=lambda pair: pair.cost)
+    two = next(
+        (x for x in (*pairs[:MOST_PAIRS], *_slipped(trial, mistakes)) if trial.explains(x.one[0], x.two[0])), None
+    )
+    return () if two is None else (_named(two.one), _named(two.two))
 
 
 def _named(twins: Sequence[AnyMistake]) -> NamedMistake:
@@ -71,58 +77,78 @@ def _named(twins: Sequence[AnyMistake]) -> NamedMistake:
     return NamedMistake(first.code, first.code, first.stage, first.english, first.japanese, tuple(also))
 
 
-def _pair(trial: Trial, mistakes: Sequence[AnyMistake]) -> tuple[list[AnyMistake], ...]:
-    """Two mistakes that together lead to what is written, each with those that lead to the same; () where none do."""
-    if trial.solution is None and not trial.scaled:
-        return ()
+@dataclass(frozen=True)
+class _Pair:
+    """Two mistakes that together explain what is written, each with those that lead to the same."""
+
+    one: Sequence[AnyMistake]
+    two: Sequence[AnyMistake]
+    apart: bool  # the second is made as if the first were not
+
+    @property
+    def cost(self) -> int:
+        """The terms that both change; more where derivatives are wrong, and yet those of the right energies."""
+        one, two = self.one[0], self.two[0]
+        strange = self.apart and bool(one.energy) != bool(two.energy) and "derivative" in (one.stage, two.stage)
+        return one.size + two.size + STRANGE * strange
+
+
+def _sums(trial: Trial, mistakes: Sequence[AnyMistake]) -> Iterator[_Pair]:
+    """Two mistakes neither of which changes what the other adds."""
     marks: dict[Mark, list[AnyMistake]] = {}
     for mistake in mistakes:
         mark = trial.mark(mistake)
         if mark is not None:
             marks.setdefault(mark, []).append(mistake)
     place = {id(mistake): k for k, mistake in enumerate(mistakes)}
-    pairs = []
     for wanted in trial.wanted:
         for mark, twins in marks.items():
             other = tuple((x - y) % PRIME for x, y in zip(wanted, mark, strict=True))
             if other in marks and place[id(twins[0])] <= place[id(marks[other][0])]:
-                pairs.append((twins, marks[other]))
-    pairs.sort(key=lambda pair: sum(twins[0].size for twins in pair))
-    return next((pair for pair in pairs[:MOST_PAIRS] if trial.explains(pair[0][0], pair[1][0])), ())
+                yield _Pair(twins, marks[other], apart=True)
+
+
+def _derived(trial: Trial, mistakes: Sequence[AnyMistake], words: Words) -> Iterator[_Pair]:
+    """A mistake in the energies, and one in the derivatives of what those then are, in one row."""
+    m, space = trial.m, trial.space
+
+    def seconds(first: AnyMistake, row: int) -> Iterator[AnyMistake]:
+        moving = {key: c for key, c in m.valued(first.energy).terms.items() if space.motion(key[0])}
+        kinetic = m.kinetic + Formula(moving)
+        potential = kinetic - m.lagrangian - m.valued(first.energy)
+        return (x for x in derivative_mistakes(space, kinetic, potential, words) if set(x.rows) == {row})
+
+    return _one_after_another(trial, [x for x in mistakes if x.energy], seconds)
+
+
+def _slipped(trial: Trial, mistakes: Sequence[AnyMistake]) -> Iterator[_Pair]:
+    """A mistake, and a slip in one term of a row that it leads to."""
+
+    def seconds(first: AnyMistake, row: int) -> Iterator[AnyMistake]:
+        changed = trial.right[row] + trial.changes(first).get(row, NOTHING)
+        return slip_mistakes(trial.space, {row: changed}, _lengths(trial.m))
+
+    return _one_after_another(trial, [x for x in mistakes if x.stage != "equation"], seconds)
 
 
 def _one_after_another(
-    trial: Trial, mistakes: Sequence[AnyMistake], words: Words
-) -> tuple[list[AnyMistake], list[AnyMistake]] | tuple[()]:
-    """A mistake in the energies, and one made with the wrong energies in one row; () where no such two explain it.
-
-    Without the second, all rows but that one are explained.
-    """
-    if trial.solution is None:
-        return ()
+    trial: Trial, mistakes: Sequence[AnyMistake], seconds: Callable[[AnyMistake, int], Iterable[AnyMistake]]
+) -> Iterator[_Pair]:
+    """A mistake that explains all rows but one, and another of those that it may be followed by in that row."""
+    if trial.flat:
+        return
     (wanted,) = trial.wanted
     for first in mistakes:
-        mark = trial.mark(first) if first.energy else None
+        mark = trial.mark(first)
         if mark is None:
             continue
         left = [i for i, (x, y) in enumerate(zip(wanted, mark, strict=True)) if x != y]
         if len(left) != 1:
             continue
-        m, space = trial.m, trial.space
-        rows = {i: trial.right[i] + trial.changes(first).get(i, NOTHING) for i in left}
-        moving = {key: c for key, c in m.valued(first.energy).terms.items() if space.motion(key[0])}
-        kinetic = m.kinetic + Formula(moving)
-        potential = kinetic - m.lagrangian - m.valued(first.energy)
-        seconds = [
-            *derivative_mistakes(space, kinetic, potential, words),
-            *slip_mistakes(space, rows, _lengths(m)),
-        ]
         rest = tuple((x - y) % PRIME for x, y in zip(wanted, mark, strict=True))
-        found = [x for x in seconds if set(x.rows) == set(left) and trial.mark(x) == rest]
-        found.sort(key=lambda x: x.size)
-        if found and trial.explains(first, found[0]):
-            return [first], found
-    return ()
+        found = sorted((x for x in seconds(first, left[0]) if trial.mark(x) == rest), key=lambda x: x.size)
+        if found:
+            yield _Pair([first], found, apart=False)
 
 
 def words_of(s: Submission) -> Words:

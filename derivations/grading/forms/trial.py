@@ -35,6 +35,7 @@ class Trial:
         self.given = System(self.space, written, self.point)
         self.usable = self.given.linear and len(self.given.lines) == self.space.n
         self.solution = self._solved(self.given.numbers) if self.usable else None
+        self.flat = self.scaled or self.solution is None  # no accelerations: then the rows are compared as they are
         self._right_numbers = System(self.space, right, self.point).numbers
         values = [self.point.value(f) for f in scales or (CONSTANT_ONE,)]
         self._factors = [pow(x, -1, PRIME) for x in values if x]
@@ -43,20 +44,20 @@ class Trial:
     @property
     def wanted(self) -> list[Mark]:
         """What mistakes must add up to: for each scale that a Lagrangian may have, or once."""
-        if not self.scaled:
+        if not self.flat:
             return [tuple(-x % PRIME for x in self._remainder(self._right_numbers))]
         right, given = _flat(self._right_numbers), _flat(self.given.numbers)
         return [tuple((x * f - y) % PRIME for x, y in zip(given, right, strict=True)) for f in self._factors]
 
     def mark(self, mistake: AnyMistake) -> Mark | None:
-        """What a mistake adds; None where it changes nothing, or where the rows give no accelerations."""
+        """What a mistake adds; None where it changes nothing."""
         made = self.changes(mistake)
-        if not made or (self.solution is None and not self.scaled):
+        if not made:
             return None
         numbers = [[0] * (self.space.n + 1)] * self.space.n
         for i, f in made.items():
             numbers[i] = self._numbers(f)
-        return tuple(_flat(numbers)) if self.scaled else tuple(self._remainder(numbers))
+        return tuple(_flat(numbers)) if self.flat else tuple(self._remainder(numbers))
 
     def explains(self, *mistakes: AnyMistake) -> bool:
         """Whether the right rows with these mistakes give what is written; proved."""
