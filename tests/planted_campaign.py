@@ -375,6 +375,22 @@ def term_slip(kind: str) -> Callable[[Steps, random.Random], bool]:
     return make
 
 
+def bracket(s: Steps, draw: random.Random) -> bool:
+    """A factor that terms have in common is lost by some of them: l (a + b + c) has become l a + b + c."""
+    assert s.rows is not None
+    i = draw.randrange(s.n)
+    row = combined(s.rows[i])
+    parts = sorted(sp.Add.make_args(row), key=str)
+    factors = {f for part in parts for f in part.as_powers_dict() if f.is_Symbol or isinstance(f, sp.sin | sp.cos)}
+    factor = draw.choice(sorted(factors, key=str))
+    having = [part for part in parts if factor in part.as_powers_dict()]
+    if len(having) < 3:
+        return False
+    lost = draw.sample(having, draw.randrange(2, len(having)))
+    s.rows[i] = row + sum(part / factor - part for part in lost)
+    return True
+
+
 def small_angle(s: Steps, draw: random.Random) -> bool:
     assert s.rows is not None
     if s.origin != "down" or s.angles != "absolute":
@@ -412,6 +428,7 @@ MISTAKES: dict[str, Planted] = {
     "sign of a term": ("rows", SLIP, term_slip("sign")),
     "a term left out": ("rows", SLIP, term_slip("missing")),
     "a factor of two": ("rows", SLIP, term_slip("double")),
+    "a bracket closed early": ("rows", ("bracket-slip",), bracket),
     "small angle early": ("rows", ("small-angle-early",), small_angle),
 }  # fmt: skip
 

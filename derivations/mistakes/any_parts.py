@@ -6,9 +6,11 @@ to it is all that is needed.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
+from ..algebra.notation import pretty
 from ..algebra.trig import COS, HALF, NOTHING, SIN, Formula
 from ..steps.derivation import Stage, add
 from ..steps.mechanism import Direction, Mechanism, Segment
@@ -39,11 +41,18 @@ class AnyMistake:
 
 @dataclass(frozen=True)
 class Words:
-    """How the author calls things. ``coordinates``, ``rates`` and ``bodies``: one name each."""
+    """How the author calls things: one name each."""
 
     coordinates: tuple[str, ...]
     rates: tuple[str, ...]
+    accelerations: tuple[str, ...]
     bodies: tuple[str, ...]
+
+
+def shown(words: Words, ascii_text: str) -> str:
+    """A formula in the author's letters."""
+    names = {"t": words.coordinates, "q": words.coordinates, "w": words.rates, "a": words.accelerations}
+    return pretty(re.sub(r"\b([tqwa])([0-9]+)\b", lambda found: names[found[1]][int(found[2]) - 1], ascii_text))
 
 
 class Parts:

@@ -6,13 +6,14 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from flint import fmpq
 
-from ..algebra.notation import pretty, text
+from ..algebra.notation import text
+from ..algebra.signs import switches
 from ..algebra.trig import COS, HALF, NOTHING, ONE, SIN, Formula, Key, Space, digits, unit
 from ..steps.conventions import Convention
 from ..steps.declared import Declared
 from ..steps.derivation import Stage, add, lagrange_rows
 from ..steps.mechanism import Mechanism
-from .any_parts import AnyMistake, Words
+from .any_parts import AnyMistake, Words, shown
 
 
 def derivative_mistakes(s: Space, kinetic: Formula, potential: Formula, words: Words) -> Iterator[AnyMistake]:
@@ -157,6 +158,13 @@ def force_mistakes(m: Mechanism, declared: Declared, convention: Convention, wor
         sums = [
             ("drive", "the drive", "駆動力", body.drive, body.drive),
             ("damping", "the damping", "減衰", -(body.damping * rate), -(body.damping * s.w(k).times(form[k]))),
+            (
+                "friction",
+                "the dry friction",
+                "乾性摩擦",
+                -declared.dry_friction(k, form),
+                -declared.dry_friction(k, {k: form[k]}),
+            ),
         ]
         for code, what, was, force, own in sums:
             if not force:
@@ -237,6 +245,15 @@ def force_mistakes(m: Mechanism, declared: Declared, convention: Convention, wor
                         f"{name} の{was}の速度が差になっています。",
                         rows={k: other + force},
                     )
+        if body.friction:
+            constant = declared.dry_friction(k, form) - body.friction
+            yield AnyMistake(
+                "friction-without-sign",
+                "force",
+                f"The dry friction at {name} has no sign of the rate: it is against the motion, whichever way that is.",
+                f"{name} の乾性摩擦に速度の符号がありません。摩擦は運動と逆向きに働きます。",
+                rows={i: (-constant).times(c) for i, c in form.items()},
+            )
         elastic = body.stiffness * (add(s.q(i).times(c) for i, c in form.items()) - body.rest)
         if elastic:
             yield from _spring(s, k, form, body.stiffness, elastic, name)
@@ -323,20 +340,22 @@ def linear(s: Space, f: Formula) -> Formula:
     return total
 
 
-def slip_mistakes(s: Space, rows: Mapping[int, Formula], lengths: Sequence[Formula]) -> Iterator[AnyMistake]:
+def slip_mistakes(
+    s: Space, rows: Mapping[int, Formula], lengths: Sequence[Formula], words: Words
+) -> Iterator[AnyMistake]:
     """One term of one row: its sign, its factor, left out, sin for cos; named however the rows are combined.
 
     ``lengths``: those that a weight's moment may have lost.
     """
     for i, row in rows.items():
-        yield from _lost_lengths(s, i, row, lengths)
+        yield from _lost_lengths(s, i, row, lengths, words)
         groups: dict[tuple[int, int, int], dict[Key, fmpq]] = {}
         for (e, h, phase), c in row.terms.items():
-            groups.setdefault((s.motion(e) + s.outside(e), h, phase), {})[e, h, phase] = c
+            groups.setdefault((s.motion(e) + s.outside(e) + switches(s, e), h, phase), {})[e, h, phase] = c
         for (q, h, phase), terms in groups.items():
             f = Formula(terms)
-            shown = pretty(text(s, Formula({(q, h, phase): ONE}))).lstrip("-−") if q or h else "the constant"
-            where, wo = f"In row {i + 1}, the term with {shown}", f"第{i + 1}式の {shown} の項"
+            term = shown(words, text(s, Formula({(q, h, phase): ONE}))).lstrip("-−") if q or h else "the constant"
+            where, wo = f"In row {i + 1}, the term with {term}", f"第{i + 1}式の {term} の項"
             swapped = Formula({(e, h_, 1 - ph): c for (e, h_, ph), c in f.terms.items()}) if h else NOTHING
             for code, english, japanese, change in (
                 ("sign", "has the wrong sign", "の符号が逆です", f.times(-2)),
@@ -361,7 +380,7 @@ def slip_mistakes(s: Space, rows: Mapping[int, Formula], lengths: Sequence[Formu
             if len(f) > 1:
                 for key, c in f.terms.items():
                     part = Formula({key: c})
-                    inner = pretty(text(s, Formula({(key[0] - s.motion(key[0]), 0, COS): abs(c)})))
+                    inner = shown(words, text(s, Formula({(key[0] - s.motion(key[0]), 0, COS): abs(c)})))
                     yield AnyMistake(
                         "part-missing",
                         "equation",
@@ -392,7 +411,7 @@ def slip_mistakes(s: Space, rows: Mapping[int, Formula], lengths: Sequence[Formu
                     )
 
 
-def _lost_lengths(s: Space, i: int, row: Formula, lengths: Sequence[Formula]) -> Iterator[AnyMistake]:
+def _lost_lengths(s: Space, i: int, row: Formula, lengths: Sequence[Formula], words: Words) -> Iterator[AnyMistake]:
     """All that neither moves nor is a spring's, or one wave of it, divided by a length."""
     waves: dict[tuple[int, int], dict[Key, fmpq]] = {}
     for key, c in row.terms.items():
@@ -401,7 +420,7 @@ def _lost_lengths(s: Space, i: int, row: Formula, lengths: Sequence[Formula]) ->
     parts = [Formula(terms) for terms in waves.values()]
     for f in (*([add(parts)] if len(parts) > 1 else ()), *parts):
         for length in lengths:
-            lost = pretty(text(s, length))
+            lost = shown(words, text(s, length))
             yield AnyMistake(
                 "factor-missing",
                 "equation",

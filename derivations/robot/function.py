@@ -5,8 +5,8 @@
         ...
         return a_x, a_theta
 
-Assignments, arithmetic, sin, cos and tan are followed, and nothing else. Coordinates and rates come in the joints'
-order: as one state, as two lists, or each by itself.
+Assignments, arithmetic, sin, cos, tan and sign are followed, and nothing else. Coordinates and rates come in the order
+of the joints: as one state, as two lists, or each by itself.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from typing import NoReturn
 from flint import fmpq
 
 from ...models.errors import InvalidInput
+from ..algebra.signs import without_squares
 from ..algebra.trig import Formula
 from ..reading.evaluation import Evaluation
 from ..reading.matrices import Grid
@@ -25,7 +26,7 @@ from ..reading.parser import Call, Name, Node, Number, Power, Product, Sum, Symb
 
 LARGEST_TEXT = 20_000
 MOST_NODES = 5_000
-FUNCTIONS = ("sin", "cos", "tan")
+FUNCTIONS = {"sin": "sin", "cos": "cos", "tan": "tan", "sign": "sgn", "abs": "abs", "fabs": "abs"}
 MODULES = ("math", "np", "numpy", "sympy", "sp", "jnp")
 LISTS = ("array", "asarray", "stack", "hstack", "Matrix", "float")
 GRAVITY = ("g", "gravity", "G")
@@ -185,7 +186,7 @@ class _Follower:
             case ast.BinOp(left=left, op=ast.Pow(), right=right):
                 return Power(self.expression(left), self._exponent(right), at)
             case ast.Call() if _called(node) in FUNCTIONS and len(node.args) == 1:
-                return Call(_called(node), self.expression(node.args[0]), at)
+                return Call(FUNCTIONS[_called(node)], self.expression(node.args[0]), at)
             case ast.Call() if _called(node) == "square" and len(node.args) == 1:
                 return Power(self.expression(node.args[0]), 2, at)
             case ast.Call() if _called(node) == "float" and len(node.args) == 1:
@@ -196,7 +197,7 @@ class _Follower:
                     return values[index]
             case ast.Attribute(value=ast.Name(id="self"), attr=name):
                 return self._name(node, name)
-        _fail(node, f"{ast.unparse(node)[:60]!r} is not followed; arithmetic, sin, cos and tan are")
+        _fail(node, f"{ast.unparse(node)[:60]!r} is not followed; arithmetic, sin, cos, tan and the sign of a rate are")
 
     def _name(self, node: ast.expr, name: str) -> Node:
         if name in self.here:
@@ -232,7 +233,7 @@ class _Follower:
         for k, node in enumerate(returned, 1):
             value = self.evaluation.value(Sum(((1, Symbol("a", k, 0)), (-1, node)), 0))
             assert not isinstance(value, Grid)  # no matrix is followed
-            found.append(value.numerator)
+            found.append(without_squares(self.evaluation.space, value.numerator))
         return found
 
 

@@ -25,9 +25,10 @@ from ...mistakes.any_segments import segment_mistakes
 from ...reading.submission import Submission
 from ...steps.derivation import lagrange_rows
 from ...steps.mechanism import Mechanism
-from ..differences import authors, lagrangian_scalings
+from ..differences import authors, lagrangian_scalings, right_rows
 from ..grade_record import NamedMistake
 from ..hypotheses import Hypothesis
+from .brackets import bracket_slips
 from .trial import Mark, Trial
 
 MOST_COORDINATES = 4
@@ -57,17 +58,37 @@ def named_anywhere(s: Submission, h: Hypothesis) -> tuple[NamedMistake, ...]:
     trial = Trial(m, written, m.free_rows if is_lagrangian else m.rows, scales)
     if not trial.usable:
         return ()
-    mistakes = [x for x in _all(s, h, words_of(s)) if not (is_lagrangian and x.rows)]
+    words = words_of(s)
+    mistakes = [x for x in _all(s, h, words) if not (is_lagrangian and x.rows)]
     mistakes.sort(key=lambda x: (x.half_hidden, x.size))  # stable: as they were made, otherwise
     found = [mistake for mistake in mistakes if trial.explains(mistake)]
+    found = found or _of_brackets(trial, words) or _in_solved_rows(s, trial, words)
     if found:
         return (_named(found),)
-    pairs = [*_sums(trial, mistakes), *_derived(trial, mistakes, words_of(s))]
+    pairs = [*_sums(trial, mistakes), *_derived(trial, mistakes, words)]
     pairs.sort(key=lambda pair: pair.cost)
     two = next(
-        (x for x in (*pairs[:MOST_PAIRS], *_slipped(trial, mistakes)) if trial.explains(x.one[0], x.two[0])), None
+        (x for x in (*pairs[:MOST_PAIRS], *_slipped(trial, mistakes, words)) if trial.explains(x.one[0], x.two[0])),
+        None,
     )
     return () if two is None else (_named(two.one), _named(two.two))
+
+
+def _of_brackets(trial: Trial, words: Words) -> list[AnyMistake]:
+    slips = bracket_slips(trial, words, rows=not trial.scaled)
+    return [slip for slip in slips[:MOST_NAMED] if trial.explains(slip)]
+
+
+def _in_solved_rows(s: Submission, trial: Trial, words: Words) -> list[AnyMistake]:
+    """Slips in rows that are solved for the accelerations, which the rows of motion do not have."""
+    if trial.scaled:
+        return []
+    rows = right_rows(s, trial.right)
+    if all(f is g for f, g in zip(rows, trial.right, strict=True)):
+        return []
+    solved = Trial(trial.m, trial.written, rows, None)
+    slips = slip_mistakes(trial.space, dict(enumerate(rows)), _lengths(trial.m), words)
+    return [slip for slip in slips if solved.explains(slip)] or _of_brackets(solved, words)
 
 
 def _named(twins: Sequence[AnyMistake]) -> NamedMistake:
@@ -121,12 +142,12 @@ def _derived(trial: Trial, mistakes: Sequence[AnyMistake], words: Words) -> Iter
     return _one_after_another(trial, [x for x in mistakes if x.energy], seconds)
 
 
-def _slipped(trial: Trial, mistakes: Sequence[AnyMistake]) -> Iterator[_Pair]:
+def _slipped(trial: Trial, mistakes: Sequence[AnyMistake], words: Words) -> Iterator[_Pair]:
     """A mistake, and a slip in one term of a row that it leads to."""
 
     def seconds(first: AnyMistake, row: int) -> Iterator[AnyMistake]:
         changed = trial.right[row] + trial.changes(first).get(row, NOTHING)
-        return slip_mistakes(trial.space, {row: changed}, _lengths(trial.m))
+        return slip_mistakes(trial.space, {row: changed}, _lengths(trial.m), words)
 
     return _one_after_another(trial, [x for x in mistakes if x.stage != "equation"], seconds)
 
@@ -156,11 +177,13 @@ def words_of(s: Submission) -> Words:
     n = s.space.n
     if s.mechanism is not None:
         names = s.mechanism.coordinates
-        return Words(names, tuple(f"{name}'" for name in names), tuple(b.name for b in s.mechanism.bodies))
+        rates, accelerations = (tuple(name + dots for name in names) for dots in ("'", "''"))
+        return Words(names, rates, accelerations, tuple(b.name for b in s.mechanism.bodies))
     kind = BODIES.get(s.kind, ("mass", "質点"))[0]
-    angles = tuple(pretty(authors(s, f"t{k}")) for k in range(1, n + 1))
-    rates = tuple(pretty(authors(s, f"w{k}")) for k in range(1, n + 1))
-    return Words(angles, rates, tuple(f"{kind} {k}" for k in range(1, n + 1)))
+    angles, rates, accelerations = (
+        tuple(pretty(authors(s, f"{letter}{k}")) for k in range(1, n + 1)) for letter in "twa"
+    )
+    return Words(angles, rates, accelerations, tuple(f"{kind} {k}" for k in range(1, n + 1)))
 
 
 def _all(s: Submission, h: Hypothesis, words: Words) -> Iterator[AnyMistake]:
@@ -174,7 +197,7 @@ def _all(s: Submission, h: Hypothesis, words: Words) -> Iterator[AnyMistake]:
     if s.mechanism is not None:
         yield from force_mistakes(m, s.mechanism, h.convention, words)
         yield from small_angle_mistakes(m)
-    yield from slip_mistakes(m.space, dict(enumerate(m.rows)), _lengths(m))
+    yield from slip_mistakes(m.space, dict(enumerate(m.rows)), _lengths(m), words)
 
 
 def _lengths(m: Mechanism) -> list[Formula]:

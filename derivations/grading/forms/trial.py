@@ -7,7 +7,7 @@ and two mistakes that do are found by looking one up for the other. All this at 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from ...algebra.equivalence import System, compare, solve
 from ...algebra.fingerprint import PRIME, point_of
@@ -52,8 +52,10 @@ class Trial:
     def mark(self, mistake: AnyMistake) -> Mark | None:
         """What a mistake adds; None where it changes nothing."""
         made = self.changes(mistake)
-        if not made:
-            return None
+        return self.mark_of(made) if made else None
+
+    def mark_of(self, made: Mapping[int, Formula]) -> Mark:
+        """What these changes of rows add."""
         numbers = [[0] * (self.space.n + 1)] * self.space.n
         for i, f in made.items():
             numbers[i] = self._numbers(f)

@@ -119,7 +119,12 @@ def test_degrees_are_named(factor):
 
 @pytest.mark.parametrize(
     ("term", "says"),
-    [("g*sin(t1*pi/180)", "radians"), ("m*g*sgn(w1)", "dry friction"), ("\\operatorname{sgn}(w1)", "drive =")],
+    [
+        ("g*sin(t1*pi/180)", "radians"),
+        ("m*g*sgn(w1)", "dry friction"),
+        ("\\operatorname{sgn}(w1)", "friction ="),
+        ("m*g*tanh(w1)", "smoothed"),
+    ],
 )
 def test_what_is_not_read_says_what_to_write(term, says):
     with pytest.raises(InvalidInput, match=says):

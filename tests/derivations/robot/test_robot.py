@@ -351,3 +351,23 @@ def test_what_cannot_be_taken_as_meant_is_refused_with_its_place(text, says):
     with pytest.raises(InvalidInput) as refused:
         read(text)[0].motion()
     assert says in str(refused.value)
+
+
+def test_dry_friction_in_the_equations_is_said_to_be_theirs_alone():
+    with_friction = UPRIGHT.replace("(theta) = 0", "(theta) + F*sgn(x') = 0", 1).replace("l = 0.7", "l = 0.7\nF = 0.25")
+    d, system, true = read(cart_pole("", with_friction))
+    (found,) = reasons(d, system, true)
+    assert found.in_model
+    assert found.cause == "dry-friction"
+    # The cart is pushed against its motion by 0.25 N: M(θ) (s̈ - s̈ without friction) = (-0.25 sgn ẋ, 0)
+    change = d.motion().accelerations(true.q, true.v) - true.accelerations
+    pushed = np.einsum("bij,bj->bi", true.mass_matrix, change)
+    assert np.abs(pushed - np.stack([-0.25 * np.sign(true.v[:, 0]), 0 * true.v[:, 0]], axis=1)).max() <= 1e-12  # ~ 4 N
+    d, system, true = read(cart_pole("", with_friction.replace("- m*l*theta'^2", "+ m*l*theta'^2", 1)))
+    assert [r.cause for r in reasons(d, system, true)] == ["dry-friction", "sign"]
+
+
+def test_dry_friction_in_a_function_is_followed():
+    function = FUNCTION.replace("dth ** 2 * s", "dth ** 2 * s - 0.25 * np.sign(dx)")
+    d, system, true = read(cart_pole(function, ""))
+    assert [r.cause for r in reasons(d, system, true)] == ["dry-friction"]
