@@ -12,16 +12,16 @@ from dataclasses import dataclass
 from ...algebra.fingerprint import PRIME
 from ...algebra.notation import pretty
 from ...algebra.trig import NOTHING, ONE, Formula
-from ...mistakes.any_energies import energy_mistakes_anywhere
-from ...mistakes.any_parts import AnyMistake, Parts, Words
-from ...mistakes.any_rows import (
+from ...mistakes.anywhere.energies import energy_mistakes_anywhere
+from ...mistakes.anywhere.parts import AnyMistake, Parts, Words
+from ...mistakes.anywhere.rows import (
     carried_mistakes,
     derivative_mistakes,
     force_mistakes,
     slip_mistakes,
     small_angle_mistakes,
 )
-from ...mistakes.any_segments import segment_mistakes
+from ...mistakes.anywhere.segments import segment_mistakes
 from ...reading.submission import Submission
 from ...steps.derivation import lagrange_rows
 from ...steps.mechanism import Mechanism
@@ -36,6 +36,7 @@ MOST_TERMS = 400  # in the right rows: a second or two
 MOST_NAMED = 6
 MOST_SCALES = 4  # that a Lagrangian may have
 MOST_PAIRS = 20  # that are proved
+MOST_FIRST = 12  # that explain all but one row, and are followed by others
 STRANGE = 2  # terms
 BODIES = {"rod-chain": ("rod", "棒"), "rods": ("rod", "棒"), "links": ("link", "リンク")}
 
@@ -61,7 +62,7 @@ def named_anywhere(s: Submission, h: Hypothesis) -> tuple[NamedMistake, ...]:
     words = words_of(s)
     mistakes = [x for x in _all(s, h, words) if not (is_lagrangian and x.rows)]
     mistakes.sort(key=lambda x: (x.half_hidden, x.size))  # stable: as they were made, otherwise
-    found = [mistake for mistake in mistakes if trial.explains(mistake)]
+    found = [mistake for mistake in mistakes if trial.may_explain(mistake) and trial.explains(mistake)]
     found = found or _of_brackets(trial, words) or _in_solved_rows(s, trial, words)
     if found:
         return (_named(found),)
@@ -159,6 +160,7 @@ def _one_after_another(
     if trial.flat:
         return
     (wanted,) = trial.wanted
+    tried = 0
     for first in mistakes:
         mark = trial.mark(first)
         if mark is None:
@@ -166,6 +168,9 @@ def _one_after_another(
         left = [i for i, (x, y) in enumerate(zip(wanted, mark, strict=True)) if x != y]
         if len(left) != 1:
             continue
+        tried += 1
+        if tried > MOST_FIRST:
+            return
         rest = tuple((x - y) % PRIME for x, y in zip(wanted, mark, strict=True))
         found = sorted((x for x in seconds(first, left[0]) if trial.mark(x) == rest), key=lambda x: x.size)
         if found:

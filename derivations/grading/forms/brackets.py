@@ -8,14 +8,15 @@ from itertools import combinations
 from ...algebra.fingerprint import PRIME
 from ...algebra.notation import text
 from ...algebra.trig import Formula
-from ...mistakes.any_brackets import Bracket, brackets
-from ...mistakes.any_parts import AnyMistake, Words, shown
+from ...mistakes.anywhere.brackets import Bracket, brackets
+from ...mistakes.anywhere.parts import AnyMistake, Words, shown
 from ...steps.derivation import add, lagrange_rows
 from .trial import Mark, Trial
 
 MOST_TERMS = 8  # in one bracket, of which any may be outside; of more, all but one, or one
 MOST_TERMS_OF_A_SUM = 60
 MOST_CHOICES = 6000  # of one sum: some tenths of a second
+MOST_TERMS_OF_ENERGIES = 12  # where it is rows that are written
 MOST_SHOWN = 100  # characters
 
 
@@ -25,7 +26,7 @@ def bracket_slips(trial: Trial, words: Words, *, rows: bool) -> list[AnyMistake]
     ``rows``: of the rows too, and not of the Lagrangian alone.
     """
     found = [*_of_rows(trial, words)] if rows and not trial.scaled else []
-    if not found:
+    if not found and (trial.scaled or len(trial.m.lagrangian) <= MOST_TERMS_OF_ENERGIES):
         found = [*_of_lagrangian(trial, words)]
     return sorted(found, key=lambda x: x.size)
 

@@ -8,12 +8,13 @@ and two mistakes that do are found by looking one up for the other. All this at 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
 
 from ...algebra.equivalence import System, compare, solve
 from ...algebra.fingerprint import PRIME, point_of
 from ...algebra.multiples import is_multiple
 from ...algebra.trig import CONSTANT_ONE, NOTHING, Formula
-from ...mistakes.any_parts import AnyMistake
+from ...mistakes.anywhere.parts import AnyMistake
 from ...steps.derivation import lagrange_rows
 from ...steps.mechanism import Mechanism
 from ..judge import one_scale
@@ -41,7 +42,7 @@ class Trial:
         self._factors = [pow(x, -1, PRIME) for x in values if x]
         self._changes: dict[int, tuple[AnyMistake, dict[int, Formula]]] = {}
 
-    @property
+    @cached_property
     def wanted(self) -> list[Mark]:
         """What mistakes must add up to: for each scale that a Lagrangian may have, or once."""
         if not self.flat:
@@ -60,6 +61,10 @@ class Trial:
         for i, f in made.items():
             numbers[i] = self._numbers(f)
         return tuple(_flat(numbers)) if self.flat else tuple(self._remainder(numbers))
+
+    def may_explain(self, mistake: AnyMistake) -> bool:
+        """False where a mistake alone adds something else at the random point."""
+        return self.flat or self.mark(mistake) in self.wanted
 
     def explains(self, *mistakes: AnyMistake) -> bool:
         """Whether the right rows with these mistakes give what is written; proved."""

@@ -6,14 +6,14 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from flint import fmpq
 
-from ..algebra.notation import text
-from ..algebra.signs import switches
-from ..algebra.trig import COS, HALF, NOTHING, ONE, SIN, Formula, Key, Space, digits, unit
-from ..steps.conventions import Convention
-from ..steps.declared import Declared
-from ..steps.derivation import Stage, add, lagrange_rows
-from ..steps.mechanism import Mechanism
-from .any_parts import AnyMistake, Words, shown
+from ...algebra.notation import text
+from ...algebra.signs import switches
+from ...algebra.trig import COS, HALF, NOTHING, ONE, SIN, Formula, Key, Space, digits, unit
+from ...steps.conventions import Convention
+from ...steps.declared import Declared
+from ...steps.derivation import Stage, add, lagrange_rows
+from ...steps.mechanism import Mechanism
+from .parts import AnyMistake, Words, shown
 
 
 def derivative_mistakes(s: Space, kinetic: Formula, potential: Formula, words: Words) -> Iterator[AnyMistake]:

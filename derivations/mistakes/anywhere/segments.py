@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..algebra.trig import CONSTANT_ONE, NOTHING
-from ..steps.derivation import Stage, add
-from ..steps.mechanism import Direction, Segment
-from .any_parts import AnyMistake, Change, Made, Parts, angle_name, rate_name
+from ...algebra.trig import CONSTANT_ONE, NOTHING
+from ...steps.derivation import Stage, add
+from ...steps.mechanism import Direction, Segment
+from .parts import AnyMistake, Change, Made, Parts, angle_name, rate_name
 
 
 def segment_mistakes(p: Parts) -> Iterator[AnyMistake]:

@@ -10,10 +10,10 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
-from ..algebra.notation import pretty
-from ..algebra.trig import COS, HALF, NOTHING, SIN, Formula
-from ..steps.derivation import Stage, add
-from ..steps.mechanism import Direction, Mechanism, Segment
+from ...algebra.notation import pretty
+from ...algebra.trig import COS, HALF, NOTHING, SIN, Formula
+from ...steps.derivation import Stage, add
+from ...steps.mechanism import Direction, Mechanism, Segment
 
 Vector = tuple[Formula, Formula]
 

@@ -13,7 +13,7 @@ from itertools import combinations
 
 from flint import fmpq
 
-from ..algebra.trig import COS, ONE, Formula, Key, Space, digits, unit
+from ...algebra.trig import COS, ONE, Formula, Key, Space, digits, unit
 
 MOST_FACTORS = 40  # of one sum
 MOST_NUMBERS = 3  # that a factor may have before it, beside 1
