@@ -12,7 +12,7 @@ from ..reading.submission import Submission
 from ..steps.conventions import Convention
 from ..steps.derivation import NEWTON_STAGES, Mistake
 from ..steps.stages import StageName
-from .differences import lagrangian_differences, row_differences
+from .differences import aligned, lagrangian_differences, lagrangian_scalings, row_differences
 from .explain import Alignment, align, explanations
 from .forms.any_mechanism import named_anywhere
 from .forms.hamilton import first_order_differences
@@ -183,8 +183,8 @@ def _count(s: Submission, h: Hypothesis) -> int:
     if s.uses_momenta:
         return len(first_order_differences(s, h.mechanism, h.variant.given))
     if s.lagrangian is not None:
-        return len(lagrangian_differences(s, h.mechanism)[0])
-    return len(row_differences(s, h.mechanism))
+        return len(lagrangian_scalings(s.space, s.lagrangian, h.mechanism.lagrangian)[0].wrong)
+    return sum(len(scaled.wrong) for _, scaled in aligned(s, h.mechanism.rows))  # without a word for each
 
 
 def answer(known: KnownMistakes, verdict: Verdict, **parts: object) -> Grade:

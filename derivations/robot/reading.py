@@ -176,6 +176,9 @@ def _constants(
         plain = plain_name(name)
         if plain is None:
             raise InvalidInput(f"symbols.{name!s:.40}: a letter or a word, with an index if you like, is needed")
+        if plain in values:
+            twin = next(other for other, _ in own.numbers if plain_name(other) == plain)
+            raise InvalidInput(f"symbols.{name!s:.40}: {twin} and {name} are one symbol, and have two values; keep one")
         values[plain] = value
     if "g" in values:
         raise InvalidInput("symbols.g: gravity is the mechanism's; leave g out")
