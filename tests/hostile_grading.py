@@ -1,3 +1,4 @@
+# ruff: noqa: E501 -- pieces of text stand on one line
 """Hostile derivations by the thousand, each in a process of its own: no traceback, at most 2 s and 300 MB.
 
     python tests/hostile_grading.py [--count 20000] [--seed 1] [--only KIND] [--seconds N]

@@ -26,6 +26,9 @@ def from_srepr(line: str) -> str:
     """
     if len(line) > LONGEST_LINE or not STARTS.match(line):
         return line
+    left, equals, right = line.partition(" = ")  # no srepr has an equals sign with blanks
+    if equals:
+        return f"{from_srepr(left)} = {from_srepr(right)}"
     if _depth(line) > DEEPEST:
         raise InvalidInput(f"column 1: more than {DEEPEST} brackets in one another")
     try:
