@@ -76,6 +76,8 @@ def _with_cause(s: Submission, h: Hypothesis, found: Grade) -> Grade:
 
 def _says_no_more(mistake: NamedMistake, term: WrongTerm) -> bool:
     """Whether a mistake is a slip of the pen in the one term that differs: a sign has many causes, and none is said."""
+    if mistake.cause == "bracket-slip":
+        return term.cause != "term-wrong"  # which says nothing
     return mistake.stage == "equation" or (term.cause == "sign" and mistake.stage == "derivative")
 
 

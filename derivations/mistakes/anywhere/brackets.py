@@ -15,7 +15,8 @@ from flint import fmpq
 
 from ...algebra.trig import COS, ONE, Formula, Key, Space, digits, unit
 
-MOST_FACTORS = 40  # of one sum
+MOST_FACTORS = 120  # of one sum
+MOST_DIVISORS = 24  # of what two terms have in common
 MOST_NUMBERS = 3  # that a factor may have before it, beside 1
 Symbols = tuple[int, tuple[int, int]]  # packed exponents, and a wave
 
@@ -83,9 +84,20 @@ def _factors(f: Formula, exponents: dict[Key, tuple[int, ...]]) -> list[Symbols]
     waves = {key[1:]: None for key in f.terms if key[1]}
     shared: dict[Symbols, None] = {}
     for (one, mine), (other, theirs) in combinations(exponents.items(), 2):
-        e = sum(min(x, y) * unit(k) for k, (x, y) in enumerate(zip(mine, theirs, strict=True)) if x > 0 and y > 0)
-        if e and e not in symbols:
-            shared[e, (0, COS)] = None
-        if e and one[1:] == other[1:] != (0, COS):
-            shared[e, one[1:]] = None
+        common = {k: min(x, y) for k, (x, y) in enumerate(zip(mine, theirs, strict=True)) if x > 0 and y > 0}
+        for e in _divisors(common):
+            if e not in symbols:
+                shared[e, (0, COS)] = None
+            if one[1:] == other[1:] != (0, COS):
+                shared[e, one[1:]] = None
     return [*((e, (0, COS)) for e in symbols), *((0, wave) for wave in waves), *shared]
+
+
+def _divisors(powers: dict[int, int]) -> list[int]:
+    """All products of symbols, packed, that divide one; the largest first, and no more than some."""
+    found = [0]
+    for place, power in powers.items():
+        found = [e + k * unit(place) for e in found for k in range(power, -1, -1)]
+        if len(found) > MOST_DIVISORS:
+            break
+    return [e for e in found[:MOST_DIVISORS] if e]

@@ -80,6 +80,22 @@ def test_a_minus_before_a_part_of_its_bracket_alone_is_named():
     assert [m.cause for m in found.mistakes] == ["bracket-slip"]
 
 
+@pytest.mark.parametrize(
+    ("row", "says"),
+    [
+        ("m1 + m2*l1*a1 + m2*l2*a2*cos(t1-t2) + m2*l2*w2^2*sin(t1-t2) + (m1+m2)*g*sin(t1) = 0",
+         "In row 1, a bracket is closed too early: the factor l₁ θ̈₁ belongs to m₁ l₁² θ̈₁ as well."),
+        ("(m1+m2)*l1*a1 + m2*l2*(a2 + w2^2*sin(t1-t2))*cos(t1-t2) + (m1+m2)*g*sin(t1) = 0",
+         "In row 1, a bracket is closed too late: the factor cos(θ₁−θ₂) does not belong to "
+         "m₂ l₁ l₂ θ̇₂² sin(θ₁−θ₂)."),
+    ],
+)  # fmt: skip
+def test_the_documents_mechanisms_have_it_too(row, says):
+    second = "2 = 'l2*a2 + l1*a1*cos(t1-t2) - l1*w1^2*sin(t1-t2) + g*sin(t2) = 0'"  # Shiki (1.9), over m2 l2
+    found = grade_text(f"system = 'n-leg'\nlinks = 2\n[equations]\n1 = '{row}'\n{second}")
+    assert [m.says for m in found.mistakes] == [says]
+
+
 def test_momenta_and_matrices_have_it_too():
     momenta = (
         HEAD
