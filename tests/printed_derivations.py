@@ -57,7 +57,7 @@ def _of_time(f: Any) -> Any:
     return f.subs(values)
 
 
-def _coded(printer: Callable[[Any], str]) -> Callable[[Any], str]:
+def _coded(printer: Callable[..., Any]) -> Callable[[Any], str]:
     def show(f: Any) -> str:
         names = {x: sp.Symbol(f"{name}_{'d' * k}ot") for x, (name, k) in _names(f).items()}
         return str(printer(f.subs(names)))

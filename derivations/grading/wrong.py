@@ -97,9 +97,7 @@ def named_in_stages(
     """
     wrong_ones = [mark for mark in marks if mark.outcome == "wrong"]
     energies = [mark for mark in wrong_ones if mark.stage in ("kinetic", "potential")]
-    named = [
-        _named_in_stage(s, h, found, mark) for mark in (energies if wrong_ones[0] in energies else wrong_ones[:1])
-    ]
+    named = [_named_in_stage(s, h, found, mark) for mark in (energies if wrong_ones[0] in energies else wrong_ones[:1])]
     return tuple(mistake for mistakes in named for mistake in mistakes)
 
 

@@ -155,9 +155,7 @@ def read_fields(data: dict[str, Any], reader: Reader) -> Submission:
     return reader.submission(rows, lagrangian)
 
 
-def opened(
-    data: dict[str, Any], slashes: int = 0, constants: Sequence[str] = (), *, has_signs: bool = False
-) -> Reader:
+def opened(data: dict[str, Any], slashes: int = 0, constants: Sequence[str] = (), *, has_signs: bool = False) -> Reader:
     """A reader for the lines of these fields: mechanism, convention and the file's own names are read.
 
     ``constants``: names of quantities besides those that a declared mechanism has; ``has_signs``: signs of rates

@@ -58,7 +58,7 @@ def brackets(space: Space, f: Formula) -> Iterator[Bracket]:
 def _early(f: Formula, symbols: Symbols, number: fmpq, having: list[Key]) -> Bracket:
     e, wave = symbols
     terms = [Formula({key: f.terms[key]}) for key in having]
-    rests: list[Key] = [(key[0] - e, *((0, COS) if wave[0] else key[1:])) for key in having]
+    rests: list[Key] = [(key[0] - e, 0, COS) if wave[0] else (key[0] - e, key[1], key[2]) for key in having]
     changes = [Formula({rest: f.terms[key] / number}) - t for rest, key, t in zip(rests, having, terms, strict=True)]
     return Bracket(Formula({(e, *wave): number}), tuple(terms), tuple(changes))
 

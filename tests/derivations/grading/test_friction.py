@@ -38,12 +38,15 @@ friction = "f2"
 [equations]
 """
 # Absolute angles. Row 1 less row 2's friction: the elbow's torque acts on the first link the other way round.
-ABSOLUTE = BOBS.replace("ANGLES", "absolute") + """
+ABSOLUTE = (
+    BOBS.replace("ANGLES", "absolute")
+    + """
 1 = '''(m1+m2) l1^2 theta1'' + m2 l1 l2 (theta2'' cos(theta1-theta2) + theta2'^2 sin(theta1-theta2))
   + (m1+m2) g l1 sin(theta1) = -f1 sgn(theta1') + f2 sgn(theta2' - theta1')'''
 2 = '''m2 l2^2 theta2'' + m2 l1 l2 (theta1'' cos(theta1-theta2) - theta1'^2 sin(theta1-theta2)) + m2 g l2 sin(theta2)
   = -f2 sgn(theta2' - theta1')'''
 """
+)
 
 
 def cart(friction: str) -> str:
@@ -90,13 +93,16 @@ def test_between_links_it_is_the_joints_own_rate_and_acts_on_both():
 
 def test_in_relative_angles_each_joint_has_its_own():
     # θ1 = q1, θ2 = q1 + q2: the rows of the absolute angles, and their sum, are those of the joints
-    text = BOBS.replace("ANGLES", "relative") + """
+    text = (
+        BOBS.replace("ANGLES", "relative")
+        + """
 1 = '''((m1+m2) l1^2 + m2 l2^2 + 2 m2 l1 l2 cos(theta2)) theta1'' + (m2 l2^2 + m2 l1 l2 cos(theta2)) theta2''
   - m2 l1 l2 sin(theta2) (2 theta1' theta2' + theta2'^2) + (m1+m2) g l1 sin(theta1) + m2 g l2 sin(theta1+theta2)
   + f1 sgn(theta1') = 0'''
 2 = '''(m2 l2^2 + m2 l1 l2 cos(theta2)) theta1'' + m2 l2^2 theta2'' + m2 l1 l2 sin(theta2) theta1'^2
   + m2 g l2 sin(theta1+theta2) + f2 sgn(theta2') = 0'''
 """
+    )
     assert grade_text(text).verdict == "correct"
     assert grade_text(text.replace("f2 sgn(theta2')", "f2 sgn(theta2' - theta1')")).verdict == "wrong"
 
