@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from ..records.exit_status import AGREES, DIFFERS, INCOMPLETE
+from ..records.exit_status import AGREES, DIFFERS, INCOMPLETE, gravest
 from .options import engine_option, json_option, report_folder_option, scene_names
 from .output import print_failure, print_json
 from .progress import status_line
@@ -58,7 +58,7 @@ def bench(
         write(out, found)
     except InvalidInput as error:
         print_failure(str(error))
-        status = max(status, INCOMPLETE)
+        status = gravest((status, INCOMPLETE))
     if as_json:
         print_json(found)
     else:

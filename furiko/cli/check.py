@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from ..records.exit_status import DIFFERS, INCOMPLETE
+from ..records.exit_status import INCOMPLETE, gravest
 from .options import engine_option, jobs_option, json_option, report_folder_option, scene_names, words
 from .output import print_failure, print_json, print_text
 from .progress import check_progress
@@ -119,4 +119,4 @@ def check(
             print_text(accounted.text())
         if comparison is not None:
             print_text(comparison.text())
-    return DIFFERS if DIFFERS in statuses else max(statuses)
+    return gravest(statuses)
