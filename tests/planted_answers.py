@@ -1,16 +1,17 @@
 """Five planted faults, and what each says on the first screen of page, terminal, Markdown and JUnit.
 
-``PYTHONPATH=tests python tests/planted_answers.py`` prints the table in ``docs/reference/measured.md``. The first four faults are
-MuJoCo, made of another mechanism than was asked for, or with its answers tampered with; the fifth is Pinocchio's own.
+``PYTHONPATH=tests python tests/planted_answers.py`` prints the table in ``docs/reference/measured.md``. The first four
+are MuJoCo, made of another mechanism than was asked for, or with its answers tampered with; the fifth is Pinocchio's
+own.
 """
 
 import os
 from contextlib import chdir, redirect_stdout
 from dataclasses import dataclass, replace
+from html import unescape
 from io import StringIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from html import unescape
 from xml.etree import ElementTree
 
 import numpy as np

@@ -24,14 +24,15 @@ MOST_LISTED = 40  # lines of a list in the markup; the table has all results
 SCRIPTS = ("formula.js", "check.js")
 # Where there is something to plot: uPlot, with its licence, and what draws with it.
 PLOTTING = ("uplot/uPlot.js", "motion.js")
+HEAT = "heat.js"  # where there are matrices
 
 
 def to_html(report: Report, known: Known | None = None) -> str:
     """The whole page as text; nothing from the stream is markup. ``known``: its known differences."""
     from markupsafe import Markup
 
-    data, plotted = page_data(report, known)
-    script = _script(plotted)
+    data, plotted, mapped = page_data(report, known)
+    script = _script(plotted, mapped)
     return render(
         PAGE,
         ("style.css", *(("uplot/uPlot.css",) if plotted else ()), "check.css"),
@@ -58,8 +59,9 @@ def load_templates() -> None:
 
 
 @cache
-def _script(plotted: bool) -> str:
-    parts = [(TEMPLATES / name).read_text(encoding="utf-8") for name in (*(PLOTTING if plotted else ()), *SCRIPTS)]
+def _script(plotted: bool, mapped: bool) -> str:
+    names = (*(PLOTTING if plotted else ()), *((HEAT,) if mapped else ()), *SCRIPTS)
+    parts = [(TEMPLATES / name).read_text(encoding="utf-8") for name in names]
     if plotted:
         licence = (TEMPLATES / "uplot" / "LICENSE.txt").read_text(encoding="utf-8")
         parts.insert(0, f"/* uPlot, which draws the plots of this page:\n\n{licence}*/")
