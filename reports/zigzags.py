@@ -38,7 +38,7 @@ def _of_method(motion: Motion, method: tuple[str, str]) -> list[str]:
         coarse, fine = max(larger, key=lambda pair: (pair[1].error or 0.0) / (pair[0].error or 1e-300))
         found.append(
             f"{name}: the error grows from {_setting(coarse)} to {_setting(fine)}{_others(larger)}, "
-            f"{figure(coarse.error)} to {figure(fine.error)}: rounding is reached, or errors of the coarser run cancelled"
+            f"{figure(coarse.error)} to {figure(fine.error)}: rounding, or errors of the coarser run cancelled"
         )
     return found
 

@@ -10,7 +10,7 @@ import click
 from ..records.exit_status import AGREES, DIFFERS, INCOMPLETE, gravest
 from .options import engine_option, json_option, report_folder_option, scene_names
 from .output import print_failure, print_json
-from .progress import status_line
+from .progress import bench_progress
 
 
 @click.command()
@@ -49,7 +49,7 @@ def bench(
     from ..models.writers.whole_file import make_folder
 
     make_folder(out)  # first: the benchmark takes a while
-    with status_line() as watch:
+    with bench_progress() as watch:
         found = run_bench(scenes or None, engines or None, budget=budget, skips=skips, sharpness=sharpness, watch=watch)
     differs = any(not skip.same for skip in found.skips) or any(motion.causes for motion in found.motions)
     status = DIFFERS if differs else AGREES

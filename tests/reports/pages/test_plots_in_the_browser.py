@@ -12,6 +12,9 @@ from furiko.reports.pages.stress_page import stress_page
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium on this machine")
 SAID = "document.querySelector('{} .said').textContent"
 SLIDER = "document.querySelector('{} input[type=range]')"
+CHOOSE = "{{ const s = document.querySelector('{}'); s.value = '{}'; s.dispatchEvent(new Event('input')) }}"
+MIDDLE = """(() => { scrollTo(0, 0); const m = document.querySelector('g.series use').getBoundingClientRect();
+  return [m.x + m.width / 2, m.y + m.height / 2]; })()"""
 TURNED = "the time falls from step 0.5 s to step 0.25 s"
 
 
@@ -61,9 +64,7 @@ def bench(schemes=("Euler", "RK4")):
 
 def test_an_engine_is_shown_alone_and_its_points_are_said_by_the_keyboard(page):
     shown = page(to_html(bench()))
-    shown.run(
-        "{ const s = document.querySelector('figure.chart select'); s.value = 'furiko'; s.dispatchEvent(new Event('input')) }"
-    )
+    shown.run(CHOOSE.format("figure.chart select", "furiko"))
     hidden = shown.run("[...document.querySelectorAll('g.series')].map((g) => getComputedStyle(g).display === 'none')")
     assert hidden == [True, True, False, False]
     assert shown.run("[...document.querySelectorAll('.legend button')].map((b) => b.ariaPressed)") == [
@@ -85,10 +86,7 @@ def test_an_engine_is_shown_alone_and_its_points_are_said_by_the_keyboard(page):
 
 def test_a_finger_on_the_plot_finds_the_nearest_point(page):
     shown = page(to_html(bench(("Euler",))), 390)
-    place = shown.run(
-        "(() => { const r = document.querySelector('g.series use').getBoundingClientRect(); scrollTo(0, 0);"
-        "const m = document.querySelector('g.series use').getBoundingClientRect(); return [m.x + m.width / 2, m.y + m.height / 2]; })()"
-    )
+    place = shown.run(MIDDLE)
     event = f"new PointerEvent('pointerdown', {{ clientX: {place[0] + 3}, clientY: {place[1] + 3}, bubbles: true }})"
     shown.run(f"document.querySelector('figure.chart svg').dispatchEvent({event})")
     assert shown.run(SAID.format("figure.chart")).startswith("mujoco, Euler: step [s] 0.25: error 1.0e-3 in 1 ms")
