@@ -16,7 +16,7 @@ LONG = 1.0  # [s] of compiling before a word is said
 KERNELS = {
     "rods_single": ("accelerations of rods", 2),
     "rods_batch": ("accelerations of rods in many states", 25),
-    "refined_rods_batch": ("accelerations of unequal rods in many states", 45),
+    "refined_rods_batch": ("accelerations of unequal rods in many states", 34),
     "legs_single": ("accelerations of an N-leg pendulum", 1),
     "legs_batch": ("accelerations of an N-leg pendulum in many states", 17),
     "start": ("the start of a simulation", 1),
