@@ -18,10 +18,12 @@ from .progress import bench_progress
 @engine_option
 @report_folder_option
 @click.option(
-    "--budget", type=click.FloatRange(1), default=60.0, show_default=True, help="Time for the whole run, about [s]."
+    "--budget", type=click.FloatRange(1), default=60.0, show_default=True, help="Approximate time of the whole run [s]."
 )
 @click.option(
-    "--skips", is_flag=True, help="Measure what a check skips: the same verdicts with and without, and times."
+    "--skips",
+    is_flag=True,
+    help="Measure the work that a check skips: are the verdicts the same, and how much time is saved.",
 )
 @click.option(
     "--sharpness", is_flag=True, help="Measure the smallest relative error of an entry that a check notices (minutes)."

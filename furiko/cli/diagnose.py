@@ -59,8 +59,7 @@ if TYPE_CHECKING:
 def diagnose(models: tuple[Path, ...], fix: Path | None, out: Path | None, as_json: bool, **how: Any) -> int:
     """Check how engines read an MJCF or URDF file; say why they differ.
 
-    Several files are answered one after the other, in short. The exit status is 1 where one of them differs, else the
-    highest of theirs.
+    With several files, each gets a short answer. The exit status is 1 if one of them differs, else the highest of all.
     """
     asked = _Asked(**how)
     if len(models) == 1:
