@@ -131,8 +131,18 @@ def _diagonal(body: RigidBody) -> bool:
 
 def _joint(body: Any, joint: Joint, name: str) -> None:
     made = body.add_joint(name=name, type=KINDS[joint.kind], armature=joint.armature)
-    made.damping[0], made.stiffness[0] = joint.damping, joint.stiffness
+    _set_linear(made, "damping", joint.damping)
+    _set_linear(made, "stiffness", joint.stiffness)
     if joint.kind in ("hinge", "slide"):
         made.axis, made.ref, made.springref = joint.axis.tolist(), joint.ref, joint.springref
     if joint.kind != "free":
         made.pos = joint.anchor.tolist()
+
+
+def _set_linear(joint: Any, name: str, coefficient: float) -> None:
+    """Set a damping or stiffness: the first coefficient of a polynomial, or, in MuJoCo 3.3, the only number."""
+    held = getattr(joint, name)
+    if isinstance(held, np.ndarray):
+        held[0] = coefficient
+    else:
+        setattr(joint, name, coefficient)
