@@ -20,7 +20,10 @@ KERNELS = {
     "legs_single": ("accelerations of an N-leg pendulum", 1),
     "legs_batch": ("accelerations of an N-leg pendulum in many states", 17),
     "start": ("the start of a simulation", 1),
-    "run": ("simulations", 11),
+    "run_rods": ("simulations of rods", 6),
+    "run_legs": ("simulations of an N-leg pendulum", 4),
+    "run_rod_lanes": ("simulations of ensembles of rods", 8),
+    "run_leg_lanes": ("simulations of ensembles of N-leg pendulums", 5),
 }
 
 

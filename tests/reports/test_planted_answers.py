@@ -9,6 +9,7 @@ from planted_answers import FAULTS, shown, table
 
 pytest.importorskip("mujoco")
 pytest.importorskip("pinocchio")
+pytestmark = pytest.mark.slow
 DOCUMENT = Path(__file__).parents[2] / "docs" / "reference" / "measured.md"
 # Words of the fault as it was planted: in its own numbers, not in what furiko made of it.
 WORDS = (

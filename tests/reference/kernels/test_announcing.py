@@ -18,6 +18,7 @@ for _ in range(9):
 """
 
 
+@pytest.mark.slow
 def test_a_terminal_is_told_and_a_pipe_is_not(tmp_path):
     ours, theirs = pty.openpty()
     environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "terminal")}
@@ -36,11 +37,11 @@ def test_a_terminal_is_told_and_a_pipe_is_not(tmp_path):
 
 def test_every_kernel_that_is_compiled_is_in_the_list():
     """The kernels that are called from Python; numba's dispatchers of all others are compiled into these."""
-    from furiko.reference.integration import taylor_compiled
+    from furiko.reference.integration import taylor_compiled, taylor_lanes
 
     found = {
         name
-        for module in (forward_dynamics_compiled, taylor_compiled)
+        for module in (forward_dynamics_compiled, taylor_compiled, taylor_lanes)
         for name, value in vars(module).items()
         if type(value).__name__ == "CPUDispatcher" and type(value._cache).__name__ == "FunctionCache"
     }
@@ -65,8 +66,6 @@ class Terminal:
 def test_where_nothing_is_kept_it_says_so(is_one, monkeypatch):
     stream = Terminal(is_one)
     monkeypatch.setattr(sys, "stderr", stream)
-    announcing.say("run", kept=False)
-    words = (
-        "furiko: numba compiles simulations, about 11 s, in each process: there is no folder to keep the result in\n"
-    )
+    announcing.say("run_rods", kept=False)
+    words = "furiko: numba compiles simulations of rods, about 6 s, in each process: there is no folder to keep the result in\n"
     assert stream.said == (words if is_one else "")
