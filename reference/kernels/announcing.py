@@ -38,7 +38,7 @@ class Announcer(event.Listener):  # type: ignore[misc]  # numba has no types
         inside = self._waiting.setdefault(threading.get_ident(), [])
         dispatcher = event.data["dispatcher"]
         name = dispatcher.py_func.__name__
-        ours = dispatcher.py_func.__module__.startswith(f"{__package__.rpartition('.')[0]}.")
+        ours = dispatcher.py_func.__module__.startswith(f"{__name__.rsplit('.', 2)[0]}.")
         timer = None
         if not inside and ours and name in KERNELS:
             kept = type(dispatcher._cache).__name__ != "NullCache"

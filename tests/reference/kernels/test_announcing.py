@@ -67,5 +67,7 @@ def test_where_nothing_is_kept_it_says_so(is_one, monkeypatch):
     stream = Terminal(is_one)
     monkeypatch.setattr(sys, "stderr", stream)
     announcing.say("run_rods", kept=False)
-    words = "furiko: numba compiles simulations of rods, about 6 s, in each process: there is no folder to keep the result in\n"
-    assert stream.said == (words if is_one else "")
+    words = (
+        "furiko: numba compiles simulations of rods, about 6 s, in each process: there is no folder to keep the result"
+    )
+    assert stream.said == (f"{words} in\n" if is_one else "")
