@@ -22,6 +22,7 @@ from furiko.cli import main
 main()
 """
 COMMANDS = {
+    "advise": ["advise", "rods-2", "-e", "mujoco", "--budget", "1"],
     "audit": ["audit"],
     "bench": ["bench", "rods-2", "-e", "mujoco", "--budget", "1"],
     "check": ["check", "rods-2", "-e", "mujoco", "--no-cache"],
