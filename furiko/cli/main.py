@@ -79,10 +79,10 @@ def cli() -> None:
     """Cross-check hand-derived equations of motion of multi-pendulums and physics engines."""
 
 
-def main() -> None:
-    """Run the command line of this process, and end the process with its exit status."""
+def main() -> int:
+    """Run the command line of this process; returns its exit status."""
     open_standard_streams()
-    sys.exit(run(sys.argv[1:]))
+    return run(sys.argv[1:])
 
 
 def run(arguments: list[str]) -> int:
