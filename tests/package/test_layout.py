@@ -43,7 +43,10 @@ ROOMS = {
             ("chain",),
         ],
     ),
-    "engines": ({"models", "records"}, [("workers",), (".",), ("model_files",), ("trees",)]),
+    "engines": (
+        {"models", "records"},
+        [("workers",), ("info", "protocol", "releases"), ("places",), (".",), ("model_files",), ("trees",)],
+    ),
     "diagnosis": (
         {"models", "records", "reference", "engines"},
         [("finding", "explanation", "measurement", "question"), ("fits",), (".",), ("model_files",)],
