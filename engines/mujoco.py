@@ -44,6 +44,7 @@ SAME_FRAME = (
     else (1, 0)  # before, it was whether both are the body's own
 )
 
+ENERGY = int(mujoco.mjtEnableBit.mjENBL_ENERGY)
 INTEGRATORS = {
     "Euler": mujoco.mjtIntegrator.mjINT_EULER,
     "implicitfast": mujoco.mjtIntegrator.mjINT_IMPLICITFAST,
@@ -68,8 +69,9 @@ class Mujoco:
             if link.inertia < LEAST_INERTIA:
                 self._model.body_inertia[body] = link.inertia
         keep_centres(self._model)
-        # Energies are computed only when they are asked for.
-        self._model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_ENERGY)
+        if has("mujoco: energies are computed though their flag is off", VERSION):
+            # Energies are computed only when they are asked for.
+            self._model.opt.enableflags &= ~ENERGY
         self._data = quiet_data(self._model)
         self._moving = quiet_data(self._model)
         self._coordinates = RelativeCoordinates(tree.parents, self._model.jnt_dofadr[self._hinges])
@@ -216,6 +218,8 @@ def empty_spec(gravity: list[float]) -> Any:
     compiler.balanceinertia = compiler.autolimits = False
     compiler.boundinertia = LEAST_INERTIA
     option.gravity = gravity
+    if not has("mujoco: energies are computed though their flag is off", VERSION):
+        option.enableflags = ENERGY
     option.disableflags = int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT) | int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
     return spec
 

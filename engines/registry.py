@@ -251,12 +251,12 @@ def _info_at(place: Place) -> EngineInfo:
 
     if place.kind == "program":
         return engines.program_info(place)
-    base = _base(place)
+    base = base_of(place)
     version = place.version if place.kind == "version" else engines.installed_version(place, base)
     return replace(base, name=place.name, module="", **facts_of(base.name, version))
 
 
-def _base(place: Place) -> EngineInfo:
+def base_of(place: Place) -> EngineInfo:
     """furiko's own engine of which a place has another version."""
     if place.engine in _KNOWN:
         return _KNOWN[place.engine]
@@ -295,7 +295,7 @@ def _place(name: str) -> Place | None:
 def _connection(place: Place) -> Connection:
     from .places import engines
 
-    return engines.program(place) if place.kind == "program" else engines.connection(place, _base(place))
+    return engines.program(place) if place.kind == "program" else engines.connection(place, base_of(place))
 
 
 def engine_version(name: str) -> str:
@@ -311,7 +311,7 @@ def engine_version(name: str) -> str:
 
         if place.kind == "program":
             return engines.program_version(place)
-        return engines.installed_version(place, _base(place))
+        return engines.installed_version(place, base_of(place))
     package = _KNOWN[name].package if name in _KNOWN else engine_info(name).package
     try:
         return version(package) if package else ""
@@ -331,7 +331,7 @@ def engine_place(name: str) -> str:
         return ""
     from .places import engines
 
-    return engines.says_where(place, _base(place) if place.kind != "program" else OWN_EQUATIONS)
+    return engines.says_where(place, base_of(place) if place.kind != "program" else OWN_EQUATIONS)
 
 
 def environment_of(name: str) -> tuple[str, tuple[str, ...], str, str] | None:
@@ -344,7 +344,7 @@ def environment_of(name: str) -> tuple[str, tuple[str, ...], str, str] | None:
         return None
     from .places import engines
 
-    return engines.environment(place, _base(place))
+    return engines.environment(place, base_of(place))
 
 
 def why_missing(name: str) -> str:
@@ -353,7 +353,7 @@ def why_missing(name: str) -> str:
     if place is not None:
         from .places import engines
 
-        why = engines.why_missing(place, None if place.kind == "program" else _base(place))
+        why = engines.why_missing(place, None if place.kind == "program" else base_of(place))
     else:
         package = engine_info(name).package
         why = "" if not package or engine_version(name) else f"not installed: {installing(package)}"

@@ -37,7 +37,7 @@ class Fact:
     why: str = ""
 
 
-# Each was found by making the environment and importing the engine in it (docs/engines-versions.md).
+# Each was found by making the environment and importing the engine in it (docs/reference/engine-versions.md).
 NEEDS = (
     Need("mujoco", ">=0", ("numpy",), "the adapters need it"),
     Need("exudyn", ">=0", ("numpy",), "the adapters need it"),
@@ -80,6 +80,7 @@ INTERFACE = {
     "mujoco: autoreset can be switched off": ">=3.2.1",
     "mujoco: body_sameframe tells a centre of mass from its axes": ">=3.2.3",
     "mujoco: MjSpec builds and compiles": ">=3.2.5",
+    "mujoco: energies are computed though their flag is off": ">=3.3",
     "mujoco: springs and dampers are switched off one by one": ">=3.3.6",
     "mujoco: a joint's damping is a polynomial": ">=3.7",
     "mujoco: mj_fullM takes MjData": ">=3.10",

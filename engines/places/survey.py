@@ -9,7 +9,7 @@ import sys
 
 def main() -> None:
     """Print version, search path, and the installed packages with their versions."""
-    packages = {}  # type: ignore[var-annotated]
+    packages = {}
     try:
         from importlib.metadata import distributions
 

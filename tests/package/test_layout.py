@@ -57,7 +57,7 @@ ROOMS = {
     ),
     "studies": (
         {"models", "records", "reference", "engines", "diagnosis", "checks"},
-        [(".",), ("bench", "stress")],
+        [(".",), ("bench", "stress", "versions")],
     ),
     "derivations": (
         {"models", "reference"},
