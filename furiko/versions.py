@@ -24,7 +24,7 @@ from .studies.versions.looks import SCENES, Look, look
 
 LIMIT = 300.0  # [s] for all looks at one release
 AT_ONCE = 2  # releases that are looked at side by side
-GRAVEST: dict[Outcome, int] = {"error": 3, "differs": 2, "agrees": 1, "skipped": 0}
+GRAVEST: tuple[Outcome, ...] = ("error", "differs", "agrees", "skipped")
 Watch = Callable[[str], object]
 
 
@@ -185,7 +185,8 @@ class _Study:
 def _verdict(scene: str, results: Sequence[Result]) -> Look:
     """The checks' verdict on one scene: the gravest outcome, with the causes or reasons of what is so."""
     mine = [result for result in results if result.scene == scene]
-    outcome: Outcome = max((result.outcome for result in mine), key=GRAVEST.__getitem__, default="skipped")
+    outcomes = {result.outcome for result in mine}
+    outcome: Outcome = next((one for one in GRAVEST if one in outcomes), "skipped")
     if outcome == "agrees":
         return Look(scene, "theory", "agrees", "", "", np.zeros(0))
     if outcome == "skipped":

@@ -38,10 +38,11 @@ def survey(executable: Path) -> Survey:
             env=own_environment(),
             check=False,
         )
-        content = json.loads(done.stdout[: 16 << 20] or b"{}")
-        found = Survey(str(content["version"]), tuple(map(str, content["path"])), dict(content["packages"]))
     except (OSError, subprocess.TimeoutExpired) as error:
         raise EngineMissing(f"{executable}: this Python cannot be started: {error}") from None
+    try:
+        content = json.loads(done.stdout[: 16 << 20] or b"{}")
+        found = Survey(str(content["version"]), tuple(map(str, content["path"])), dict(content["packages"]))
     except (ValueError, KeyError, TypeError):
         words = " ".join(done.stderr.decode("utf-8", "replace").split())[-300:]
         raise EngineMissing(f"{executable}: this is no Python that answers: {words or 'it said nothing'}") from None
