@@ -61,7 +61,7 @@ def bench(
     """
     begun = time.monotonic()
     started = provenance.now()
-    names = _engines(engines)
+    names = engines_to_measure(engines)
     motions: list[Motion] = []
     speeds: list[Speed] = []
     skipped: list[Skip] = []
@@ -147,7 +147,7 @@ def _scene(name: str) -> AnyScene:
     return scene
 
 
-def _engines(given: Sequence[str] | None) -> list[str]:
+def engines_to_measure(given: Sequence[str] | None) -> list[str]:
     """The engines by name. Raises :class:`EngineMissing` for one that was asked for and is not installed."""
     if given is None:
         return [name for name in engine_names() if engine_version(name)]

@@ -13,13 +13,10 @@ from numba import types
 from numba.core import cgutils
 
 from ..kernels.compiling import intrinsic
+from ..kernels.vector import EIGHT, INTEGER, VECTOR
 
-EIGHT = 8
 SINE, COSINE, OMEGA, FP, FQ, SERIES = range(6)  # series[which, order, link]
 WP, WQ, R = range(3)  # part[which, link]
-
-DOUBLE, INTEGER = ir.DoubleType(), ir.IntType(64)
-VECTOR = ir.VectorType(DOUBLE, EIGHT)
 
 
 @intrinsic
@@ -27,7 +24,8 @@ def convolve_eight(_context: Any, series: Any, _order: Any, _start: Any, part: A
     """For order k and links start … start + 7, with i from 1:
 
     part[WP] = Σ s_i ω_{k+1-i}, part[WQ] = Σ c_i ω_{k+1-i} (to i = k+1), part[R] = Σ (c_i F^q_{k-i} - s_i F^p_{k-i})
-    (to i = k). ``series`` (SERIES, orders, links) and ``part`` (…, links) are contiguous, links a multiple of 8.
+    (to i = k). ``series`` (SERIES, orders, links) and ``part`` (…, links) are contiguous, links a multiple of 8; with
+    one axis more, of eight lanes, links and lanes are counted through.
     """
     return types.void(series, types.int64, types.int64, part), _generate
 
@@ -36,7 +34,9 @@ def _generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
     series = context.make_array(signature.args[0])(context, builder, args[0])
     part = context.make_array(signature.args[3])(context, builder, args[3])
     order, start = args[1], args[2]
-    _, orders, links = cgutils.unpack_tuple(builder, series.shape)
+    _, orders, links, *lanes = cgutils.unpack_tuple(builder, series.shape)
+    for lane in lanes:
+        links = builder.mul(links, lane)
     one = INTEGER(1)
 
     def vector(data: Any, row: Any) -> Any:

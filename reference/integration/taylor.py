@@ -36,9 +36,10 @@ this is cheapest.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, fields
 from functools import cached_property
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -101,18 +102,26 @@ class Trajectory:
 
 
 def simulate(
-    system: System, theta: Any, omega: Any, times: Any, tolerance: float = FINEST, *, threads: int | None = None
+    system: System | Sequence[System],
+    theta: Any,
+    omega: Any,
+    times: Any,
+    tolerance: float = FINEST,
+    *,
+    threads: int | None = None,
 ) -> Trajectory:
     """The motion of ``system`` from ``theta`` [rad], ``omega`` [rad/s] at ``times[0]``, given at all ``times`` [s].
 
     ``theta``, ``omega``: shape (..., n), the leading axes an ensemble; ``times``: shape (m,), rising or falling,
-    repeats allowed. ``tolerance``: error wanted at the end (angles in rad, rates relative). A chaotic motion
-    multiplies the rounding error of doubles, 1e-16, whatever the method; :attr:`Trajectory.error` estimates what was
-    reached and :attr:`Trajectory.warning` says so where it is not the tolerance. ``threads``: at most so many, for
-    ensembles.
+    repeats allowed. ``system``: also several of one kind and number of links, one a start (theta of shape (B, n)), or
+    all from one start (theta of shape (n,)). ``tolerance``: error wanted at the end (angles in rad, rates relative). A
+    chaotic motion multiplies the rounding error of doubles, 1e-16, whatever the method; :attr:`Trajectory.error`
+    estimates what was reached and :attr:`Trajectory.warning` says so where it is not the tolerance. ``threads``: at
+    most so many, for ensembles. An ensemble's members run eight at a time and depend on none of the others; a motion
+    that is run alone differs from the same one in an ensemble by rounding.
     Raises :class:`InvalidInput` for input that makes no sense, and for motions too fast to be followed to the end.
     """
-    angles, rates = checked_state(system, theta, omega)
+    systems, angles, rates = _checked_starts(system, theta, omega)
     moments = _checked_times(times)
     if not (isinstance(tolerance, int | float | np.floating) and 0 < tolerance <= 0.1):
         raise InvalidInput(f"tolerance: must be above 0 and at most 0.1, got {tolerance!r}")
@@ -120,10 +129,30 @@ def simulate(
     order = best_order(local)
 
     def finer() -> tuple[Array, Array]:
-        return _integrate(system, angles, rates, moments, order + 4, local * SAFETY, threads)[:2]
+        return _integrate(systems, angles, rates, moments, order + 4, local * SAFETY, threads)[:2]
 
-    out_theta, out_omega, steps = _integrate(system, angles, rates, moments, order, local, threads)
+    out_theta, out_omega, steps = _integrate(systems, angles, rates, moments, order, local, threads)
     return Trajectory(moments, out_theta, out_omega, float(tolerance), steps, finer)
+
+
+def _checked_starts(system: System | Sequence[System], theta: Any, omega: Any) -> tuple[list[System], Array, Array]:
+    """The systems, one or one a start, and the starts."""
+    if not isinstance(system, Sequence):
+        return [system], *checked_state(system, theta, omega)
+    systems = [*system]
+    kinds = {(each.kind, each.n) for each in systems}
+    if len(kinds) != 1:
+        raise InvalidInput(
+            f"system: one or more of one kind and number of links are needed, got {len(systems)}: {kinds}"
+        )
+    angles, rates = checked_state(systems[0], theta, omega)
+    if angles.ndim == 1:
+        angles, rates = (np.repeat(row[np.newaxis], len(systems), axis=0) for row in (angles, rates))
+    if angles.ndim != 2 or len(angles) != len(systems):
+        raise InvalidInput(
+            f"theta: with {len(systems)} systems, shape ({len(systems)}, {systems[0].n}) is needed, got {angles.shape}"
+        )
+    return systems, angles, rates
 
 
 def local_size(tolerance: float) -> float:
@@ -140,67 +169,95 @@ def best_order(local: float) -> int:
     return max(6, math.ceil(-0.72 * math.log(local)))
 
 
+@dataclass(frozen=True)
+class _Runs:
+    """Trajectories to compute, and where to write them: B rows each.
+
+    masses, lengths, theta, omega: (B, n); gravity, steps: (B,); out_theta, out_omega: (B, m, n).
+    """
+
+    masses: Array
+    lengths: Array
+    gravity: Array
+    theta: Array
+    omega: Array
+    steps: NDArray[np.int64]
+    out_theta: Array
+    out_omega: Array
+
+    def part(self, rows: slice | int) -> _Runs:
+        """Some of them; the arrays are views."""
+        return _Runs(*(getattr(self, each.name)[rows] for each in fields(self)))
+
+
 def _integrate(
-    system: System, theta: Array, omega: Array, times: Array, order: int, local: float, threads: int | None
+    systems: list[System], theta: Array, omega: Array, times: Array, order: int, local: float, threads: int | None
 ) -> tuple[Array, Array, NDArray[np.int64]]:
-    """All trajectories of an ensemble, each by one thread."""
-    n = system.n
-    starts = theta.reshape(-1, n), omega.reshape(-1, n)
-    count = len(starts[0])
+    """All trajectories of an ensemble, in as many parts as threads."""
+    kind, n = systems[0].kind, systems[0].n
+    angles, rates = theta.reshape(-1, n), omega.reshape(-1, n)
+    count = len(angles)
+    masses, lengths, gravity = (
+        np.ascontiguousarray(np.broadcast_to([value(system) for system in systems], (count, *shape)), np.float64)
+        for value, shape in ((link_masses, (n,)), (attrgetter("lengths"), (n,)), (attrgetter("gravity"), ()))
+    )
     out_theta, out_omega = np.empty((2, count, len(times), n))
-    steps = np.zeros(count, np.int64)
-
-    def one(b: int) -> int:
-        return _follow(system, starts[0][b], starts[1][b], times, order, local, out_theta[b], out_omega[b])
-
-    workers = min(processors(threads), count)
-    spread = thread_pool().map if workers > 1 else map
-    for first, taken in enumerate(spread(lambda first: [*map(one, range(first, count, workers))], range(workers))):
-        steps[first::workers] = taken
+    runs = _Runs(masses, lengths, gravity, angles, rates, np.zeros(count, np.int64), out_theta, out_omega)
+    if count == 1:
+        runs.steps[0] = _follow(kind, runs.part(0), times, order, local)
+    elif count > 1:
+        size = -(-count // min(processors(threads), count))
+        parts = [runs.part(slice(first, first + size)) for first in range(0, count, size)]
+        spread = thread_pool().map if len(parts) > 1 else map
+        for _ in spread(lambda part: _follow_lanes(kind, part, times, order, local), parts):
+            pass
+    at_start = times == times[0]
+    out_theta[:, at_start], out_omega[:, at_start] = angles[:, np.newaxis], rates[:, np.newaxis]  # to the last bit
     shape = (*theta.shape[:-1], len(times), n)
-    return out_theta.reshape(shape), out_omega.reshape(shape), steps.reshape(theta.shape[:-1])
+    return out_theta.reshape(shape), out_omega.reshape(shape), runs.steps.reshape(theta.shape[:-1])
 
 
-def _follow(
-    system: System,
-    theta: Array,
-    omega: Array,
-    times: Array,
-    order: int,
-    local: float,
-    out_theta: Array,
-    out_omega: Array,
-) -> int:
-    """One trajectory; writes (m, n) outputs and returns the number of steps."""
+def _follow_lanes(kind: str, runs: _Runs, times: Array, order: int, local: float) -> None:
+    """Many trajectories, eight at a time."""
+    from ..kernels.vector import EIGHT
+    from . import taylor_lanes as compiled
+    from .taylor_compiled import BROKEN, FACTORS, MORE, STATE
+
+    run = compiled.run_rod_lanes if kind == "rod-chain" else compiled.run_leg_lanes
+    n = runs.theta.shape[1]
+    state, factors = (np.zeros((n, rows, EIGHT)) for rows in (STATE, FACTORS))
+    clock = np.zeros((compiled.CLOCK, EIGHT))
+    lanes = np.zeros((compiled.LANE_ROWS, EIGHT), np.int64)
+    lanes[compiled.TRAJECTORY] = compiled.IDLE
+    given = runs.masses, runs.lengths, runs.gravity, runs.theta, runs.omega, times, order, local
+    kept = state, factors, clock, lanes, runs.steps, runs.out_theta, runs.out_omega
+    status = MORE
+    while status == MORE:
+        status = run(*given, *kept, STEPS_A_CALL // EIGHT)
+    if status == BROKEN:
+        lane = int(np.argmax(lanes[compiled.TRAJECTORY] == lanes[compiled.NEXT, 1]))
+        raise _too_fast(clock[compiled.TIME, lane], times)
+
+
+def _follow(kind: str, run: _Runs, times: Array, order: int, local: float) -> int:
+    """One trajectory, of which the arrays have one axis less. Returns the number of steps."""
     from . import taylor_compiled as compiled
 
-    kind = compiled.RODS if system.kind == "rod-chain" else compiled.LEGS
-    masses, lengths = link_masses(system), np.array(system.lengths)
-    state = np.zeros((system.n, compiled.STATE))
-    compiled.start(theta, omega, state)
+    advance = compiled.run_rods if kind == "rod-chain" else compiled.run_legs
+    state = np.zeros((len(run.theta), compiled.STATE))
+    compiled.start(run.theta, run.omega, state)
     clock, counts = np.array([times[0], 0.0]), np.zeros(2, np.int64)
+    given = run.masses, run.lengths, float(run.gravity), times, order, local
     status = compiled.MORE
     while status == compiled.MORE:
-        status = compiled.run(
-            kind,
-            masses,
-            lengths,
-            system.gravity,
-            times,
-            order,
-            local,
-            state,
-            clock,
-            counts,
-            out_theta,
-            out_omega,
-            STEPS_A_CALL,
-        )
+        status = advance(*given, state, clock, counts, run.out_theta, run.out_omega, STEPS_A_CALL)
     if status == compiled.BROKEN:
-        raise InvalidInput(f"omega: the motion is too fast to be followed from t = {clock[0]:g} s to {times[-1]:g} s")
-    at_start = times == times[0]
-    out_theta[at_start], out_omega[at_start] = theta, omega  # as given, to the last bit
+        raise _too_fast(clock[0], times)
     return int(counts[1])
+
+
+def _too_fast(time: float, times: Array) -> InvalidInput:
+    return InvalidInput(f"omega: the motion is too fast to be followed from t = {time:g} s to {times[-1]:g} s")
 
 
 def _checked_times(times: Any) -> Array:

@@ -1,6 +1,8 @@
-"""One Taylor step of either system in compiled form, and the run from output time to output time.
+"""One Taylor step of either system in compiled form, and the run of one trajectory from output time to output time.
 
-The derivation is in :mod:`.taylor`. Rows of numbers, one a link, are padded to whole vectors of EIGHT.
+The derivation is in :mod:`.taylor`. The step is written for numbers and for vectors of eight alike
+(:mod:`furiko.reference.kernels.vector`): here a row holds one number a link, padded to whole vectors; in
+:mod:`.taylor_lanes` it holds a vector a link, one trajectory a lane.
 """
 
 from __future__ import annotations
@@ -11,118 +13,143 @@ from typing import Any
 import numpy as np
 
 from ..kernels import elimination
-from ..kernels.compiling import aligned, called, compiled, fma, inlined, wide_vectors
-from ..kernels.sincos import sincos
-from .convolution import COSINE, EIGHT, FP, FQ, OMEGA, SERIES, SINE, WP, WQ, R, convolve_eight
+from ..kernels.compiling import aligned, bits, called, compiled, inlined, wide_vectors
+from ..kernels.sincos import ROUNDER, sincos
+from ..kernels.vector import EIGHT, fma, load, store
+from .convolution import COSINE, FP, FQ, OMEGA, SERIES, SINE, WP, WQ, R, convolve_eight
 
 absorb_rod = inlined(elimination.absorb_rod)
 turn = inlined(elimination.turn)
 two_difference = inlined(elimination.difference)
 
-RODS, LEGS = 0, 1
 MOST_STEPS = 1e11  # to one output: days of work; more is probably a wrong unit
 DONE, MORE, BROKEN = 0, 1, 2
 TWO_PI, TWO_PI_LOW = 6.283185307179586, 2.4492935982947064e-16
+TURNS_A_RADIAN = 0.15915494309189535
 # columns of the state, one row a link: angle and rate as sums of two numbers, and whole turns taken off the angle
 ANGLE, ANGLE_LOW, RATE, RATE_LOW, TURNS, STATE = range(6)
-# columns of the factors of a step, one row a link
-MASS, LENGTH, SIN, COS, A, B, KAPPA, KC, KB, KM, M12, M22, UP_W, ACROSS_W, ACROSS_R, WP_R, FACTORS = range(17)
+# columns of the factors of a step, one row a link; gravity stands in the first row
+MASS, LENGTH, INVERSE, GRAVITY, SIN, COS, A, B, KAPPA, KC = range(10)
+KB, KM, M12, M22, UP_W, ACROSS_W, ACROSS_R, WP_R, FACTORS = range(10, 19)
 # rows of what one order of the series needs: WP, WQ, R of the convolution, then
 BETA_P, TAU, ORDER = 3, 4, 5
 
 
 @inlined
-def two_sum(a: float, b: float) -> tuple[float, float]:
+def two_sum(a: Any, b: Any) -> Any:
     """a + b and its rounding error."""
     return two_difference(a, -b)
 
 
 @inlined
-def relative_sincos(state: Any, link: int, other: int) -> tuple[float, float]:
-    """Sine and cosine of a link's angle less another's (negative: less nothing), low parts included."""
-    if other < 0:
-        return sincos(state[link, ANGLE], state[link, ANGLE_LOW])
-    high, low = two_difference(state[link, ANGLE], state[other, ANGLE])
-    return sincos(high, low + (state[link, ANGLE_LOW] - state[other, ANGLE_LOW]))
+def store_sincos(factors: Any, high: Any, low: Any) -> None:
+    """Sine and cosine of high + low into a link's factors."""
+    s, c = sincos(high, low)
+    store(factors, SIN, s)
+    store(factors, COS, c)
 
 
-@called
+@inlined
+def store_relative(factors: Any, link: Any, other: Any) -> None:
+    """Sine and cosine of a link's angle less another's, low parts included, into a link's factors."""
+    high, low = two_difference(load(link, ANGLE), load(other, ANGLE))
+    store_sincos(factors, high, low + (load(link, ANGLE_LOW) - load(other, ANGLE_LOW)))
+
+
+@inlined
 def factor_rods(state: Any, factors: Any) -> None:
     """Everything of the elimination that all orders of a step share."""
-    a = b = c = d = 0.0
-    for j in range(len(state) - 1, -1, -1):
+    a = b = c = d = load(state[0], ANGLE) * 0.0
+    for j in range(len(factors) - 1, -1, -1):
         f = factors[j]
-        m = f[MASS]
-        s, co = relative_sincos(state, j, j - 1)
+        if j > 0:
+            store_relative(f, state[j], state[j - 1])
+        else:
+            store_sincos(f, load(state[0], ANGLE), load(state[0], ANGLE_LOW))
+        m, s, co = load(f, MASS), load(f, SIN), load(f, COS)
         kappa = 1.0 / (m / 3.0 + c)
-        f[SIN], f[COS], f[A], f[B], f[KAPPA] = s, co, a, b, kappa
-        f[KC], f[KB], f[KM] = kappa * c, kappa * b, kappa * (m / 6.0)
-        f[UP_W] = kappa * (a * (m / 3.0) + d) + m / 2.0
-        f[ACROSS_W] = kappa * (m * (m / 6.0 + c / 3.0))
-        f[ACROSS_R] = kappa * (m / 2.0 + c)
-        f[WP_R] = f[KM] * b
-        f[M12] = s * f[KM] - co * f[KB]
-        f[M22] = -(s * f[KB] + co * f[KM])
+        kb, km = kappa * b, kappa * (m / 6.0)
+        store(f, A, a)
+        store(f, B, b)
+        store(f, KAPPA, kappa)
+        store(f, KC, kappa * c)
+        store(f, KB, kb)
+        store(f, KM, km)
+        store(f, UP_W, kappa * (a * (m / 3.0) + d) + m / 2.0)
+        store(f, ACROSS_W, kappa * (m * (m / 6.0 + c / 3.0)))
+        store(f, ACROSS_R, kappa * (m / 2.0 + c))
+        store(f, WP_R, km * b)
+        store(f, M12, s * km - co * kb)
+        store(f, M22, -(s * kb + co * km))
         a, b, c, _p, _q, _t, _kb, _km = absorb_rod(m, 0.0, a, b, c, d, 0.0, 0.0)
         a, b, c, d, _p, _q = turn(s, co, a, b, c, 0.0, 0.0)
 
 
 @called
-def solve_rods(order: int, gravity: float, factors: Any, part: Any, series: Any) -> None:
+def solve_rods(order: int, factors: Any, part: Any, series: Any) -> None:
     """One order of lθ'' and F, and with it the next orders of ω, sine and cosine."""
     wp, wq, r, beta_p, tau = part[WP], part[WQ], part[R], part[BETA_P], part[TAU]
     fp, fq = series[FP, order], series[FQ, order]
-    p = q = 0.0
+    nothing = load(wp, 0) * 0.0
+    p, q = nothing, nothing
     for j in range(len(factors) - 1, -1, -1):
         f = factors[j]
-        weight = f[LENGTH] * (order + 1.0)
-        w_p, w_q = -weight * wp[j], weight * wq[j]
-        wp[j], wq[j] = w_p, w_q
-        beta_p[j] = p
-        tau[j] = f[KAPPA] * (r[j] - q) - f[KB] * w_p - f[KC] * w_q
-        own_p = f[UP_W] * w_p + f[KB] * ((f[MASS] / 3.0) * w_q + r[j])
-        own_q = f[ACROSS_R] * r[j] + f[ACROSS_W] * w_q - f[WP_R] * w_p
+        s, c, kb, m = load(f, SIN), load(f, COS), load(f, KB), load(f, MASS)
+        weight = load(f, LENGTH) * (order + 1.0)
+        w_p, w_q, r_j = -weight * load(wp, j), weight * load(wq, j), load(r, j)
+        store(wp, j, w_p)
+        store(wq, j, w_q)
+        store(beta_p, j, p)
+        store(tau, j, load(f, KAPPA) * (r_j - q) - kb * w_p - load(f, KC) * w_q)
+        own_p = load(f, UP_W) * w_p + kb * ((m / 3.0) * w_q + r_j)
+        own_q = load(f, ACROSS_R) * r_j + load(f, ACROSS_W) * w_q - load(f, WP_R) * w_p
         p, q = (
-            (f[COS] * own_p - f[SIN] * own_q) + f[COS] * p + f[M12] * q,
-            (f[SIN] * own_p + f[COS] * own_q) + f[SIN] * p + f[M22] * q,
+            (c * own_p - s * own_q) + c * p + load(f, M12) * q,
+            (s * own_p + c * own_q) + s * p + load(f, M22) * q,
         )
-    p, q = (-gravity if order == 0 else 0.0), 0.0
+    p, q = nothing, nothing
+    if order == 0:
+        p = -load(factors[0], GRAVITY)
+    once, twice = 1.0 / (order + 1.0), 1.0 / ((order + 1.0) * (order + 2.0))
     for j in range(len(factors)):
         f = factors[j]
-        m = f[MASS]
-        a = f[COS] * p + f[SIN] * q
-        b = f[COS] * q - f[SIN] * p
+        s, c, m = load(f, SIN), load(f, COS), load(f, MASS)
+        w_p, w_q, tau_j = load(wp, j), load(wq, j), load(tau, j)
+        a = c * p + s * q
+        b = c * q - s * p
         p, q = (
-            wp[j] + f[COS] * p + f[SIN] * q,
-            (tau[j] + wq[j]) + f[M12] * p + f[M22] * q,
+            w_p + c * p + s * q,
+            (tau_j + w_q) + load(f, M12) * p + load(f, M22) * q,
         )
-        moved = tau[j] - f[KB] * a - f[KM] * b
+        moved = tau_j - load(f, KB) * a - load(f, KM) * b
         x = moved - b
-        fq[j] = (m / 3.0) * x - r[j]
-        fp[j] = -((m / 2.0) * a + f[A] * (a + wp[j]) + (f[B] * (moved + wq[j]) + beta_p[j]))
-        extend(series, order, j, f[LENGTH], x, wp[j], wq[j])
+        store(fq, j, (m / 3.0) * x - load(r, j))
+        store(fp, j, -((m / 2.0) * a + load(f, A) * (a + w_p) + (load(f, B) * (moved + w_q) + load(beta_p, j))))
+        extend(series, order, j, load(f, INVERSE), once, twice, x, w_p, w_q)
 
 
 @inlined
-def extend(series: Any, order: int, j: int, length: float, x: float, wp: float, wq: float) -> None:
-    """ω_{k+1} from lθ''_k = x, and c_{k+2}, s_{k+2} from c' = -s ω, s' = c ω."""
-    further = 1.0 / (length * ((order + 1.0) * (order + 2.0)))
-    series[OMEGA, order + 1, j] = x / (length * (order + 1.0))
-    series[COSINE, order + 2, j] = wp * further
-    series[SINE, order + 2, j] = (x + wq) * further
+def extend(series: Any, order: int, j: int, inverse: Any, once: float, twice: float, x: Any, wp: Any, wq: Any) -> None:
+    """ω_{k+1} from lθ''_k = x, and c_{k+2}, s_{k+2} from c' = -s ω, s' = c ω; inverse: 1/l, once: 1/(k+1), …"""
+    store(series[OMEGA, order + 1], j, x * (inverse * once))
+    store(series[COSINE, order + 2], j, wp * (inverse * twice))
+    store(series[SINE, order + 2], j, (x + wq) * (inverse * twice))
 
 
-@called
-def factor_legs(state: Any, gravity: float, factors: Any) -> None:
+@inlined
+def factor_legs(state: Any, factors: Any) -> None:
     """Sines and cosines of θ1 - θi, the pivot m1 + Σ m S² in KAPPA, and g e_y in frame 1 in A, B of link 1."""
-    s, c = relative_sincos(state, 0, -1)
-    factors[0, A], factors[0, B] = -gravity * c, gravity * s
-    pivot = factors[0, MASS]
+    first = factors[0]
+    store_sincos(first, load(state[0], ANGLE), load(state[0], ANGLE_LOW))
+    store(first, A, -load(first, GRAVITY) * load(first, COS))
+    store(first, B, load(first, GRAVITY) * load(first, SIN))
+    pivot = load(first, MASS)
     for i in range(1, len(state)):
         f = factors[i]
-        f[SIN], f[COS] = relative_sincos(state, 0, i)
-        pivot += f[MASS] * f[SIN] * f[SIN]
-    factors[0, KAPPA] = pivot
+        store_relative(f, state[0], state[i])
+        s = load(f, SIN)
+        pivot += load(f, MASS) * s * s
+    store(first, KAPPA, pivot)
 
 
 @called
@@ -131,44 +158,51 @@ def solve_legs(order: int, factors: Any, part: Any, series: Any) -> None:
     wp, wq, r = part[WP], part[WQ], part[R]
     fp, fq = series[FP, order], series[FQ, order]
     for i in range(len(factors)):
-        weight = factors[i, LENGTH] * (order + 1.0)
-        wp[i], wq[i] = -weight * wp[i], weight * wq[i]
-    along = wp[0] + (factors[0, A] if order == 0 else 0.0)
-    across = wq[0] + (factors[0, B] if order == 0 else 0.0)
-    load = r[0]
+        weight = load(factors[i], LENGTH) * (order + 1.0)
+        store(wp, i, -weight * load(wp, i))
+        store(wq, i, weight * load(wq, i))
+    first = factors[0]
+    along, across = load(wp, 0), load(wq, 0)
+    if order == 0:
+        along, across = along + load(first, A), across + load(first, B)
+    total = load(r, 0)
     for i in range(1, len(factors)):
         f = factors[i]
-        load += f[MASS] * (f[COS] * (wq[i] - r[i]) - f[SIN] * (f[COS] * along + wp[i]))
-    G = -load / factors[0, KAPPA]
-    force = factors[0, MASS] * along
+        s, c = load(f, SIN), load(f, COS)
+        total += load(f, MASS) * (c * (load(wq, i) - load(r, i)) - s * (c * along + load(wp, i)))
+    G = -total / load(first, KAPPA)
+    force = load(first, MASS) * along
+    once, twice = 1.0 / (order + 1.0), 1.0 / ((order + 1.0) * (order + 2.0))
     for i in range(1, len(factors)):
         f = factors[i]
-        fp[i] = f[COS] * along - f[SIN] * G
-        fq[i] = f[SIN] * along + f[COS] * G
-        force += f[MASS] * (f[COS] * (fp[i] + wp[i]) + f[SIN] * (wq[i] - r[i]))
-        extend(series, order, i, f[LENGTH], -fq[i] - r[i], wp[i], wq[i])
-    fp[0], fq[0] = force, -r[0]
-    extend(series, order, 0, factors[0, LENGTH], G - across, wp[0], wq[0])
+        s, c, w_p, w_q, r_i = load(f, SIN), load(f, COS), load(wp, i), load(wq, i), load(r, i)
+        ahead, aside = c * along - s * G, s * along + c * G
+        store(fp, i, ahead)
+        store(fq, i, aside)
+        force += load(f, MASS) * (c * (ahead + w_p) + s * (w_q - r_i))
+        extend(series, order, i, load(f, INVERSE), once, twice, -aside - r_i, w_p, w_q)
+    store(fp, 0, force)
+    store(fq, 0, -load(r, 0))
+    extend(series, order, 0, load(first, INVERSE), once, twice, G - across, load(wp, 0), load(wq, 0))
 
 
-@called
-def expand(kind: int, state: Any, gravity: float, top: int, factors: Any, part: Any, series: Any) -> None:
+@inlined
+def expand(factor: Any, solve: Any, state: Any, top: int, factors: Any, part: Any, series: Any) -> None:
     """The series of ω, and of sine and cosine of each link's turn, to order ``top``."""
     wide_vectors()
-    if kind == RODS:
-        factor_rods(state, factors)
-    else:
-        factor_legs(state, gravity, factors)
+    factor(state, factors)
     for j in range(len(factors)):
-        series[OMEGA, 0, j] = series[SINE, 1, j] = state[j, RATE]
-        series[SINE, 0, j], series[COSINE, 0, j], series[COSINE, 1, j] = 0.0, 1.0, 0.0
+        rate = load(state[j], RATE)
+        store(series[OMEGA, 0], j, rate)
+        store(series[SINE, 1], j, rate)
+        store(series[SINE, 0], j, 0.0)
+        store(series[COSINE, 0], j, 1.0)
+        store(series[COSINE, 1], j, 0.0)
+    columns = part[0].size
     for k in range(top):
-        for first in range(0, part.shape[1], EIGHT):
+        for first in range(0, columns, EIGHT):
             convolve_eight(series, k, first, part)
-        if kind == RODS:
-            solve_rods(k, gravity, factors, part, series)
-        else:
-            solve_legs(k, factors, part, series)
+        solve(k, factors, part, series)
 
 
 @inlined
@@ -182,35 +216,72 @@ def largest(row: Any) -> float:
 
 
 @called
-def step_size(omega: Any, top: int, local: float) -> float:
-    """The step at which each of the last two terms of ω is ``local`` of the largest of its first three."""
+def step_size(
+    first: float, second: float, third: float, last_but_one: float, last: float, top: int, local: float
+) -> float:
+    """The step at which each of the last two terms of ω is ``local`` of the largest of its first three.
+
+    From the largest coefficients of each over all links. Not a number where one is not finite.
+    """
     step = math.inf
-    for last in (top - 1, top):
-        end = largest(omega[last])
-        if end != 0.0:
-            reach = 0.0
-            for first in range(3):
-                reach = max(reach, (local * largest(omega[first]) / end) ** (1.0 / (last - first)))
-            step = end if math.isnan(end) else min(step, reach)
-    return step
+    below = rough_log2(local)
+    starts = rough_log2(first) + below, rough_log2(second) + below, rough_log2(third) + below
+    for order, size in ((top - 1, last_but_one), (top, last)):
+        if size != 0.0:
+            end = rough_log2(size)
+            reach = max((starts[0] - end) / order, (starts[1] - end) / (order - 1), (starts[2] - end) / (order - 2))
+            step = min(step, reach)
+    unsound = 0.0 * (((first + second) + (third + last_but_one)) + last)
+    return math.exp2(step) + unsound
+
+
+@inlined
+def rough_log2(x: float) -> float:
+    """log2 of a positive number to within 0.09, which is little in the root that a step is: its bits as a number."""
+    logarithm: float = bits(x) * 2.220446049250313e-16 - 1023.0
+    return logarithm
 
 
 @called
-def moved_on(omega: Any, state: Any, j: int, top: int, h: float) -> tuple[float, float, float, float]:
+def moved_on(omega: Any, state: Any, j: int, top: int, h: Any) -> Any:
     """Angle and rate of one link after h, each as a sum of two numbers: only the small terms are rounded."""
-    rate: float = omega[top, j]
-    angle = rate / (top + 1.0)
+    row = state[j]
+    rate = load(omega[top], j)
+    angle = rate * (1.0 / (top + 1.0))
     for k in range(top - 1, 0, -1):
-        rate = omega[k, j] + h * rate
-        angle = omega[k, j] / (k + 1.0) + h * angle
-    travel = h * state[j, RATE]
-    high, low = two_sum(state[j, ANGLE], travel)
-    low += state[j, ANGLE_LOW] + (h * (h * angle + state[j, RATE_LOW]) + fma(h, state[j, RATE], -travel))
+        term = load(omega[k], j)
+        rate = term + h * rate
+        angle = term * (1.0 / (k + 1.0)) + h * angle
+    travel = h * load(row, RATE)
+    high, low = two_sum(load(row, ANGLE), travel)
+    low += load(row, ANGLE_LOW) + (h * (h * angle + load(row, RATE_LOW)) + fma(h, load(row, RATE), -travel))
     angle_high, angle_low = two_sum(high, low)
     gain = h * rate
-    high, low = two_sum(state[j, RATE], gain)
-    rate_high, rate_low = two_sum(high, low + (state[j, RATE_LOW] + fma(h, rate, -gain)))
+    high, low = two_sum(load(row, RATE), gain)
+    rate_high, rate_low = two_sum(high, low + (load(row, RATE_LOW) + fma(h, rate, -gain)))
     return angle_high, angle_low, rate_high, rate_low
+
+
+@inlined
+def advance(omega: Any, state: Any, j: int, top: int, h: Any) -> None:
+    """Take one link h further, and its angle to within half a turn, exactly."""
+    angle, low, rate, rate_low = moved_on(omega, state, j, top, h)
+    row = state[j]
+    store(row, RATE, rate)
+    store(row, RATE_LOW, rate_low)
+    wrap(row, angle, low)
+
+
+@inlined
+def wrap(row: Any, angle: Any, low: Any) -> None:
+    """Store an angle within half a turn, and count the turns taken off it; without a branch."""
+    turns = fma(angle, TURNS_A_RADIAN, ROUNDER) - ROUNDER
+    whole = turns * TWO_PI
+    high, rest = two_sum(angle - whole, -fma(turns, TWO_PI, -whole))
+    angle, low = two_sum(high, rest + (low - turns * TWO_PI_LOW))
+    store(row, ANGLE, angle)
+    store(row, ANGLE_LOW, low)
+    store(row, TURNS, load(row, TURNS) + turns)
 
 
 @inlined
@@ -222,29 +293,86 @@ def unwrapped(high: float, low: float, turns: float) -> float:
     return angle
 
 
-@inlined
-def wrap(state: Any, j: int) -> None:
-    """Bring an angle to within half a turn, exactly."""
-    turns = np.rint(state[j, ANGLE] / TWO_PI)
-    if turns != 0.0:
-        whole = turns * TWO_PI
-        high, low = two_sum(state[j, ANGLE] - whole, -fma(turns, TWO_PI, -whole))
-        state[j, ANGLE], state[j, ANGLE_LOW] = two_sum(high, low + (state[j, ANGLE_LOW] - turns * TWO_PI_LOW))
-        state[j, TURNS] += turns
-
-
 @compiled(releases_gil=True)
 def start(theta: Any, omega: Any, state: Any) -> None:
-    """Write the state of one trajectory, shape (n,) each, into a fresh ``state`` of shape (n, STATE)."""
+    """Write the state of one trajectory, shape (n,) each, into a ``state`` of zeros of shape (n, STATE)."""
     for j in range(theta.size):
-        state[j, ANGLE], state[j, RATE] = theta[j], omega[j]
-        state[j, ANGLE_LOW] = state[j, RATE_LOW] = state[j, TURNS] = 0.0
-        wrap(state, j)
+        state[j, RATE] = omega[j]
+        wrap(state[j], theta[j], 0.0)
 
 
 @compiled(releases_gil=True)
+def run_rods(
+    masses: Any,
+    lengths: Any,
+    gravity: float,
+    times: Any,
+    top: int,
+    local: float,
+    state: Any,
+    clock: Any,
+    counts: Any,
+    out_theta: Any,
+    out_omega: Any,
+    budget: int,
+) -> int:
+    """:func:`run` of a rod chain."""
+    return run(
+        factor_rods,
+        solve_rods,
+        masses,
+        lengths,
+        gravity,
+        times,
+        top,
+        local,
+        state,
+        clock,
+        counts,
+        out_theta,
+        out_omega,
+        budget,
+    )
+
+
+@compiled(releases_gil=True)
+def run_legs(
+    masses: Any,
+    lengths: Any,
+    gravity: float,
+    times: Any,
+    top: int,
+    local: float,
+    state: Any,
+    clock: Any,
+    counts: Any,
+    out_theta: Any,
+    out_omega: Any,
+    budget: int,
+) -> int:
+    """:func:`run` of an N-leg pendulum."""
+    return run(
+        factor_legs,
+        solve_legs,
+        masses,
+        lengths,
+        gravity,
+        times,
+        top,
+        local,
+        state,
+        clock,
+        counts,
+        out_theta,
+        out_omega,
+        budget,
+    )
+
+
+@inlined
 def run(
-    kind: int,
+    factor: Any,
+    solve: Any,
     masses: Any,
     lengths: Any,
     gravity: float,
@@ -270,20 +398,32 @@ def run(
     width = (n + EIGHT - 1) // EIGHT * EIGHT
     series = aligned(SERIES * (top + 3) * width).reshape((SERIES, top + 3, width))
     part = aligned(ORDER * width).reshape((ORDER, width))
-    series[:], part[:] = 0.0, 0.0
+    series.fill(0.0)
+    part.fill(0.0)
     factors = np.zeros((n, FACTORS))
-    factors[:, MASS], factors[:, LENGTH] = masses, lengths
+    for j in range(n):  # row by row: an assignment to a slice takes seconds to compile
+        f = factors[j]
+        f[MASS], f[LENGTH], f[INVERSE], f[GRAVITY] = masses[j], lengths[j], 1.0 / lengths[j], gravity
     direction = 1.0 if times[-1] >= times[0] else -1.0
+    omega = series[OMEGA]
     for _ in range(budget):
-        expand(kind, state, gravity, top, factors, part, series)
-        h = step_size(series[OMEGA], top, local)
+        expand(factor, solve, state, top, factors, part, series)
+        h = step_size(
+            largest(omega[0]),
+            largest(omega[1]),
+            largest(omega[2]),
+            largest(omega[top - 1]),
+            largest(omega[top]),
+            top,
+            local,
+        )
         counts[1] += 1
         while True:
             ahead = (times[counts[0]] - clock[0]) - clock[1]
             if not abs(ahead) <= h:
                 break
             for j in range(n):
-                angle, low, rate, rate_low = moved_on(series[OMEGA], state, j, top, ahead)
+                angle, low, rate, rate_low = moved_on(omega, state, j, top, ahead)
                 out_theta[counts[0], j] = unwrapped(angle, low, state[j, TURNS])
                 out_omega[counts[0], j] = rate + rate_low
             counts[0] += 1
@@ -295,7 +435,5 @@ def run(
         high, low = two_sum(clock[0], h)
         clock[0], clock[1] = two_sum(high, low + clock[1])
         for j in range(n):
-            angle, low, rate, rate_low = moved_on(series[OMEGA], state, j, top, h)
-            state[j, ANGLE], state[j, ANGLE_LOW], state[j, RATE], state[j, RATE_LOW] = angle, low, rate, rate_low
-            wrap(state, j)
+            advance(omega, state, j, top, h)
     return MORE

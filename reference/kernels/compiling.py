@@ -33,11 +33,13 @@ SOURCES = (
     "kernels/elimination.py",
     "kernels/compiling.py",
     "kernels/lanes.py",
+    "kernels/vector.py",
     "limits.py",
     "kernels/sincos.py",
     "integration/convolution.py",
     "kernels/forward_dynamics_compiled.py",
     "integration/taylor_compiled.py",
+    "integration/taylor_lanes.py",
 )
 
 njit: Any = numba.njit  # numba's own types know neither forceinline nor what the result can be called with
@@ -50,14 +52,19 @@ def intrinsic(function: Callable[..., Any]) -> Any:
 
 def inlined(function: F) -> F:
     """Compile an elementwise function into every place that calls it."""
-    compiled_function: F = njit(forceinline=True, **OPTIONS)(function)
-    return compiled_function
+    return _part(function, forceinline=True)
 
 
 def called(function: F) -> F:
     """Compile a larger function once, to be called from other compiled code."""
-    compiled_function: F = njit(**OPTIONS)(function)
-    return compiled_function
+    return _part(function, forceinline=False)
+
+
+def _part(function: F, *, forceinline: bool) -> F:
+    """A function that only compiled code calls: it needs no way in from Python or C."""
+    dispatcher = njit(forceinline=forceinline, no_cpython_wrapper=True, no_cfunc_wrapper=True, **OPTIONS)(function)
+    part: F = dispatcher
+    return part
 
 
 def compiled(*, releases_gil: bool) -> Callable[[F], F]:
@@ -95,27 +102,15 @@ def aligned(count: int) -> Any:
     return numbers[start : start + count]
 
 
-@intrinsic
-def fma(_context: Any, _a: Any, _b: Any, _c: Any) -> Any:
-    """a·b + c, rounded once, on every processor."""
-    return types.float64(types.float64, types.float64, types.float64), lambda _c, builder, _s, args: builder.fma(*args)
+def declared(builder: Any, name: str, kind: Any) -> Any:
+    """One of LLVM's own functions."""
+    return builder.module.globals.get(name) or ir.Function(builder.module, kind, name)
 
 
 @intrinsic
 def bits(_context: Any, _x: Any) -> Any:
     """The 64 bits of a float as an integer."""
     return types.int64(types.float64), lambda _c, builder, _s, args: builder.bitcast(args[0], ir.IntType(64))
-
-
-@intrinsic
-def flip_sign(_context: Any, _x: Any, _mask: Any) -> Any:
-    """The float whose bits are x's, exclusive-or the mask's."""
-
-    def generate(_c: Any, builder: Any, _s: Any, args: Any) -> Any:
-        flipped = builder.xor(builder.bitcast(args[0], ir.IntType(64)), args[1])
-        return builder.bitcast(flipped, ir.DoubleType())
-
-    return types.float64(types.float64, types.int64), generate
 
 
 @intrinsic

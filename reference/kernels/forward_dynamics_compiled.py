@@ -184,7 +184,9 @@ def in_blocks(
     if whole < batch:
         angles, rates, found = filled_up(theta, whole, lanes), filled_up(omega, whole, lanes), np.empty((lanes, n))
         status |= solve(angles, rates, found, 0, masses, lengths, gravity, scratch)
-        out[whole:] = found[: batch - whole]
+        for row in range(whole, batch):  # an assignment to a slice takes seconds to compile
+            for j in range(n):
+                out[row, j] = found[row - whole, j]
     return status
 
 

@@ -17,7 +17,7 @@ from llvmlite import ir
 from numba import types
 
 from ..limits import LARGEST_ANGLE, LARGEST_RATE
-from .compiling import LINE, inlined, intrinsic, prefetch_near, prefetch_next, prefetch_own
+from .compiling import LINE, declared, inlined, intrinsic, prefetch_near, prefetch_next, prefetch_own
 
 INT, DOUBLE = ir.IntType(32), ir.DoubleType()
 EVEN, ODD = [0, 2, 4, 6, 8, 10, 12, 14], [1, 3, 5, 7, 9, 11, 13, 15]  # of two vectors one after the other
@@ -201,7 +201,7 @@ def _first(builder: Any, count: Any, most: int) -> Any:
 def _masked_load(builder: Any, place: Any, mask: Any) -> Any:
     numbers = ir.VectorType(DOUBLE, mask.type.count)
     kind = ir.FunctionType(numbers, [numbers.as_pointer(), INT, mask.type, numbers])
-    function = _declared(builder, f"llvm.masked.load.v{numbers.count}f64.p0", kind)
+    function = declared(builder, f"llvm.masked.load.v{numbers.count}f64.p0", kind)
     zeros = ir.Constant(numbers, [0.0] * numbers.count)
     return builder.call(function, [_as_vector(builder, place, numbers.count), INT(8), mask, zeros])
 
@@ -209,12 +209,8 @@ def _masked_load(builder: Any, place: Any, mask: Any) -> Any:
 def _masked_store(builder: Any, vector: Any, place: Any, mask: Any) -> None:
     numbers = vector.type
     kind = ir.FunctionType(ir.VoidType(), [numbers, numbers.as_pointer(), INT, mask.type])
-    function = _declared(builder, f"llvm.masked.store.v{numbers.count}f64.p0", kind)
+    function = declared(builder, f"llvm.masked.store.v{numbers.count}f64.p0", kind)
     builder.call(function, [vector, _as_vector(builder, place, numbers.count), INT(8), mask])
-
-
-def _declared(builder: Any, name: str, kind: Any) -> Any:
-    return builder.module.globals.get(name) or ir.Function(builder.module, kind, name)
 
 
 read_two, read_four, read_eight = map(_reader, (2, 4, 8))

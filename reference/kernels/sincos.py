@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from .compiling import bits, flip_sign, fma, inlined
+from typing import Any
+
+from .compiling import inlined
+from .vector import fma, in_quadrant
 
 TWO_OVER_PI = 0.6366197723675814
 HALF_PI, HALF_PI_LOW = 1.5707963267948966, 6.123233995736766e-17  # their sum is π/2 to 1.5e-33
@@ -10,15 +13,14 @@ ROUNDER = 6755399441055744.0  # 1.5·2^52: adding it rounds to a whole number, w
 
 
 @inlined
-def sincos(high: float, low: float) -> tuple[float, float]:
+def sincos(high: Any, low: Any) -> tuple[Any, Any]:
     """Sine and cosine of high + low [rad]; absolute error below 2.5e-16 for |high| ≤ 1e14, 1e-15 for ≤ 3e15.
 
-    Cody and Waite's reduction in two parts is enough: each product is exact within its fused multiply-add, and what
-    the two parts leave of π/2 is 1.5e-33 k, at most 3e-18 for k < 2^51. Above 1e14, k may miss the nearest whole
-    number by 0.7, where the polynomials are a little less exact.
+    For numbers and for vectors of eight (:mod:`.vector`). Cody and Waite's reduction in two parts is enough: each
+    product is exact within its fused multiply-add, and what the two parts leave of π/2 is 1.5e-33 k, at most 3e-18 for
+    k < 2^51. Above 1e14, k may miss the nearest whole number by 0.7, where the polynomials are a little less exact.
     """
     rounded = fma(high, TWO_OVER_PI, ROUNDER)
-    quadrant = bits(rounded)
     k = rounded - ROUNDER
     r = fma(-k, HALF_PI_LOW, fma(-k, HALF_PI, high)) + low
     z = r * r
@@ -46,6 +48,5 @@ def sincos(high: float, low: float) -> tuple[float, float]:
             )
         )
     )
-    swap = (quadrant & 1) != 0
-    sine, cosine = (c, s) if swap else (s, c)
-    return flip_sign(sine, (quadrant & 2) << 62), flip_sign(cosine, ((quadrant + 1) & 2) << 62)
+    found: tuple[Any, Any] = in_quadrant(rounded, s, c)
+    return found

@@ -38,6 +38,7 @@ def test_two_causes_at_once_are_both_named_once(diagnosed):
     assert all("expected 9.81" not in result.reason for result in results.values())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", ["Dense", "SilentDense"])
 def test_a_density_is_one_cause_and_not_as_many_masses(diagnosed, engine):
     _, (found,) = diagnosed(engine, "rods-3")
@@ -112,6 +113,7 @@ def test_a_worker_that_is_lost_leaves_the_causes_that_it_had_found(engine):
     assert report.complete
 
 
+@pytest.mark.slow
 def test_an_engine_that_is_given_up_keeps_the_causes_of_every_cell():
     scenes = ["rods-1", "rods-2", "rods-3"]
     report = furiko.check(scenes, ["fake_causes:HangsInEnergy"], use_cache=False, timeout=2.0, jobs=1)

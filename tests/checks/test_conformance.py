@@ -42,6 +42,7 @@ def test_sound_adapters_conform(name):
     assert {step.step: step.outcome for step in found}["accelerations"] == "right"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in BROKEN if name not in IN_A_PROCESS])
 def test_each_broken_adapter_is_told_what_is_wrong(name):
     step, word = BROKEN[name]

@@ -33,6 +33,7 @@ def test_a_check_without_results_and_one_with_too_few(ledger):
     assert "2 of its 4 results" in second.reason
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lost", ["a whole check", "one of several results"])
 def test_what_the_runner_drops_is_noticed(monkeypatch, lost):
     """A fault in the runner: a result that came from a worker is not handed on."""

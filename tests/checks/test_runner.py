@@ -25,6 +25,7 @@ def by_check(report, engine):
     return {result.check: result for result in report.results if result.engine == f"fake_engines:{engine}"}
 
 
+@pytest.mark.slow
 def test_a_crash_costs_its_own_check_alone():
     report = check("Crashing", "Right")
     crashed = by_check(report, "Crashing")
@@ -38,6 +39,7 @@ def test_a_crash_costs_its_own_check_alone():
     assert report.exit_status == 3
 
 
+@pytest.mark.slow
 def test_a_hang_is_ended_and_costs_its_own_check_alone():
     report = check("Hanging", "Right", timeout=3.0)
     hung = by_check(report, "Hanging")
@@ -47,6 +49,7 @@ def test_a_hang_is_ended_and_costs_its_own_check_alone():
     assert {result.outcome for result in by_check(report, "Right").values()} == {"agrees"}
 
 
+@pytest.mark.slow
 def test_an_engine_that_hangs_again_is_given_up():
     scenes = ["rods-1", "rods-2", "rods-3", "double-pendulum"]
     report = check("Hanging", scenes=scenes, timeout=2.0, jobs=1)
@@ -66,6 +69,7 @@ def test_an_engine_that_cannot_start_fails_its_cells_alone():
     assert {result.outcome for result in by_check(report, "Right").values()} == {"agrees"}
 
 
+@pytest.mark.slow
 def test_engines_print_nothing_and_leave_nothing(tmp_path, monkeypatch, capfd):
     monkeypatch.chdir(tmp_path)
     check("Littering", out="out")
@@ -101,6 +105,7 @@ def test_a_plan_is_made_without_numpy():
     assert not {"numpy", "mujoco", "rich", "jinja2"} & set(loaded.stdout.decode().split())
 
 
+@pytest.mark.slow
 def test_results_do_not_depend_on_the_number_of_workers():
     def verdicts(jobs):
         found = check("Right", "SignFlipped", scenes=["rods-2", "rods-3"], jobs=jobs).results
@@ -135,6 +140,7 @@ def _command_line(pid):
         return b""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_every_planned_check_has_its_results(jobs):
     report = check("Right", scenes=["rods-1", "double-pendulum-no-gravity"], jobs=jobs)

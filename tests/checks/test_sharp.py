@@ -68,6 +68,7 @@ def measured(quotients, make_cell, engine):
     return quotients[engine]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", ENGINES)
 def test_engines_that_are_right_are_not_loose(quotients, make_cell, engine):
     for scene, result in measured(quotients, make_cell, engine):
@@ -116,6 +117,7 @@ def test_nor_is_that_of_maximal_coordinates(quotients, make_cell):
     assert sharp.MAXIMAL / 10 < max(found) <= sharp.MAXIMAL
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", ["mujoco", "pinocchio-aba", "exudyn-redundant"])
 @pytest.mark.parametrize("scene", ["rods-20", "n-leg-32", "rods-100"])
 def test_a_small_error_in_any_entry_is_loose(make_cell, engine, scene):

@@ -73,6 +73,7 @@ def measured(quotients, make_cell, engine):
     return quotients[engine]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", STEPPING)
 def test_engines_that_are_right_are_not_loose(quotients, make_cell, engine):
     for scene, result in measured(quotients, make_cell, engine):

@@ -56,6 +56,7 @@ def autograder(tmp_path):
     return root
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("files", "score", "says"),
     [
@@ -85,6 +86,7 @@ def test_gradescope_runs_it(autograder, without_engines, files, score, says):
         assert test["visibility"] in ("visible", "hidden")
 
 
+@pytest.mark.slow
 def test_grading_needs_no_engine_scipy_or_numba(tmp_path, without_engines):
     (tmp_path / "in").mkdir()
     (tmp_path / "problem.toml").write_text(PROBLEM)

@@ -51,6 +51,7 @@ def test_diagnose_agrees_with_a_model_that_furiko_wrote(tmp_path):
     assert len(found["engines"]) >= 3
 
 
+@pytest.mark.slow
 def test_diagnose_names_an_armature(tmp_path):
     clean = furiko.to_mjcf(furiko.RodChain([1.0, 0.5]))
     (tmp_path / "clean.xml").write_text(clean)
@@ -65,6 +66,7 @@ def test_diagnose_names_an_armature(tmp_path):
     assert any("armature" in note for note in json.loads(alone.stdout)["notes"])
 
 
+@pytest.mark.slow
 def test_of_several_files_a_bad_one_does_not_spoil_the_others(tmp_path):
     link = '<inertial pos="0 0 -1" mass="{}" diaginertia="1 1 1"/>'
     body = f'<body name="a"><joint name="j" axis="0 1 0"/>{link.format(1)}</body>'
@@ -103,6 +105,7 @@ def test_a_bad_model_file_is_one_clear_line(tmp_path, text):
     assert "model.xml" in line
 
 
+@pytest.mark.slow
 def test_a_trusted_function_is_graded_from_what_it_gives(tmp_path):
     (tmp_path / "mine.py").write_text(
         "from math import sin\n"

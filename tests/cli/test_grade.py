@@ -50,6 +50,7 @@ def test_bad_input_is_one_clear_line(tmp_path, text):
     assert "derivation.toml" in line
 
 
+@pytest.mark.slow
 def test_a_pinned_problem_is_not_the_files_to_change(tmp_path):
     done = grade(tmp_path, RIGHT, "--system", "rod-chain")
     assert (done.returncode, done.stdout) == (2, "")

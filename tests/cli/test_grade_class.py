@@ -96,6 +96,7 @@ def test_one_that_takes_too_long_spoils_no_other(folder):
     assert (outcomes["ann"], outcomes["bob"]) == ("correct", "wrong")
 
 
+@pytest.mark.slow
 def test_one_submission_is_told_what_its_hints_allow(folder):
     done = furiko(folder, "in/bob.toml")
     assert done.returncode == 1

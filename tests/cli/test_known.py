@@ -35,6 +35,7 @@ def test_a_known_difference_passes_and_is_shown_apart(check):
     assert "gone × fake_engines:*, accelerations: stale" in done.stdout
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("scene", "failures", "skipped"), [("rods-*", "0", "1"), ("n-leg-*", "1", "0")])
 def test_what_a_ci_reads_has_it_too(check, tmp_path, scene, failures, skipped):
     """A known difference is a skipped test with its reason, one that is not known a failed one."""
@@ -51,6 +52,7 @@ def test_another_difference_fails(check):
     assert check("SignFlipped", KNOWN.format("n-leg-*")).returncode == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("more", "status"), [((), 0), (("--known-strict",), 1)])
 def test_one_that_agrees_is_told(check, more, status):
     done = check("Right", KNOWN.format("rods-2"), *more)

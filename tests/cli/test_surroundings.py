@@ -146,6 +146,7 @@ def test_the_cache_says_what_it_holds(tmp_path, capfd):
     assert "least recently used" in capfd.readouterr().out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("options", "status"),
     [((), 0), (("--sharp",), 1), (("--baseline", "b"), 1), (("--baseline", "b", "--no-sharp"), 0)],

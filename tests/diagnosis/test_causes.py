@@ -44,6 +44,7 @@ OF_CODE = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("place", "cause"), CAUSES_OF)
 def test_a_planted_fault_is_detected_and_its_cause_named(place, cause, capfd):
     first = 0
@@ -236,6 +237,7 @@ def test_both_of_two_faults_are_named():
     assert total.misleading == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("seed", "causes"),
     [
@@ -259,6 +261,7 @@ def test_faults_that_hide_each_other_are_both_named(seed, causes):
     assert found.alternatives == ()
 
 
+@pytest.mark.slow
 def test_where_two_pairs_explain_the_same_both_are_told():
     """A pair (cos, sin) of length r at the support's hinge is a gravity of r times its strength."""
     planted = drawn(np.random.default_rng(142), 2)
@@ -282,6 +285,7 @@ def test_the_score_of_pairs():
     assert two.misleading == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["mass", "length", "inertia", "gravity"])
 def test_a_change_of_one_in_ten_billion_is_detected_and_sized(kind):
     mechanism = free(uneven_chain(5))

@@ -101,6 +101,7 @@ def test_a_cart_is_no_planar_tree_of_hinges_and_agrees_all_the_same():
         diagnose(model_from_text(CART, "cart.xml"), "rods-2")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in document_catalogue() if find_scene(name).system.n <= 20])
 @pytest.mark.parametrize(("write", "ending"), [(to_mjcf, "xml"), (to_urdf, "urdf")])
 def test_every_scenes_own_files_agree_with_it(tmp_path, name, write, ending):
@@ -111,6 +112,7 @@ def test_every_scenes_own_files_agree_with_it(tmp_path, name, write, ending):
     assert found.exit_status == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(40))
 def test_what_looks_odd_and_is_sound_raises_no_alarm(seed):
     """Link frames, order, zero pose, plane, inertial frames, fused links, mass moved along with its hinge."""
@@ -120,6 +122,7 @@ def test_what_looks_odd_and_is_sound_raises_no_alarm(seed):
     assert found.engines["exudyn-tree"]["status"] == "agrees"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("cause", IN_FILES)
 def test_a_fault_planted_in_a_file_is_named_first(cause):
     for seed in range(3):

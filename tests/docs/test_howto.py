@@ -20,6 +20,7 @@ SIGN = ("+ m2*l1*w1^2", "- m2*l1*w1^2")  # one of the four terms of a row that i
 CHANGES = {"right": (("", ""), 10), "wrong": (SIGN, 8.5), "unreadable": (("m2*l2*a2 +", "m2*(l2*a2 +"), 0)}
 
 
+@pytest.mark.slow
 def test_the_tutorial_adapter_conforms_as_shown(tmp_path, monkeypatch):
     pytest.importorskip("mujoco")
     monkeypatch.chdir(tmp_path)
@@ -50,6 +51,7 @@ def without_digits(text):
     return re.sub(r"off by [0-9.e-]+", "off by …", text)
 
 
+@pytest.mark.slow
 def test_the_howto_of_own_equations_ends_as_it_says(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     text = (HOWTO / "my-equations-my-robot.md").read_text(encoding="utf-8")

@@ -56,6 +56,7 @@ def test_what_an_engine_cannot_do_is_skipped_with_its_reason(project):
 KNOWN = '[[known]]\nscene = "rods-*"\nengine = "fake_engines:*"\nreason = "issue 12"\n'
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("engine", "strict", "outcome"),
     [
@@ -92,6 +93,7 @@ def test_plain():
 """
 
 
+@pytest.mark.slow
 def test_the_fixture_gives_each_engine(project):
     project.makepyfile(MINE)
     engines = ("--furiko-engine", "mujoco", "--furiko-engine", "exudyn-tree", "--furiko-scene", "rods-1")

@@ -17,6 +17,7 @@ def test_the_right_engine_agrees_in_everything(run_cell, scene):
     assert set(results) >= expected | {"trajectory RK4"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("engine", "differs"),
     [

@@ -58,6 +58,7 @@ def explained_and_faulty(make_cell):
     return explained, engine()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("check", [accelerations, joint_forces])
 def test_a_fault_in_the_states_not_judged_alone_does_not_pass(check, explained_and_faulty):
     assert states_within_a_second(LINKS) == 2

@@ -96,6 +96,7 @@ def test_four_steps_are_reported(make_cell):
     np.testing.assert_allclose(ratios, 2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fake", [Damped, LongStep])
 def test_a_fault_of_1e_7_or_less_is_found_at_step_zero(make_cell, fake, monkeypatch):
     monkeypatch.setattr(trajectories, "ORDER_SETTLED", -0.02)  # refine until the next term is small

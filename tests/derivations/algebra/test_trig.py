@@ -48,6 +48,7 @@ def formulas(draw):
     return f
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=15)
 @given(formulas(), formulas())
 def test_sums_products_and_differences_are_those_of_sympy(f, g):
@@ -57,6 +58,7 @@ def test_sums_products_and_differences_are_those_of_sympy(f, g):
     assert same(f.power(3), in_sympy(f) ** 3)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=20)
 @given(formulas())
 def test_derivatives_are_those_of_sympy(f):

@@ -212,6 +212,7 @@ def test_wrong_lagrangians_are_named(what, formula, cause):
     assert all(finding.term.startswith("L: ") and finding.equation == "1.4" for finding in graded.findings)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["n-leg", "rod-chain"])
 def test_a_wrong_derivation_of_four_links_is_graded_within_two_seconds(kind):
     """From nothing, with the catalogue derived; processor time, so that a busy machine does not decide."""

@@ -16,6 +16,7 @@ def check_singles(tally):
     assert share(tally, "named first", "named under another", "equivalent", "right on a condition") >= 0.98
 
 
+@pytest.mark.slow
 def test_single_mistakes_of_two_links():
     check_singles(singles((2,)))
 
@@ -25,6 +26,7 @@ def test_single_mistakes():
     check_singles(singles())
 
 
+@pytest.mark.slow
 def test_some_pairs():
     assert share(pairs(60, (2, 3)), "both named", "right on a condition") >= 0.85
 
@@ -36,6 +38,7 @@ def test_a_thousand_pairs():
     assert share(tally, "NOT") == 0
 
 
+@pytest.mark.slow
 def test_some_rewritings():
     assert share(rewritings(100), "correct") == 1
 
@@ -53,6 +56,7 @@ def check_hostile(tally):
     assert int(memory.split()[-2]) < 1500  # MB, of the whole test process
 
 
+@pytest.mark.slow
 def test_some_hostile_inputs():
     check_hostile(hostile_inputs(300))
 

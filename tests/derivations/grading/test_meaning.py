@@ -117,6 +117,7 @@ PIVOT = [
 CENTRE = [row.replace("I1", "(I1 + m1*lc1^2)").replace("I2", "(I2 + m2*lc2^2)") for row in PIVOT]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("system", ["rod-chain", "rods", "links"])
 def test_moments_of_inertia_and_centres_stay_the_authors(system):
     answer = graded(system, PIVOT, angles="relative")
@@ -195,6 +196,7 @@ SPECIAL = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("rows", "said"), SPECIAL.values(), ids=SPECIAL.keys())
 def test_numbers_are_a_special_case_that_is_said(rows, said):
     answer = graded("n-leg", rows)
@@ -203,6 +205,7 @@ def test_numbers_are_a_special_case_that_is_said(rows, said):
     assert grade_text(toml("n-leg", rows), pinned=Pinned()).verdict == "wrong"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "rows",
     [
@@ -234,6 +237,7 @@ MATRICES = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("line", MATRICES.values(), ids=MATRICES.keys())
 def test_matrices_are_multiplied_out(line):
     assert is_plain(graded("n-leg", [line], links=2))

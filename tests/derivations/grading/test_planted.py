@@ -19,6 +19,7 @@ MECHANISMS = [
 ORIGINS = {"down": "down", "up": "up", "horizontal": "right"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", MECHANISMS)
 def test_a_planted_slip_is_the_only_term_accused(name):
     draw = random.Random(name)

@@ -7,6 +7,7 @@ from furiko.engines.workers.isolated import Call, NotReturned, call_isolated
 from furiko.engines.workers.processes import spawn
 
 
+@pytest.mark.slow
 def test_each_call_is_its_own():
     calls = [Call(double, (21,)), Call(die), Call(hang), Call(fail), Call(double, (21,))]
     first, died, hung, failed, last = call_isolated(calls, timeout=8.0)

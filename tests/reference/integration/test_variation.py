@@ -74,6 +74,7 @@ def path(system, theta, omega, step, steps):
     return np.array([state[0] for state in states]), np.array([state[1] for state in states])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "system", [NLegPendulum([1.0, 1.0], [1.0, 1.0]), RodChain([1.0, 0.8, 0.6]), NLegPendulum([1, 0.5, 2], [1, 3, 2])]
 )

@@ -34,6 +34,7 @@ def one(engine, **options):
     return found, frontier
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("engine", "failure"),
     [
