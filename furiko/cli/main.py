@@ -37,7 +37,7 @@ COMMANDS = {
     "lesson": "Write a web page for teaching: thirty mistakes in derivations.",
     "scenes": "List the scenes of the catalogue.",
     "stress": "Find where engines, integrators and formulas break.",
-    "versions": "Hold releases of an engine against the theory; find which changed what.",
+    "versions": "Find which release of an engine changed what, by the theory.",
 }
 
 

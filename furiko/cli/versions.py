@@ -22,7 +22,7 @@ FOLDER = Path("furiko-versions")
 @click.option("--out", type=click.Path(path_type=Path), default=FOLDER, show_default=True, help="Folder for the page.")
 @json_option
 def versions(engine: str, first: str | None, last: str | None, every: bool, out: Path, as_json: bool) -> int:
-    """Hold releases of an engine against the theory; find which changed what.
+    """Find which release of an engine changed what, by the theory.
 
     ENGINE: a name that `furiko engines` lists, or a package (pin) for all its formulations. Each release is installed
     once, in an environment of its own. The oldest and the newest are looked at, and by bisection those between that

@@ -79,7 +79,7 @@ def _rounded(says: str) -> str:
 def _between(old: Look, new: Look) -> tuple[ChangeKind, str] | None:
     if (old.outcome, _rounded(old.says)) != (new.outcome, _rounded(new.says)):
         was = f"{old.outcome}{f' ({old.says})' if old.says else ''}"
-        return "verdict", f"was {was}; is {new.outcome}{f' ({new.says})' if new.says else ''}"
+        return "verdict", f"{was} before; now {new.outcome}{f' ({new.says})' if new.says else ''}"
     if old.digest == new.digest:
         return None
     if old.answer.shape != new.answer.shape:

@@ -53,7 +53,7 @@ def test_last_digits_are_told_apart_from_verdicts():
     wrong = seen([1.0, 2.0], "differs", "the inertia is 3")
     (change,) = changes_between("a", "b", {"a": old, "b": wrong})
     assert change.kind == "verdict"
-    assert change.says == "was agrees; is differs (the inertia is 3)"
+    assert change.says == "agrees before; now differs (the inertia is 3)"
 
 
 def test_numbers_in_a_sentence_may_have_other_last_digits():
