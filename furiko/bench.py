@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from . import __version__
-from .engines import engine_info, engine_names, engine_version
+from .engines import all_of, engine_names, engine_version, why_missing
 from .models import (
     AnyScene,
     EngineMissing,
@@ -21,7 +21,6 @@ from .models import (
     find_document_scene,
     find_scene,
 )
-from .models.errors import installing
 from .records import provenance
 from .records.bench import Bench, Motion, Sharpness, Skip, Speed
 from .studies.bench.scenes import BENCHMARKS
@@ -184,11 +183,11 @@ def engines_to_measure(given: Sequence[str] | None) -> list[str]:
     """The engines by name. Raises :class:`EngineMissing` for one that was asked for and is not installed."""
     if given is None:
         return [name for name in engine_names() if engine_version(name)]
-    for name in given:
-        info = engine_info(name)
-        if info.package and not engine_version(name):
-            raise EngineMissing(f"{name} needs the package {info.package!r}: {installing(info.package)}")
-    return list(dict.fromkeys(given))
+    names = all_of(given)
+    for name in names:
+        if why := why_missing(name):
+            raise EngineMissing(f"{name}: {why}")
+    return names
 
 
 def _processors() -> int:

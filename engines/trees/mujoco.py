@@ -18,8 +18,9 @@ from ...models.spatial_mechanism import WORLD, Joint, RigidBody, SpatialMechanis
 from ...models.writers.mjcf import LEAST_INERTIA
 from ..model_files.robot_coordinates import Block, RobotCoordinates
 from ..model_files.robot_mujoco import BoundMujoco
-from ..mujoco import INTEGRATORS, compiled, empty_spec, keep_centres, quiet_data
+from ..mujoco import INTEGRATORS, VERSION, compiled, empty_spec, keep_centres, quiet_data
 from ..protocol import Array
+from ..releases import has
 
 # MuJoCo's bindings have no type stubs that fit: Any, here and nowhere else.
 mujoco: Any = import_module("mujoco")
@@ -152,18 +153,11 @@ def _diagonal(body: RigidBody) -> bool:
 
 def _joint(body: Any, joint: Joint, name: str) -> None:
     made = body.add_joint(name=name, type=KINDS[joint.kind], armature=joint.armature)
-    _set_linear(made, "damping", joint.damping)
-    _set_linear(made, "stiffness", joint.stiffness)
+    if has("mujoco: a joint's damping is a polynomial", VERSION):
+        made.damping[0], made.stiffness[0] = joint.damping, joint.stiffness
+    else:
+        made.damping, made.stiffness = joint.damping, joint.stiffness
     if joint.kind in ("hinge", "slide"):
         made.axis, made.ref, made.springref = joint.axis.tolist(), joint.ref, joint.springref
     if joint.kind != "free":
         made.pos = joint.anchor.tolist()
-
-
-def _set_linear(joint: Any, name: str, coefficient: float) -> None:
-    """Set a damping or stiffness: the first coefficient of a polynomial, or, in MuJoCo 3.3, the only number."""
-    held = getattr(joint, name)
-    if isinstance(held, np.ndarray):
-        held[0] = coefficient
-    else:
-        setattr(joint, name, coefficient)

@@ -32,6 +32,7 @@ from .progress import check_progress
 @click.option(
     "--timeout", type=click.FloatRange(0.1), default=60.0, show_default=True, help="Time limit of one check [s]."
 )
+@click.option("--memory", type=click.FloatRange(0.05), help="Memory limit of each engine's process [GiB].")
 @click.option(
     "--sharp/--no-sharp",
     default=None,
@@ -50,6 +51,7 @@ def check(
     known_strict: bool,
     jobs: int | None,
     timeout: float,
+    memory: float | None,
     sharp: bool | None,
     no_cache: bool,
     as_json: bool,
@@ -62,7 +64,8 @@ def check(
     from ..checks.imported_ahead import MODULES
     from ..engines.workers.processes import worker_processes
 
-    with worker_processes(jobs or os.cpu_count() or 1, MODULES) as source:
+    most = None if memory is None else int(memory * 2**30)
+    with worker_processes(jobs or os.cpu_count() or 1, MODULES, most) as source:
         from ..reports import compare, known_in, read_known, read_stream
         from ..run import ReportNotWritten
         from ..run import check as run_check

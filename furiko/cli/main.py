@@ -30,12 +30,14 @@ COMMANDS = {
     "diff": "Compare two runs of check.",
     "engine-test": "Test an adapter, step by step, before its engine is judged.",
     "engines": "List the engines, their versions, and what they cannot compute.",
+    "environments": "List or remove the environments made for versions of engines.",
     "export": "Write a scene's mechanism as an MJCF or URDF file.",
     "grade": "Grade a derivation: correct, or which term is wrong and why.",
     "history": "Show a folder of runs as one page, with badges.",
     "lesson": "Write a web page for teaching: thirty mistakes in derivations.",
     "scenes": "List the scenes of the catalogue.",
     "stress": "Find where engines, integrators and formulas break.",
+    "versions": "Find which release of an engine changed what, by the theory.",
 }
 
 

@@ -43,7 +43,10 @@ ROOMS = {
             ("chain",),
         ],
     ),
-    "engines": ({"models", "records"}, [("workers",), (".",), ("model_files",), ("trees",)]),
+    "engines": (
+        {"models", "records"},
+        [("workers",), ("info", "protocol", "releases"), ("places",), (".",), ("model_files",), ("trees",)],
+    ),
     "diagnosis": (
         {"models", "records", "reference", "engines"},
         [("finding", "explanation", "measurement", "question"), ("fits",), (".",), ("model_files",)],
@@ -54,7 +57,7 @@ ROOMS = {
     ),
     "studies": (
         {"models", "records", "reference", "engines", "diagnosis", "checks"},
-        [(".",), ("bench", "stress")],
+        [(".",), ("bench", "stress", "versions")],
     ),
     "derivations": (
         {"models", "reference"},

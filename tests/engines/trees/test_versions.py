@@ -1,24 +1,12 @@
 """What differs between versions of MuJoCo, in the plainest objects that have it."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
 pytest.importorskip("mujoco")
 import mujoco
 
-from furiko.engines.model_files.robot_mujoco import full_mass_matrix
-from furiko.engines.trees.mujoco import _keep_tensor, _set_linear
-
-
-def test_a_damping_is_one_number_or_the_first_of_a_polynomials():
-    """MuJoCo 3.3.7 has a float there, 3.17.0 and 4.0.0 an array of three."""
-    number, polynomial = SimpleNamespace(damping=0.0), SimpleNamespace(damping=np.zeros(3))
-    _set_linear(number, "damping", 0.12)
-    _set_linear(polynomial, "damping", 0.12)
-    assert number.damping == 0.12
-    assert polynomial.damping.tolist() == [0.12, 0.0, 0.0]
+from furiko.engines.trees.mujoco import _keep_tensor
 
 
 def test_a_tensor_that_was_not_turned_to_the_end_is_turned_anew():
@@ -42,15 +30,3 @@ def test_a_tensor_that_was_not_turned_to_the_end_is_turned_anew():
     _keep_tensor(model, 1, tensor)
     assert np.abs(held() - tensor).max() < 1e-14
     assert np.linalg.norm(model.body_iquat[1]) == pytest.approx(1, abs=1e-15)
-
-
-def test_the_mass_matrix_is_asked_in_either_order(monkeypatch):
-    def of_3_3(model, matrix, sparse):
-        if not isinstance(matrix, np.ndarray):
-            raise TypeError
-        matrix[:] = sparse
-
-    monkeypatch.setattr(mujoco, "mj_fullM", of_3_3)
-    matrix = np.zeros((1, 1))
-    full_mass_matrix(None, SimpleNamespace(qM=np.array([7.0])), matrix)
-    assert matrix == 7.0

@@ -363,7 +363,7 @@ def test_a_scene_without_motion_is_refused(tmp_path):
 
 
 def test_an_engine_that_is_asked_for_must_be_there(monkeypatch):
-    monkeypatch.setattr("furiko.bench.engine_version", lambda name: "")
+    monkeypatch.setattr("furiko.engines.registry.engine_version", lambda name: "")
     with pytest.raises(EngineMissing, match=r"pip install 'furiko\[mujoco\]'"):
         bench(["rods-5"], ["mujoco"])
 
