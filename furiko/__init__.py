@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from .reference.integration.taylor import simulate
     from .reference.kernels.energy import energy
     from .reference.kernels.forward_dynamics import accelerations
+    from .reference.proved.enclose import Enclosed, enclose
     from .reports import Report, read_stream
     from .run import check
 
@@ -32,6 +33,7 @@ __version__ = "0.1.0"
 _HOMES = {
     "Assessment": "derivations.classroom.assess",
     "Diagnosis": "diagnosis.model_files.result",
+    "Enclosed": "reference.proved.enclose",
     "EngineMissing": "models",
     "Grade": "derivations.grading.grade_record",
     "InvalidInput": "models",
@@ -43,6 +45,7 @@ _HOMES = {
     "audit": "derivations.audit.audit",
     "check": "run",
     "diagnose": "diagnosis.model_files.diagnose",
+    "enclose": "reference.proved.enclose",
     "energy": "reference.kernels.energy",
     "engine_names": "engines",
     "grade": "derivations.grading.grade",
@@ -57,6 +60,7 @@ _HOMES = {
 __all__ = [
     "Assessment",
     "Diagnosis",
+    "Enclosed",
     "EngineMissing",
     "Grade",
     "InvalidInput",
@@ -68,6 +72,7 @@ __all__ = [
     "audit",
     "check",
     "diagnose",
+    "enclose",
     "energy",
     "engine_names",
     "grade",

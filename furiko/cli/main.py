@@ -28,6 +28,7 @@ COMMANDS = {
     "check": "Check engines against the documents' equations.",
     "diagnose": "Check how engines read an MJCF or URDF file; say why they differ.",
     "diff": "Compare two runs of check.",
+    "enclose": "Prove where a scene's motion is: intervals that contain it.",
     "engine-test": "Test an adapter, step by step, before its engine is judged.",
     "engines": "List the engines, their versions, and what they cannot compute.",
     "environments": "List or remove the environments made for versions of engines.",
