@@ -171,7 +171,7 @@ _KNOWN = ChainMap(ENGINES, ON_REQUEST)
 
 
 def engine_names() -> list[str]:
-    """The engines that a run takes which names none, installed or not."""
+    """The engines that run where none is named, whether they are installed or not."""
     return list(ENGINES)
 
 

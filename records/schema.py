@@ -12,7 +12,7 @@ from typing import Any
 
 import msgspec
 
-from . import bench, check, classroom, conformance, errors, findings, listings, stress
+from . import advice, bench, check, classroom, conformance, errors, findings, listings, stress
 
 FOLDER = Path(__file__).parent / "schemas"
 
@@ -24,6 +24,7 @@ SCHEMAS: dict[str, tuple[str, Any]] = {
     "engines": ("furiko engines --json", list[listings.EngineRow]),
     "engine-test": ("furiko engine-test --json", conformance.EngineTest),
     "cache": ("furiko cache --json", listings.CacheContents),
+    "advise": ("furiko advise --json", advice.Advice),
     "bench": (f"furiko bench --json, and bench.json, format {bench.FORMAT}", bench.Bench),
     "stress": ("furiko stress --json", stress.StressSummary),
     "grade": ("furiko grade --json", findings.GradeDocument),

@@ -146,7 +146,7 @@ class BoundMujoco:
         matrix = np.empty(found.shape[1:])
         for row, state in enumerate(self._states(q, np.zeros((len(q), self._model.nv)))):
             mujoco.mj_fwdPosition(self._model, self._data)
-            mujoco.mj_fullM(self._model, self._data, matrix)
+            full_mass_matrix(self._model, self._data, matrix)
             found[row] = state.our_matrix(matrix)
         return found
 
@@ -215,3 +215,11 @@ def elsewhere(path: Path, folders: Sequence[Path]) -> dict[str, bytes] | None:
             if there is not None:
                 found[there.name] = there.read_bytes()
     return found or None
+
+
+def full_mass_matrix(model: Any, data: Any, matrix: Array) -> None:
+    """Fill ``matrix`` (nv, nv) from the sparse one of ``data``, whose place in the call depends on MuJoCo's version."""
+    try:
+        mujoco.mj_fullM(model, data, matrix)
+    except TypeError:  # 3.3
+        mujoco.mj_fullM(model, matrix, data.qM)

@@ -21,6 +21,7 @@ COMPLETION = "_FURIKO_COMPLETE"  # set by a shell that asks for completions
 # The command NAME is the function NAME in the file NAME.py, with _ for -. Its line in `furiko --help` is the first line
 # of its own help (a test compares them); it is repeated here so that `furiko --help` imports no command.
 COMMANDS = {
+    "advise": "Say which engine, integrator and step to use for a scene.",
     "audit": "Check the documents' 57 equations against first principles.",
     "bench": "Measure time against error, for engines and for furiko itself.",
     "cache": "Show or clear the results kept from earlier runs.",
@@ -78,10 +79,10 @@ def cli() -> None:
     """Cross-check hand-derived equations of motion of multi-pendulums and physics engines."""
 
 
-def main() -> None:
-    """Run the command line of this process, and end the process with its exit status."""
+def main() -> int:
+    """Run the command line of this process; returns its exit status."""
     open_standard_streams()
-    sys.exit(run(sys.argv[1:]))
+    return run(sys.argv[1:])
 
 
 def run(arguments: list[str]) -> int:

@@ -41,6 +41,7 @@ def printed(tmp_path, monkeypatch, capfd):
         ("engines", ["engines"]),
         ("cache", ["cache"]),
         ("cache", ["cache", "--clear"]),
+        ("advise", ["advise", "double-pendulum", "-e", "mujoco", "--error", "1e-3", "--until", "0.5"]),
         ("grade", ["grade", "derivation.toml"]),
         ("diagnose", ["diagnose", "model.xml"]),
         ("diagnose-several", ["diagnose", "model.xml", "no-such-file.xml", "-e", "mujoco"]),

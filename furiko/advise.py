@@ -1,0 +1,68 @@
+"""One run of ``furiko advise``: the scene, the study, its record."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from . import __version__
+from .bench import engines_to_measure
+from .models import InvalidInput, TreeScene, find_scene
+from .records import provenance
+from .records.advice import Advice
+
+
+def advise(
+    scene: str,
+    *,
+    error: float = 1e-6,
+    until: float | None = None,
+    engines: Sequence[str] | None = None,
+    budget: float = 30.0,
+    watch: Callable[[str], None] = lambda _: None,
+) -> Advice:
+    """Which engine, integrator and step to use for a scene, from runs of all of them in it.
+
+    ``scene``: a name of the catalogue or a TOML file, with a state. ``error``: the largest that may be made, of θ [rad]
+    and ω [rad/s], at half, three quarters and all of the time. ``until`` [s]: how long the motion is; None for the
+    scene's own duration. ``engines``: names, None for those that differ in their motions. ``budget`` [s]: about how
+    long to try.
+
+    Raises :class:`InvalidInput` for a scene without a motion, or one that is not known well enough, and
+    :class:`EngineMissing`.
+    """
+    from .studies.bench.advice import advise as study
+    from .studies.bench.methods import ENGINES
+
+    begun = time.monotonic()
+    found = find_scene(scene)
+    if isinstance(found, TreeScene):
+        raise InvalidInput(
+            f"scene {scene!r}: it is an open mechanism, whose motion furiko does not integrate; advice is for the "
+            "documents' systems"
+        )
+    duration = until if until is not None else found.duration
+    if found.theta is None or not duration:
+        what = "give one (--until)" if found.theta is not None else "add [state] with theta, omega and duration"
+        raise InvalidInput(f"scene {scene!r}: it has no [state] with a duration, so there is no motion: {what}")
+    named = replace(found, duration=duration)
+    names = engines_to_measure(engines)
+    moving = names if engines is not None else [name for name in names if name in ENGINES]
+    advised, missed, left_out, truth = study(named, moving, error, budget, watch)
+    return Advice(
+        furiko=__version__,
+        command=provenance.command(),
+        machine=provenance.machine(),
+        versions=provenance.versions(),
+        scene=found.name,
+        system=found.system.kind,
+        n=found.system.n,
+        duration=duration,
+        asked=error,
+        truth=truth,
+        seconds=time.monotonic() - begun,
+        advised=advised,
+        not_advised=missed,
+        left_out=left_out,
+    )
