@@ -23,8 +23,9 @@ def test_no_printed_derivation_is_misjudged(wrong):
 
 
 def test_two_mistakes_are_named_or_others_for_the_same_equations():
-    # by the campaign of 240: 83 % named as they were planted, 96 % with those proved to have the same equations
+    # of 144 that the campaign made with seeds 17, 33 and 34, 86 % were named as they were planted, and 93 % with those
+    # that have the same equations; 24 of them deviate from that by 5 % each way, and by three times that once in 300
     tally, missed, _ = planted(24, 17, size=2)
     named = sum(count for what, count in tally.items() if not what.startswith(("terms alone", "NOT", "REFUSED")))
     assert not [line for line in missed if "NOT DETECTED" in line or "REFUSED" in line]
-    assert named >= 0.85 * 24
+    assert named >= (0.93 - 3 * 0.052) * 24
