@@ -178,7 +178,7 @@ _RELEASES_MATTER = {fact.name for fact in FACTS}
 
 
 def engine_names() -> list[str]:
-    """The engines that a run takes which names none, installed or not."""
+    """The engines that run where none is named, whether they are installed or not."""
     return list(ENGINES)
 
 

@@ -7,9 +7,11 @@ May import everything else of the package; nothing else imports it.
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
 
+TYPE_CHECKING = False  # typing is imported by nothing else of this file
 if TYPE_CHECKING:
+    from typing import Any
+
     from .derivations.audit.audit import audit
     from .derivations.classroom.assess import Assessment
     from .derivations.classroom.in_python import grade_text
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
     from .reference.integration.taylor import simulate
     from .reference.kernels.energy import energy
     from .reference.kernels.forward_dynamics import accelerations
+    from .reference.proved.enclose import Enclosed, enclose
     from .reports import Report, read_stream
     from .run import check
 
@@ -30,6 +33,7 @@ __version__ = "0.1.0"
 _HOMES = {
     "Assessment": "derivations.classroom.assess",
     "Diagnosis": "diagnosis.model_files.result",
+    "Enclosed": "reference.proved.enclose",
     "EngineMissing": "models",
     "Grade": "derivations.grading.grade_record",
     "InvalidInput": "models",
@@ -41,6 +45,7 @@ _HOMES = {
     "audit": "derivations.audit.audit",
     "check": "run",
     "diagnose": "diagnosis.model_files.diagnose",
+    "enclose": "reference.proved.enclose",
     "energy": "reference.kernels.energy",
     "engine_names": "engines",
     "grade": "derivations.grading.grade",
@@ -55,6 +60,7 @@ _HOMES = {
 __all__ = [
     "Assessment",
     "Diagnosis",
+    "Enclosed",
     "EngineMissing",
     "Grade",
     "InvalidInput",
@@ -66,6 +72,7 @@ __all__ = [
     "audit",
     "check",
     "diagnose",
+    "enclose",
     "energy",
     "engine_names",
     "grade",

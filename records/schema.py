@@ -12,7 +12,19 @@ from typing import Any
 
 import msgspec
 
-from . import advice, bench, check, classroom, conformance, errors, findings, listings, stress, versions
+from . import (
+    advice,
+    bench,
+    check,
+    classroom,
+    conformance,
+    enclosures,
+    errors,
+    findings,
+    listings,
+    stress,
+    versions,
+)
 
 FOLDER = Path(__file__).parent / "schemas"
 
@@ -27,6 +39,7 @@ SCHEMAS: dict[str, tuple[str, Any]] = {
     "advise": ("furiko advise --json", advice.Advice),
     "bench": (f"furiko bench --json, and bench.json, format {bench.FORMAT}", bench.Bench),
     "stress": ("furiko stress --json", stress.StressSummary),
+    "enclose": ("furiko enclose --json", enclosures.EnclosureDocument),
     "grade": ("furiko grade --json", findings.GradeDocument),
     "class": ("furiko grade --problem --json, and class.json", classroom.ClassDocument),
     "audit": ("furiko audit --json", findings.AuditDocument),

@@ -1,6 +1,7 @@
 """The theory: both documents' equations and the values proved or computed from them. Imports models only, no engine.
 
-Inside: arithmetic, limits → documents → truth, kernels → integration → planar_tree, maximal_coordinates → rounding.
+Inside: arithmetic, limits → documents → truth, kernels → integration → planar_tree, maximal_coordinates → rounding;
+truth → proved.
 """
 
 from .documents.equation import Equation, Slip

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..models.errors import InvalidInput
-from ..models.systems import System
 
 Array = NDArray[np.float64]
 
@@ -17,14 +16,23 @@ LARGEST_ANGLE = 1e15  # rad: above, neighbouring doubles are 0.1 rad apart and a
 LARGEST_RATE = 1e100  # rad/s: squares and products with masses and lengths stay clear of overflow
 
 
-def checked_state(system: System, theta: Any, omega: Any) -> tuple[Array, Array]:
+class HasAngles(Protocol):
+    """A mechanism, of which only the number of its angles matters here."""
+
+    @property
+    def n(self) -> int:
+        """Number of angles."""
+        ...
+
+
+def checked_state(system: HasAngles, theta: Any, omega: Any) -> tuple[Array, Array]:
     """``theta`` and ``omega`` as contiguous float64 of one shape (..., n) and within range. Raises InvalidInput."""
     angles, rates = shaped_state(system, theta, omega)
     refuse_outside(angles, rates)
     return angles, rates
 
 
-def shaped_state(system: System, theta: Any, omega: Any) -> tuple[Array, Array]:
+def shaped_state(system: HasAngles, theta: Any, omega: Any) -> tuple[Array, Array]:
     """:func:`checked_state` without the check of the range."""
     angles, rates = _numbers("theta", theta), _numbers("omega", omega)
     for name, values in (("theta", angles), ("omega", rates)):

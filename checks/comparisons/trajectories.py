@@ -36,6 +36,7 @@ from ...records.check import Result
 from ...reference.integration.richardson import amplified, at_step_zero, follows
 from ...reference.integration.schemes import SCHEMES
 from ...reference.kernels.forward_dynamics import plain_accelerations
+from ...reference.proved.kept import proof, sure
 from ...reference.rounding.bounds import EPSILON
 from ...reference.truth.end_points import PARTS, lookup
 from .. import sharp
@@ -56,9 +57,7 @@ Array = NDArray[np.float64]
 
 NAME = "trajectory"
 
-NEAR = (
-    1e-2  # [rad] the runs at h/2 and h/4 part less than this: within it, an error's growth is linear to about a percent
-)
+NEAR = 1e-2  # [rad] the runs at h/2 and h/4 part less than this: an error's growth is then linear to about a percent
 FIRST_STEPS = 8  # of the coarsest run; doubled until the expansion in h holds
 # The measured order is off by a part that is in proportion to h: once the expansion's first term rules, the finer one
 # is no further below the nominal one than this, and the coarser one no further than twice this.
@@ -92,11 +91,12 @@ class Moving(Protocol):
 
 @dataclass(frozen=True)
 class EndPoint:
-    """The true angles [rad] at a time [s], (n,), and how sure they are [rad]."""
+    """The true angles [rad] at a time [s], (n,), how sure they are [rad], and whether that is proved."""
 
     time: float
     theta: Array
     error: float
+    proved: bool = False
 
 
 @dataclass(frozen=True)
@@ -170,14 +170,14 @@ def compare(cell: Cell) -> Iterator[Result]:
     if scene.theta is None or scene.omega is None:
         return
     truth = lookup(scene.system, scene.theta, scene.omega, scene.duration)
-    error = truth.error + EPSILON * np.abs(truth.theta).max(-1)
-    points = tuple(map(EndPoint, [scene.duration * part for part in PARTS], truth.theta, error.tolist()))
+    off, proved = sure(truth, proof(scene.system, scene.theta, scene.omega, scene.duration))
+    error = (off + EPSILON * np.abs(truth.theta).max(-1)).tolist()
+    points = tuple(map(EndPoint, [scene.duration * part for part in PARTS], truth.theta, error, proved))
     theta, omega = np.array([scene.theta, *truth.theta]), np.array([scene.omega, *truth.omega])
-    alpha = plain_accelerations(scene.system, theta, omega)
-    off = measured_error(cell, theta, omega, alpha)
+    states = theta, omega, plain_accelerations(scene.system, theta, omega)
+    inexact = measured_error(cell, *states)
     for integrator in cell.info.integrators:
-        rounded = rounding(cell, integrator, theta, omega, alpha, off)
-        yield _compare(cell, integrator, points, rounded, Passed(theta, omega, alpha))
+        yield _compare(cell, integrator, points, rounding(cell, integrator, *states, inexact), Passed(*states))
 
 
 @dataclass(frozen=True)
@@ -217,6 +217,7 @@ def _compare(
             "measured order": None if math.isnan(order) else order,
             "measured order, coarser runs": None if math.isnan(coarser) else coarser,
             "time": point.time,
+            "truth": "proved" if point.proved else "estimated",
             "steps": [ladder.step / 2**k for k in range(4)],
             "errors": [_finite(float(np.abs(end[0] - point.theta).max())) for end in ladder.ends],
             "extrapolated error": missed,

@@ -2,6 +2,8 @@
 
 * A point mass or a thin rod has moments below 1e-15 kg m², which the compiler raises (``boundinertia``): those of
   tensors without products are set in the compiled model. That raising moves other tensors by no more than that.
+* MuJoCo 3.3 turns other tensors to principal axes until no product exceeds 1e-7 of the largest moment; those that are
+  left with more than rounding are turned here, and set in the compiled model.
 * Accelerations are ``qacc_smooth``, what ``mj_forward`` finds before constraints, of which the model has none.
 """
 
@@ -29,6 +31,8 @@ KINDS = {
     "ball": mujoco.mjtJoint.mjJNT_BALL,
     "free": mujoco.mjtJoint.mjJNT_FREE,
 }
+# A rotation, three moments and a rotation again, each rounded a few times; a compiler that stops early leaves 1e8.
+ROUNDINGS = 64
 
 
 class MujocoTree:
@@ -104,7 +108,24 @@ def _model(mechanism: SpatialMechanism) -> Any:
         moments = np.diag(body.inertial.tensor)
         if _diagonal(body) and (moments < LEAST_INERTIA).any() and body.inertial.mass:
             model.body_inertia[model.body(f"body{k}").id] = moments
+        elif not _diagonal(body):
+            _keep_tensor(model, model.body(f"body{k}").id, body.inertial.tensor)
     return model
+
+
+def _keep_tensor(model: Any, number: int, tensor: Array) -> None:
+    """Turn the tensor (3, 3) of one body to principal axes anew, where the compiler has left more than rounding."""
+    turn = np.empty(9)
+    mujoco.mju_quat2Mat(turn, model.body_iquat[number])
+    axes = turn.reshape(3, 3)
+    held = axes @ np.diag(model.body_inertia[number]) @ axes.T
+    if np.abs(held - tensor).max() <= ROUNDINGS * np.finfo(float).eps * np.abs(tensor).max():
+        return
+    moments, axes = np.linalg.eigh(tensor)
+    axes[:, 0] *= np.sign(np.linalg.det(axes))  # a rotation, no reflection
+    quaternion = np.empty(4)
+    mujoco.mju_mat2Quat(quaternion, np.ascontiguousarray(axes).ravel())
+    model.body_inertia[number], model.body_iquat[number] = moments, quaternion
 
 
 def _body(parent: Any, body: RigidBody, k: int) -> Any:

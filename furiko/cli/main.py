@@ -28,6 +28,7 @@ COMMANDS = {
     "check": "Check engines against the documents' equations.",
     "diagnose": "Check how engines read an MJCF or URDF file; say why they differ.",
     "diff": "Compare two runs of check.",
+    "enclose": "Prove where a scene's motion is: intervals that contain it.",
     "engine-test": "Test an adapter, step by step, before its engine is judged.",
     "engines": "List the engines, their versions, and what they cannot compute.",
     "environments": "List or remove the environments made for versions of engines.",
@@ -81,10 +82,10 @@ def cli() -> None:
     """Cross-check hand-derived equations of motion of multi-pendulums and physics engines."""
 
 
-def main() -> None:
-    """Run the command line of this process, and end the process with its exit status."""
+def main() -> int:
+    """Run the command line of this process; returns its exit status."""
     open_standard_streams()
-    sys.exit(run(sys.argv[1:]))
+    return run(sys.argv[1:])
 
 
 def run(arguments: list[str]) -> int:

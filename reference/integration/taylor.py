@@ -122,7 +122,7 @@ def simulate(
     Raises :class:`InvalidInput` for input that makes no sense, and for motions too fast to be followed to the end.
     """
     systems, angles, rates = _checked_starts(system, theta, omega)
-    moments = _checked_times(times)
+    moments = checked_times(times)
     if not (isinstance(tolerance, int | float | np.floating) and 0 < tolerance <= 0.1):
         raise InvalidInput(f"tolerance: must be above 0 and at most 0.1, got {tolerance!r}")
     local = local_size(float(tolerance))
@@ -260,7 +260,8 @@ def _too_fast(time: float, times: Array) -> InvalidInput:
     return InvalidInput(f"omega: the motion is too fast to be followed from t = {time:g} s to {times[-1]:g} s")
 
 
-def _checked_times(times: Any) -> Array:
+def checked_times(times: Any) -> Array:
+    """``times`` as float64, (m,), finite and in order. Raises InvalidInput."""
     try:
         moments = np.array(times, np.float64)
     except (TypeError, ValueError):

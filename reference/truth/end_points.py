@@ -65,6 +65,11 @@ def _computed(
     return {"times": times, "states": digits[1:], "error": [float(f"{e:.2e}") for e in error[1:]]}
 
 
+def key(system: DocumentSystem, theta: Sequence[float], omega: Sequence[float], duration: float) -> str:
+    """The key of the motion's end points at the parts of ``duration`` [s]."""
+    return _key(system, theta, omega, _times(duration))
+
+
 def _times(duration: float) -> list[float]:
     return [duration * part for part in PARTS]
 

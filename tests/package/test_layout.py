@@ -40,6 +40,7 @@ ROOMS = {
             ("integration",),
             (".",),
             ("truth", "rounding"),
+            ("proved",),
             ("chain",),
         ],
     ),
