@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time as clock
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -139,7 +139,7 @@ def _with_enough_bits(p: Planar, start: Cloud, times: list[float], limits: Limit
         if best is None or _further(progress, best[1], times[0]):
             best = bits, progress
         if progress.stopped != "width" or bits >= MOST_BITS:
-            return best
+            return best[0], replace(best[1], stopped=progress.stopped)  # a later run may have ended for another reason
         done = abs(progress.time - times[0])
         lost, ratio = bits + limits.widest, whole / done if done else math.inf
         if not start.frame and lost * ratio > LOST and 2 * p.n <= MOST_DIRECTED:
