@@ -19,11 +19,11 @@ from pathlib import Path
 
 import msgspec
 
-from ..engines import ENGINES
+from ..engines import ENGINES, environment_of
 from ..models import AnyScene, TreeScene
 from ..models.writers.whole_file import replace_file
 from ..records.check import Diagnosis, Result
-from .foundations import own_foundation, package_foundation
+from .foundations import own_foundation, package_foundation, place_foundation
 from .plan import Task
 
 LARGEST = 512 << 20  # bytes of the whole folder; the entries that were used least recently go first
@@ -165,12 +165,20 @@ def user_cache() -> Cache:
 
 def _results_key(task: Task) -> str | None:
     """None where it is not known what the engine's answers rest on: a model file may include others, and meshes."""
-    info = None if isinstance(task.scene, TreeScene) and task.scene.model else ENGINES.get(task.engine)
-    foundation = package_foundation(info.package, info.module) if info else b""
+    if isinstance(task.scene, TreeScene) and task.scene.model:
+        return None
+    info = ENGINES.get(task.engine)
+    foundation = package_foundation(info.package, info.module) if info else _foundation_elsewhere(task.engine)
     if not foundation:
         return None
     scene, checks = _scene(task.scene), repr(task.checks)
     return _digest("results", scene, task.engine, foundation.hex(), checks, str(task.random_states))
+
+
+def _foundation_elsewhere(engine: str) -> bytes:
+    """Of an engine in an environment of its own; empty for a program, and for an adapter from elsewhere."""
+    found = environment_of(engine)
+    return b"" if found is None else place_foundation(*found)
 
 
 def _facts_key(scene: AnyScene, random_states: int) -> str:

@@ -11,7 +11,8 @@ import os
 import platform
 import re
 from functools import cache
-from importlib.metadata import Distribution, PackageNotFoundError, distribution
+from importlib.machinery import ModuleSpec, PathFinder
+from importlib.metadata import Distribution, distributions
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -37,6 +38,22 @@ def own_foundation() -> bytes:
 
 
 @cache
+def place_foundation(python: str, path: tuple[str, ...], package: str, module: str) -> bytes:
+    """The same for an engine in an environment of its own, whose Python has this search path; with that Python."""
+    packages: dict[str, Distribution] = {}
+    for name in (package, "numpy"):
+        _closure(name, packages, path)
+    found = PathFinder.find_spec(module, list(path))
+    if found is None or len(packages) < 2 or any(map(_editable, packages.values())):
+        return b""
+    seal = hashlib.sha256(python.encode() + _stamp(os.path.realpath(python)))
+    _add_place(seal, found)
+    for name in sorted(packages):
+        _add_files(seal, name, packages[name])
+    return seal.digest()
+
+
+@cache
 def package_foundation(package: str, module: str) -> bytes:
     """Digest of an installed package's code, of all that it requires, and of the place that ``module`` comes from.
 
@@ -47,31 +64,40 @@ def package_foundation(package: str, module: str) -> bytes:
         found = find_spec(module)
     except (ImportError, ValueError):
         found = None
-    distributions = _closure(package, {})
-    if found is None or not distributions or any(map(_editable, distributions.values())):
+    packages = _closure(package, {})
+    if found is None or not packages or any(map(_editable, packages.values())):
         return b""
-    places = [found.origin or "", *(found.submodule_search_locations or ())]
-    seal = hashlib.sha256("\0".join(places).encode())
-    if found.origin:
-        seal.update(_stamp(found.origin))
-    for name in sorted(distributions):
-        _add_files(seal, name, distributions[name])
+    seal = hashlib.sha256()
+    _add_place(seal, found)
+    for name in sorted(packages):
+        _add_files(seal, name, packages[name])
     return seal.digest()
 
 
-def _closure(package: str, found: dict[str, Distribution]) -> dict[str, Distribution]:
-    """The package's distribution and those that it requires, by name."""
+def _add_place(seal: hashlib._Hash, found: ModuleSpec) -> None:
+    """Where a module comes from."""
+    places = [found.origin or "", *(found.submodule_search_locations or ())]
+    seal.update("\0".join(places).encode())
+    if found.origin:
+        seal.update(_stamp(found.origin))
+
+
+def _closure(
+    package: str, found: dict[str, Distribution], path: tuple[str, ...] | None = None
+) -> dict[str, Distribution]:
+    """The package's distribution and those that it requires, by name; on ``path``, None for this Python's own."""
     name = re.sub(r"[-_.]+", "-", package).lower()
     if name in found:
         return found
     try:
-        found[name] = distribution(package)
-    except PackageNotFoundError:
+        here = distributions(name=package) if path is None else distributions(name=package, path=list(path))
+        found[name] = next(iter(here))
+    except (StopIteration, ValueError):
         return found
     for line in found[name].requires or ():
         match = REQUIREMENT.match(line)
         if match and "extra ==" not in line:
-            _closure(match.group(), found)
+            _closure(match.group(), found, path)
     return found
 
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
-from ..engines import OWN_EQUATIONS, EngineInfo, cannot, engine_info, engine_names, engine_version
+from ..engines import OWN_EQUATIONS, EngineInfo, all_of, cannot, engine_info, engine_names, why_missing
 from ..models import AnyScene, InvalidInput, TreeScene, find_scenes
-from ..models.errors import installing, nearest
+from ..models.errors import nearest
 from ..records.check import Outcome, Result
 from .registry import CHECKS
 
@@ -56,6 +56,7 @@ class Plan:
     engines: tuple[EngineInfo, ...]
     tasks: tuple[Task, ...]
     settled: tuple[Result, ...]
+    absent: Mapping[str, str] = field(default_factory=dict)  # by name of an engine: why it cannot run, or ""
 
 
 def make_plan(scenes: Sequence[str] | None, engines: Sequence[str] | None, profile: str) -> Plan:
@@ -68,13 +69,13 @@ def make_plan(scenes: Sequence[str] | None, engines: Sequence[str] | None, profi
         found = tuple(scene for scene in found if chosen.tag in scene.tags)
     # An engine from elsewhere goes by the path that finds it again, in a worker and on the next command line.
     infos = tuple(
-        replace(engine_info(name), name=name) for name in dict.fromkeys(engine_names() if engines is None else engines)
+        replace(engine_info(name), name=name) for name in all_of(engine_names() if engines is None else engines)
     )
     if OWN_EQUATIONS not in infos and any(map(_has_own, found)):
         infos = (*infos, OWN_EQUATIONS)
     tasks: list[Task] = []
     settled: list[Result] = []
-    absent = {info.name: _absent(info) for info in infos}
+    absent = {info.name: why_missing(info.name) for info in infos}
     for scene in found:
         for info in infos:
             if info == OWN_EQUATIONS and engines is None and not _has_own(scene):
@@ -88,7 +89,7 @@ def make_plan(scenes: Sequence[str] | None, engines: Sequence[str] | None, profi
             runs = tuple(check for check in chosen.checks if check not in reasons)
             if runs:
                 tasks.append(Task(scene, info.name, runs, random_states(scene, chosen)))
-    return Plan(chosen, found, infos, tuple(tasks), tuple(settled))
+    return Plan(chosen, found, infos, tuple(tasks), tuple(settled), absent)
 
 
 def _has_own(scene: AnyScene) -> bool:
@@ -108,11 +109,6 @@ def skip(check: str, scene: AnyScene, info: EngineInfo) -> str:
     if info == OWN_EQUATIONS and not _has_own(scene):
         return "the scene has no equations of a user's own"
     return CHECKS[check].skipped(scene, info)
-
-
-def _absent(info: EngineInfo) -> str:
-    installed = not info.package or engine_version(info.name)
-    return "" if installed else f"not installed: {installing(info.package)}"
 
 
 def _settled(scene: AnyScene, info: EngineInfo, check: str, outcome: Outcome, reason: str) -> Result:

@@ -13,16 +13,21 @@ from .info import EngineInfo, Integrator, Quantity, TreeInfo, TreeQuantity
 from .registry import (
     ENGINES,
     OWN_EQUATIONS,
+    all_of,
     cannot,
     engine_adapter,
     engine_info,
     engine_names,
+    engine_place,
     engine_version,
+    environment_of,
     load_engine,
     load_tree_engine,
     names_on_request,
     plugin_names,
+    runs_elsewhere,
     untested,
+    why_missing,
 )
 
 if TYPE_CHECKING:
@@ -55,16 +60,21 @@ __all__ = [
     "TreeInfo",
     "TreeQuantity",
     "TreeShape",
+    "all_of",
     "cannot",
     "engine_adapter",
     "engine_info",
     "engine_names",
+    "engine_place",
     "engine_version",
+    "environment_of",
     "load_engine",
     "load_tree_engine",
     "names_on_request",
     "plugin_names",
+    "runs_elsewhere",
     "untested",
+    "why_missing",
 ]
 
 

@@ -26,14 +26,25 @@ from typing import Any
 
 import numpy as np
 
-from ..models import PlanarTree, System, to_mjcf
+from ..models import InvalidInput, PlanarTree, System, to_mjcf
 from ..models.writers.mjcf import DEEPEST, LEAST_INERTIA
 from .coordinates import RelativeCoordinates, along_across
 from .protocol import Array, BareCall, ModelFields
+from .releases import has
 
 # MuJoCo's bindings have no type stubs that fit: Any, here and nowhere else.
 mujoco: Any = import_module("mujoco")
 
+VERSION: str = mujoco.__version__
+AUTORESET = ' autoreset="disable"'
+# Of body_sameframe: the inertial is in the body's frame, or turned like it.
+SAME_FRAME = (
+    (int(mujoco.mjtSameFrame.mjSAMEFRAME_BODY), int(mujoco.mjtSameFrame.mjSAMEFRAME_BODYROT))
+    if has("mujoco: body_sameframe tells a centre of mass from its axes", VERSION)
+    else (1, 0)  # before, it was whether both are the body's own
+)
+
+ENERGY = int(mujoco.mjtEnableBit.mjENBL_ENERGY)
 INTEGRATORS = {
     "Euler": mujoco.mjtIntegrator.mjINT_EULER,
     "implicitfast": mujoco.mjtIntegrator.mjINT_IMPLICITFAST,
@@ -49,15 +60,18 @@ class Mujoco:
         # The compiler's own MjData cannot be silenced, and warns of inertias that are set afterwards.
         mujoco.set_mju_user_warning(lambda message: None)
         deep = tree.depth > DEEPEST or any(0 < link.inertia < LEAST_INERTIA for link in tree.links)
-        self._model = model_from_spec(tree) if deep else mujoco.MjModel.from_xml_string(to_mjcf(system))
+        if deep and not has("mujoco: MjSpec builds and compiles", VERSION):
+            raise InvalidInput(f"MuJoCo {VERSION} holds no inertia between 0 and {LEAST_INERTIA:g} kg m²")
+        self._model = model_from_spec(tree) if deep else mujoco.MjModel.from_xml_string(_mjcf(system))
         self._bodies = np.array([self._model.body(name).id for name in tree.names("link")])
         self._hinges = np.array([self._model.joint(name).id for name in tree.names("hinge")])
         for body, link in zip(self._bodies, tree.links, strict=True):
             if link.inertia < LEAST_INERTIA:
                 self._model.body_inertia[body] = link.inertia
         keep_centres(self._model)
-        # Energies are computed only when they are asked for.
-        self._model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_ENERGY)
+        if has("mujoco: energies are computed though their flag is off", VERSION):
+            # Energies are computed only when they are asked for.
+            self._model.opt.enableflags &= ~ENERGY
         self._data = quiet_data(self._model)
         self._moving = quiet_data(self._model)
         self._coordinates = RelativeCoordinates(tree.parents, self._model.jnt_dofadr[self._hinges])
@@ -169,6 +183,12 @@ class Mujoco:
         return self._coordinates.absolute(np.array(angles)), self._coordinates.absolute(np.array(rates))
 
 
+def _mjcf(system: System) -> str:
+    """furiko's MJCF; without what a release does not know."""
+    text = to_mjcf(system)
+    return text if has("mujoco: autoreset can be switched off", VERSION) else text.replace(AUTORESET, "")
+
+
 def model_from_spec(tree: PlanarTree) -> Any:
     """The compiled model that furiko's MJCF describes, without its geoms, built without XML."""
     spec = empty_spec([0.0, 0.0, -tree.gravity])
@@ -198,6 +218,8 @@ def empty_spec(gravity: list[float]) -> Any:
     compiler.balanceinertia = compiler.autolimits = False
     compiler.boundinertia = LEAST_INERTIA
     option.gravity = gravity
+    if not has("mujoco: energies are computed though their flag is off", VERSION):
+        option.enableflags = ENERGY
     option.disableflags = int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT) | int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
     return spec
 
@@ -211,9 +233,9 @@ def compiled(spec: Any) -> Any:
 
 def keep_centres(model: Any) -> None:
     """Make the compiled model use each centre of mass as it is given, however near the hinge."""
-    treated_as_hinge = model.body_sameframe == int(mujoco.mjtSameFrame.mjSAMEFRAME_BODY)
-    wrong = treated_as_hinge & model.body_ipos.any(axis=1)
-    model.body_sameframe[wrong] = int(mujoco.mjtSameFrame.mjSAMEFRAME_BODYROT)
+    same, turned = SAME_FRAME
+    wrong = (model.body_sameframe == same) & model.body_ipos.any(axis=1)
+    model.body_sameframe[wrong] = turned
     # A lone such body is "simple": its inertia is that of the posture in which it was compiled.
     model.body_simple[wrong] = 0
     model.dof_simplenum[wrong[model.dof_bodyid]] = 0

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import importlib
 from collections import ChainMap
+from collections.abc import Iterable
+from dataclasses import replace
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from ..models import EngineMissing, InvalidInput, System, TreeSystem
@@ -12,8 +15,11 @@ from ..models.trees.own import OWN
 from . import elsewhere
 from .info import EngineInfo, Integrator, TreeInfo
 from .on_request import ON_REQUEST
+from .places.names import Place, place_of
+from .releases import FACTS, facts_of, too_old
 
 if TYPE_CHECKING:
+    from .places.connection import Connection
     from .shapes import AnyShape
     from .trees.shapes import TreeShape
 
@@ -168,10 +174,11 @@ OWN_EQUATIONS = EngineInfo(
 
 
 _KNOWN = ChainMap(ENGINES, ON_REQUEST)
+_RELEASES_MATTER = {fact.name for fact in FACTS}
 
 
 def engine_names() -> list[str]:
-    """The engines that a run takes which names none, installed or not."""
+    """The engines that run where none is named, whether they are installed or not."""
     return list(ENGINES)
 
 
@@ -185,45 +192,172 @@ def plugin_names() -> list[str]:
     return [name for name in elsewhere.plugin_names() if name not in _KNOWN]
 
 
+def all_of(names: Iterable[str]) -> list[str]:
+    """The engines that these names mean, each once: a package's name means all its formulations.
+
+    ``pin@3.9`` means ``pinocchio-aba@3.9`` and so on. Other names are passed on, known or not.
+    """
+    found: list[str] = []
+    for name in names:
+        package, at, rest = name.partition("@")
+        folder, colon, last = name.rpartition(":")
+        if name in _KNOWN or package in _KNOWN or last in _KNOWN:
+            found.append(name)
+        elif colon and (several := formulations_of(last)):
+            found += [f"{folder}:{one}" for one in several]
+        else:
+            found += [f"{one}{at}{rest}" for one in formulations_of(package)] or [name]
+    return list(dict.fromkeys(found))
+
+
+def formulations_of(package: str) -> list[str]:
+    """The engines that a package to install brings."""
+    return [info.name for info in _KNOWN.values() if info.package == package and info.name != package]
+
+
 def engine_info(name: str) -> EngineInfo:
     """An engine's name and capabilities, without importing the engine.
 
     ``name``: one of :func:`engine_names` or :func:`names_on_request`, or of an adapter from elsewhere, a class with an
     :class:`EngineInfo` as its attribute ``info``: one of :func:`plugin_names`, ``package.module:Class``,
-    ``path/to/file.py`` or ``path/to/file.py:Class``. Raises :class:`InvalidInput` where there is none such.
+    ``path/to/file.py`` or ``path/to/file.py:Class``; or of a place of its own (:mod:`.places`): ``name@version``,
+    ``path/to/environment:name``, ``path/to/program``, which is started. Raises :class:`InvalidInput` where there is
+    none such, :class:`EngineMissing` where a program does not answer.
     """
     if name in _KNOWN:
-        return _KNOWN[name]
+        return replace(_KNOWN[name], **_facts_here(name)) if name in _RELEASES_MATTER else _KNOWN[name]
     if name == OWN_EQUATIONS.name:
         return OWN_EQUATIONS
+    place = place_of(name)
+    if place is not None:
+        return _info_at(place)
     if not elsewhere.is_elsewhere(name) and name not in plugin_names():
         known = [*_KNOWN, *plugin_names()]
-        hint = nearest(name, known) or f"; there are {', '.join(known)}, package.module:Class, or a file, ./adapter.py"
+        hint = nearest(name, known) or (
+            f"; there are {', '.join(known)}, name@version, package.module:Class, or a file, ./adapter.py"
+        )
         raise InvalidInput(f"engine: no engine is called {name!r}{hint}")
     return elsewhere.info_of(name)
+
+
+@cache
+def _facts_here(name: str) -> dict[str, Any]:
+    """What is otherwise in the release that is installed beside furiko."""
+    return facts_of(name, engine_version(name))
+
+
+def _info_at(place: Place) -> EngineInfo:
+    from .places import engines
+
+    if place.kind == "program":
+        return engines.program_info(place)
+    base = base_of(place)
+    version = place.version if place.kind == "version" else engines.installed_version(place, base)
+    return replace(base, name=place.name, module="", **facts_of(base.name, version))
+
+
+def base_of(place: Place) -> EngineInfo:
+    """furiko's own engine of which a place has another version."""
+    if place.engine in _KNOWN:
+        return _KNOWN[place.engine]
+    several = formulations_of(place.engine)
+    if several:
+        made = ", ".join(place.name.replace(place.engine, one) for one in several)
+        raise InvalidInput(f"engine: {place.name}: {place.engine} is a package of several engines: name one, {made}")
+    raise InvalidInput(
+        f"engine: {place.name}: no engine is called {place.engine!r}{nearest(place.engine, _KNOWN)}; furiko engines "
+        "lists them"
+    )
 
 
 def engine_adapter(name: str) -> Any:
     """The class that ``name``, as for :func:`engine_info`, names; it and its engine are imported.
 
-    Raises :class:`InvalidInput` where it cannot be, and for a user's own equations, which are a scene file's.
+    Raises :class:`InvalidInput` where it cannot be, and for a user's own equations, which are a scene file's;
+    :class:`EngineMissing` where an engine in a place of its own cannot be started.
     """
     if name == OWN_EQUATIONS.name:
         raise InvalidInput(
             f"engine: {name} are no engine of their own: a scene file has them, and furiko check runs it"
         )
+    place = _place(name)
+    if place is not None:
+        from .places.remote import adapter_class
+
+        return adapter_class(_connection(place))
     return elsewhere.adapter(_KNOWN[name].adapter if name in _KNOWN else name)
 
 
+def _place(name: str) -> Place | None:
+    return None if name in _KNOWN else place_of(name)
+
+
+def _connection(place: Place) -> Connection:
+    from .places import engines
+
+    return engines.program(place) if place.kind == "program" else engines.connection(place, base_of(place))
+
+
 def engine_version(name: str) -> str:
-    """The installed version of an engine's package, without importing it; empty where it is not installed."""
+    """The installed version of an engine's package, without importing it; empty where it is not installed.
+
+    Of an engine in a place of its own: the version there. An environment that has not been made is not made here.
+    """
     from importlib.metadata import PackageNotFoundError, version  # takes 20 ms, and workers never ask
 
-    package = engine_info(name).package
+    place = _place(name)
+    if place is not None:
+        from .places import engines
+
+        if place.kind == "program":
+            return engines.program_version(place)
+        return engines.installed_version(place, base_of(place))
+    package = _KNOWN[name].package if name in _KNOWN else engine_info(name).package
     try:
         return version(package) if package else ""
     except PackageNotFoundError:
         return ""
+
+
+def runs_elsewhere(name: str) -> bool:
+    """Whether a name is that of an engine in a place of its own."""
+    return _place(name) is not None
+
+
+def engine_place(name: str) -> str:
+    """A phrase on where an engine runs, other than beside furiko; empty for one that runs there."""
+    place = _place(name)
+    if place is None:
+        return ""
+    from .places import engines
+
+    return engines.says_where(place, base_of(place) if place.kind != "program" else OWN_EQUATIONS)
+
+
+def environment_of(name: str) -> tuple[str, tuple[str, ...], str, str] | None:
+    """Of an engine in an environment of its own: its Python, that one's search path, its package, and its module.
+
+    None for any other engine. Raises :class:`EngineMissing` where the environment cannot be made.
+    """
+    place = _place(name)
+    if place is None or place.kind == "program":
+        return None
+    from .places import engines
+
+    return engines.environment(place, base_of(place))
+
+
+def why_missing(name: str) -> str:
+    """Why an engine cannot run, in a sentence; empty where it can. The environment of a version is made if need be."""
+    place = _place(name)
+    if place is not None:
+        from .places import engines
+
+        why = engines.why_missing(place, None if place.kind == "program" else base_of(place))
+    else:
+        package = engine_info(name).package
+        why = "" if not package or engine_version(name) else f"not installed: {installing(package)}"
+    return why or too_old(engine_info(name).package, engine_version(name))
 
 
 def untested(info: EngineInfo) -> str:
@@ -281,7 +415,16 @@ def load_tree_engine(name: str, system: TreeSystem) -> TreeShape:
         raise InvalidInput(why_not or "")
     _require(info)
     mechanism = system.mechanism()
-    return TreeShape(elsewhere.adapter(info.tree.adapter)(mechanism), info, mechanism)
+    return TreeShape(_tree_adapter(name, info.tree)(mechanism), info, mechanism)
+
+
+def _tree_adapter(name: str, tree: TreeInfo) -> Any:
+    place = _place(name)
+    if place is None:
+        return elsewhere.adapter(tree.adapter)
+    from .places.remote import tree_class
+
+    return tree_class(_connection(place))
 
 
 def _require(info: EngineInfo) -> None:

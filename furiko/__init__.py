@@ -7,9 +7,11 @@ May import everything else of the package; nothing else imports it.
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
 
+TYPE_CHECKING = False  # typing is imported by nothing else of this file
 if TYPE_CHECKING:
+    from typing import Any
+
     from .derivations.audit.audit import audit
     from .derivations.classroom.assess import Assessment
     from .derivations.classroom.in_python import grade_text

@@ -5,11 +5,12 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from . import __version__
-from .engines import engine_info, engine_names, engine_version
+from .engines import all_of, engine_names, engine_version, why_missing
 from .models import (
     AnyScene,
     EngineMissing,
@@ -20,7 +21,6 @@ from .models import (
     find_document_scene,
     find_scene,
 )
-from .models.errors import installing
 from .records import provenance
 from .records.bench import Bench, Motion, Sharpness, Skip, Speed
 from .studies.bench.scenes import BENCHMARKS
@@ -37,7 +37,32 @@ NOTES = (
     "of accelerations: relative to a state's largest, against enclosures in ball arithmetic.",
     "'not reached': no run of the method had so small an error. Nothing is extrapolated.",
 )
-Watch = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Doing:
+    """What is measured next, which part of the run it belongs to, and how long each part is planned to take [s]."""
+
+    words: str
+    part: int = 0
+    planned: tuple[float, ...] = ()
+
+
+class _Said:
+    """Tells a caller what is measured, whatever measures it."""
+
+    def __init__(self, watch: Callable[[Doing], None]) -> None:
+        self.watch, self.planned, self.part = watch, (), -1
+
+    planned: tuple[float, ...]
+
+    def __call__(self, words: str) -> None:
+        self.watch(Doing(words, max(self.part, 0), self.planned))
+
+    def next_part(self) -> float:
+        """Another part begins: the time that it may take [s]."""
+        self.part += 1
+        return self.planned[self.part]
 
 
 def bench(
@@ -47,7 +72,7 @@ def bench(
     budget: float = 60.0,
     skips: bool = False,
     sharpness: bool = False,
-    watch: Watch = lambda _: None,
+    watch: Callable[[Doing], None] = lambda _: None,
 ) -> Bench:
     """Measure time against error: motions of ``scenes``, and accelerations where no scenes are named.
 
@@ -62,6 +87,7 @@ def bench(
     """
     begun = time.monotonic()
     started = provenance.now()
+    say = _Said(watch)
     names = engines_to_measure(engines)
     motions: list[Motion] = []
     speeds: list[Speed] = []
@@ -71,15 +97,16 @@ def bench(
         from .studies.bench.sharpness import sharpness as measure_sharpness
 
         for name in scenes or document_catalogue():
-            watch(f"smallest error that is noticed: {name}")
+            say(f"smallest error that is noticed: {name}")
             sharp += measure_sharpness([name], names)
     elif skips:
         from .studies.bench.skips import skips as measure_skips
 
         for name in scenes or ():
             find_document_scene(name, "furiko bench --skips")
-        skipped = list(measure_skips(list(scenes or SKIP_SCENES), names, watch))
+        skipped = list(measure_skips(list(scenes or SKIP_SCENES), names, say))
     else:
+        from .studies.bench.acceleration_speed import SIZES
         from .studies.bench.methods import ENGINES
 
         given = [_scene(name) for name in (BENCHMARKS if scenes is None else scenes)]
@@ -88,8 +115,17 @@ def bench(
         moving = names if engines is not None else [name for name in names if name in ENGINES]
         both = scenes is None  # the rest of the budget goes into making models and reference solutions
         part = budget / len(given)
-        motions = list(_motions(chosen, moving, 0.55 * budget if both else part * len(chosen), watch))
-        speeds = list(_speeds(names, 0.3 * budget, watch)) if both else _tree_speeds(trees, names, part, watch)
+        weights = [scene.system.n**0.3 for scene in chosen]  # more links, longer runs
+        moved = 0.55 * budget if both else part * len(chosen)
+        cases = [(kind, n) for kind, sizes in SIZES.items() for n in sizes] if both else []
+        say.planned = (
+            *(moved * weight / sum(weights) for weight in weights),
+            *(0.3 * budget / len(cases) for _ in cases),
+            *(part for _ in trees),
+        )
+        motions = [_motion(scene, moving, say) for scene in chosen]
+        speeds = [found for case in cases for found in _speeds(*case, names, say)]
+        speeds += [found for scene in trees for found in _tree_speeds(scene, names, say)]
     return Bench(
         furiko=__version__,
         started=started,
@@ -107,31 +143,26 @@ def bench(
     )
 
 
-def _motions(scenes: Sequence[Scene], engines: Sequence[str], budget: float, watch: Watch) -> Iterator[Motion]:
+def _motion(scene: Scene, engines: Sequence[str], say: _Said) -> Motion:
     from .studies.bench.work_precision import work_precision
 
-    weights = [scene.system.n**0.3 for scene in scenes]  # more links, longer runs
-    for scene, weight in zip(scenes, weights, strict=True):
-        yield work_precision(scene, engines, budget * weight / sum(weights), watch)
+    return work_precision(scene, engines, say.next_part(), say)
 
 
-def _speeds(engines: Sequence[str], budget: float, watch: Watch) -> Iterator[Speed]:
-    from .studies.bench.acceleration_speed import SIZES, speeds
+def _speeds(kind: str, n: int, engines: Sequence[str], say: _Said) -> list[Speed]:
+    from .studies.bench.acceleration_speed import speeds
 
-    cases = [(kind, n) for kind, sizes in SIZES.items() for n in sizes]
-    for kind, n in cases:
-        watch(f"accelerations of {kind}, {n} links")
-        yield from speeds(kind, n, engines, budget / len(cases), threads=_processors())
+    budget = say.next_part()
+    say(f"accelerations of {kind}, {n} links")
+    return speeds(kind, n, engines, budget, threads=_processors())
 
 
-def _tree_speeds(scenes: Sequence[TreeScene], engines: Sequence[str], budget: float, watch: Watch) -> list[Speed]:
+def _tree_speeds(scene: TreeScene, engines: Sequence[str], say: _Said) -> list[Speed]:
     from .studies.bench.tree_speed import tree_speeds
 
-    found: list[Speed] = []
-    for scene in scenes:
-        watch(f"accelerations of {scene.name}")
-        found += tree_speeds(scene, engines, budget)
-    return found
+    budget = say.next_part()
+    say(f"accelerations of {scene.name}")
+    return list(tree_speeds(scene, engines, budget))
 
 
 def _scene(name: str) -> AnyScene:
@@ -152,11 +183,11 @@ def engines_to_measure(given: Sequence[str] | None) -> list[str]:
     """The engines by name. Raises :class:`EngineMissing` for one that was asked for and is not installed."""
     if given is None:
         return [name for name in engine_names() if engine_version(name)]
-    for name in given:
-        info = engine_info(name)
-        if info.package and not engine_version(name):
-            raise EngineMissing(f"{name} needs the package {info.package!r}: {installing(info.package)}")
-    return list(dict.fromkeys(given))
+    names = all_of(given)
+    for name in names:
+        if why := why_missing(name):
+            raise EngineMissing(f"{name}: {why}")
+    return names
 
 
 def _processors() -> int:

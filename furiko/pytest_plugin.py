@@ -200,13 +200,14 @@ RUNS = pytest.StashKey[Runs]()
 
 def _runs(config: pytest.Config) -> Runs:
     from .checks.plan import make_plan
-    from .engines import engine_names, engine_version
+    from .engines import all_of, engine_names, engine_version
     from .engines.elsewhere import look_in_current_folder
     from .reports import read_known
 
     profile: str = config.getoption("furiko_profile") or "quick"
     engines = config.getoption("furiko_engine") or [name for name in engine_names() if engine_version(name)]
     look_in_current_folder(engines)
+    engines = all_of(engines)
     if not engines:
         raise pytest.UsageError("--furiko: no engine is installed: pip install 'furiko[mujoco]'")
     given: list[str] = config.getoption("furiko_scene") or []

@@ -15,7 +15,7 @@ from .checks.imported_ahead import MODULES
 from .checks.ledger import Ledger
 from .checks.plan import Plan, make_plan, random_states
 from .checks.runner import TIMEOUT, run
-from .engines import EngineInfo, engine_version, untested
+from .engines import engine_place, engine_version, runs_elsewhere, untested
 from .engines.workers.processes import Workers, worker_processes
 from .models import AnyScene, EngineMissing, InvalidInput, TreeScene, catalogue
 from .models.errors import installing, installing_all
@@ -66,7 +66,7 @@ def check(
     given = None if scenes is None else [str(scene) for scene in scenes]
     plan = make_plan(given, engines, profile)
     _readings(plan.scenes)
-    _require_an_engine(plan.engines)
+    _require_an_engine(plan)
     cache = user_cache() if use_cache else Cache(None)
     results: list[Result] = []
     unwritten: list[str] = []
@@ -116,11 +116,14 @@ def _readings(scenes: Sequence[AnyScene]) -> None:
                 raise InvalidInput(f"{scene.name}: {error}") from None
 
 
-def _require_an_engine(engines: Sequence[EngineInfo]) -> None:
+def _require_an_engine(plan: Plan) -> None:
     """Raise :class:`EngineMissing` where none of the engines is installed: nothing could be compared."""
-    packages = list(dict.fromkeys(info.package for info in engines))
-    if not engines or not all(packages) or any(engine_version(info.name) for info in engines):
+    if not plan.absent or not all(plan.absent.values()):
         return
+    elsewhere = [why for name, why in plan.absent.items() if why and runs_elsewhere(name)]
+    if elsewhere:
+        raise EngineMissing("; ".join(dict.fromkeys(elsewhere)))
+    packages = list(dict.fromkeys(info.package for info in plan.engines))
     commands = [installing(package) for package in packages]
     every = f"; {installing_all()} installs every one" if len(packages) > 1 else ""
     raise EngineMissing(f"no engine to check is installed: {' or '.join(commands)}{every}")
@@ -176,6 +179,7 @@ def make_header(plan: Plan, given: Sequence[str] | None, engines: Sequence[str] 
                 formulation=info.formulation,
                 package=info.package,
                 version=engine_version(info.name),
+                place=engine_place(info.name),
                 untested=untested(info),
                 asked=engines is not None,
             )

@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from . import __version__
-from .engines import EngineInfo, engine_info, engine_names, engine_version
+from .engines import EngineInfo, all_of, engine_info, engine_names, engine_version, why_missing
 from .models import EngineMissing, InvalidInput
-from .models.errors import installing
 from .models.writers.whole_file import make_folder
 from .records import provenance
 from .records.check import EngineEntry, Header
@@ -150,13 +149,14 @@ def make_plan(
 ) -> StressPlan:
     """The searches. Raises :class:`InvalidInput` for unknown names, :class:`EngineMissing` for a missing engine."""
     ladders, families = chosen_axes(axes)
-    names = list(dict.fromkeys((*OWN, *engine_names()) if engines is None else engines))
+    names = all_of((*OWN, *engine_names()) if engines is None else engines)
     own = [name for name in names if name in OWN]
     # An engine of the user's keeps the path by which it was loaded as its name.
     infos = [replace(engine_info(name), name=name) for name in names if name not in OWN]
-    missing = [info for info in infos if info.package and not engine_version(info.name)]
+    reasons = {info.name: why_missing(info.name) for info in infos}
+    missing = [info for info in infos if reasons[info.name]]
     if missing and engines is not None:
-        raise EngineMissing(f"{missing[0].name}: not installed: {installing(missing[0].package)}")
+        raise EngineMissing(f"{missing[0].name}: {reasons[missing[0].name]}")
     infos = [info for info in infos if info not in missing]
     searches = make_searches(ladders, infos, own, seed=seed, families=families, long_steps=long_steps)
     if not searches:

@@ -105,7 +105,7 @@ def find_scene(name: str) -> AnyScene:
         return read_scene((CATALOGUE if name in document_catalogue() else TREES) / f"{name}.toml")
     if name.endswith(".toml") or "/" in name:
         return read_scene(Path(name))
-    raise InvalidInput(f"scene {name!r}: not in the catalogue{nearest(name, catalogue())}; 'furiko scenes' lists it")
+    raise InvalidInput(f"scene {name!r}: not in the catalogue{nearest(name, catalogue())}; 'furiko scenes' lists all")
 
 
 def document_scenes() -> tuple[Scene, ...]:

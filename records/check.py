@@ -44,6 +44,7 @@ class EngineEntry(msgspec.Struct, frozen=True, kw_only=True):
     formulation: str
     package: str
     version: str = ""  # empty: not installed
+    place: str = ""  # a phrase on its environment, where it does not run beside furiko
     untested: str = ""  # a sentence where this version is none that furiko was tested with
     asked: bool = False  # the user named it: a run in which nothing was compared with it is incomplete
 

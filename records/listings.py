@@ -41,6 +41,19 @@ class EngineRow(msgspec.Struct, frozen=True, kw_only=True):
     named: bool = False  # it runs only where it is named
 
 
+class EnvironmentRow(msgspec.Struct, frozen=True, kw_only=True):
+    """An environment made for a version of an engine; ``furiko environments --json`` prints a list of these."""
+
+    name: str
+    folder: str
+    requirements: list[str]  # what was asked for
+    packages: dict[str, str]  # what is installed, with versions
+    python: str
+    made: str  # ISO 8601, UTC
+    by: str  # what installed it
+    bytes: int
+
+
 class CacheKind(msgspec.Struct, frozen=True, kw_only=True):
     """The cache's entries of one kind."""
 

@@ -12,7 +12,19 @@ from typing import Any
 
 import msgspec
 
-from . import advice, bench, check, classroom, conformance, enclosures, errors, findings, listings, stress
+from . import (
+    advice,
+    bench,
+    check,
+    classroom,
+    conformance,
+    enclosures,
+    errors,
+    findings,
+    listings,
+    stress,
+    versions,
+)
 
 FOLDER = Path(__file__).parent / "schemas"
 
@@ -34,6 +46,11 @@ SCHEMAS: dict[str, tuple[str, Any]] = {
     "audit-file": ("furiko audit FILE --json", findings.FileAuditDocument),
     "diagnose": ("furiko diagnose --json", findings.DiagnoseDocument),
     "diagnose-several": ("furiko diagnose --json with several files", findings.DiagnosedModels),
+    "environments": ("furiko environments --json", list[listings.EnvironmentRow]),
+    "versions": (
+        f"furiko versions --json, and versions.json, format {versions.FORMAT}",
+        versions.VersionsDocument,
+    ),
     "error": ("every furiko command with --json that fails", errors.ErrorDocument),
 }
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -120,10 +121,16 @@ class Explanation:
         """Each cause with its sentences, alternatives last; none where the headline says it all."""
         if len(self.together) == 1 and not self.alternatives and len(self.together[0].sentences) == 1:
             return []
-        said = [f"{cause.code}: {sentence}" for cause in self.together for sentence in cause.sentences]
+        said = [_coded(cause.code, sentence) for cause in self.together for sentence in cause.sentences]
         for i, cause in enumerate(self.alternatives):
-            said += [f"{'or' if i else 'either'} {cause.code}: {sentence}" for sentence in cause.sentences]
+            said += [f"{'or' if i else 'either'} {_coded(cause.code, sentence)}" for sentence in cause.sentences]
         return [one_line(line) for line in said]
+
+    @property
+    def in_words(self) -> str:
+        """The causes in one line, for a reader that has room for no more."""
+        lines = self.lines or [_coded(cause.code, cause.sentences[0]) for cause in self.together]
+        return one_line("; ".join(lines))
 
 
 @dataclass(frozen=True)
@@ -246,9 +253,14 @@ def _remarks(diagnoses: Sequence[Diagnosis]) -> tuple[tuple[str, str, tuple[str,
 def _sentence(finding: Difference, engine: str) -> str:
     """The finding, without the engine's name, which the entry begins with."""
     if finding.says:
-        return finding.says.removeprefix(f"{engine}: ")
+        return finding.says.removeprefix(f"{engine}: ").removeprefix(f"{engine} ")
     values = f"{_rounded(finding.measured)}, expected {_rounded(finding.expected)}"
     return f"{finding.where} is {values}" if finding.where not in ("", engine) else values
+
+
+def _coded(code: str, sentence: str) -> str:
+    """The sentence behind its code, unless it begins with that word: "gravity: found …", "length of link 1 …"."""
+    return sentence if re.match(rf"{re.escape(code)}\b(?!-)", sentence) else f"{code}: {sentence}"
 
 
 def _common_ratio(findings: Sequence[Difference]) -> float | None:

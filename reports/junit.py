@@ -74,15 +74,23 @@ def _case(suite: XML.Element, result: Result, explanation: Explanation | None, k
     element = ELEMENTS.get(result.outcome)
     if element is None:
         return
-    message = one_line(last_line(result.reason)) or "no reason was given"
-    if result.measured is not None and result.outcome == "differs":
-        message = one_line(f"{against(result)}: {message}")
+    message = _message(result, explanation)
     said = XML.SubElement(case, element, {"message": message})
     if result.outcome != "skipped":
         found = [] if explanation is None else [explanation.headline, *explanation.lines]
         said.set("type", printable(_code(result, explanation)))
         text = [*found, result.reason, str(result.details.get("traceback", ""))]
         said.text = printable("\n".join(text).strip())
+
+
+def _message(result: Result, explanation: Explanation | None) -> str:
+    """The causes, then what was measured: readers of JUnit show this line, and the text below it on demand."""
+    reason = last_line(result.reason) or "no reason was given"
+    measured = against(result) if result.outcome == "differs" else ""
+    causes = [] if explanation is None else [*explanation.together, *explanation.alternatives]
+    told = all(sentence in reason for cause in causes for sentence in cause.sentences)
+    cause = "" if explanation is None or told else explanation.in_words
+    return one_line("; ".join(part for part in (cause, ": ".join(filter(None, (measured, reason)))) if part))
 
 
 def _code(result: Result, explanation: Explanation | None) -> str:

@@ -155,9 +155,9 @@ class StreamWriter:
 def read_stream(source: str | Path | BinaryIO) -> Report:
     """Read a stream from its path, the folder it is in, or an open binary file, checking every line.
 
-    A stream that was cut off is read as far as it goes and is not ``complete``. Raises :class:`InvalidInput` naming
-    file and line for one that cannot be read, is no such stream, is of another format, or has a line that is none of
-    its records or is out of order.
+    A stream that was cut off is read as far as it goes and is not ``complete``. Raises :class:`InvalidInput` with
+    file and line if it cannot be read, is no result stream or of another format, or if a line is no record of it or out
+    of order.
     """
     if not isinstance(source, str | Path):
         return _read(source, str(getattr(source, "name", "stream")))

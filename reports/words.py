@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Literal
 
@@ -27,13 +28,15 @@ UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs"), (1e-9, "ns"))
 
 
 def figure(value: float | None) -> str:
-    """Two significant digits, as many as an error has: ``0.031``, ``3.1``, ``340``, ``1.2e-14``."""
+    """Two significant digits, as many as an error has: ``0.031``, ``3.1``, ``340``, ``1.2e-14``; ``∞`` and ``NaN``."""
     if value is None:
         return "–"
     if value == 0:
         return "0"
     if 1e-2 <= abs(value) < 9999.5:
         return f"{value:.2g}" if abs(value) < 99.5 else f"{value:.0f}"
+    if not math.isfinite(value):
+        return "∞" if value > 0 else "−∞" if value < 0 else "NaN"
     mantissa, _, exponent = f"{value:.1e}".partition("e")
     return f"{mantissa}e{int(exponent)}"
 

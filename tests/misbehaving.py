@@ -5,7 +5,8 @@ import sys
 import time
 from dataclasses import dataclass
 
-from furiko.engines.workers.channel import HEADER, MAGIC, encode
+from furiko.engines.workers.channel import encode
+from furiko.engines.workers.frames import HEADER, MAGIC
 from furiko.engines.workers.messages import Step
 
 

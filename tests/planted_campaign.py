@@ -1,6 +1,6 @@
 """Single mistakes planted in a derivation by sympy: 13 mechanisms, 6 forms, 4 conventions; how many are named.
 
-    python tests/planted_campaign.py [--count 300] [--seed 1] [--only NAME] [--right]
+    python tests/planted_campaign.py [--count 300] [--seed 1] [--only NAME] [--pairs] [--right]
 
 Nothing of furiko derives what is graded: positions, energies and Lagrange's equations are sympy's, from the same
 declaration that the file has. A mistake is planted at its step, and what follows is written in one of the forms.
@@ -14,7 +14,7 @@ import re
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -375,6 +375,22 @@ def term_slip(kind: str) -> Callable[[Steps, random.Random], bool]:
     return make
 
 
+def bracket(s: Steps, draw: random.Random) -> bool:
+    """A factor that terms have in common is lost by some of them: l (a + b + c) has become l a + b + c."""
+    assert s.rows is not None
+    i = draw.randrange(s.n)
+    row = combined(s.rows[i])
+    parts = sorted(sp.Add.make_args(row), key=str)
+    factors = {f for part in parts for f in part.as_powers_dict() if f.is_Symbol or isinstance(f, sp.sin | sp.cos)}
+    factor = draw.choice(sorted(factors, key=str))
+    having = [part for part in parts if factor in part.as_powers_dict()]
+    if len(having) < 3:
+        return False
+    lost = draw.sample(having, draw.randrange(2, len(having)))
+    s.rows[i] = row + sum(part / factor - part for part in lost)
+    return True
+
+
 def small_angle(s: Steps, draw: random.Random) -> bool:
     assert s.rows is not None
     if s.origin != "down" or s.angles != "absolute":
@@ -412,17 +428,18 @@ MISTAKES: dict[str, Planted] = {
     "sign of a term": ("rows", SLIP, term_slip("sign")),
     "a term left out": ("rows", SLIP, term_slip("missing")),
     "a factor of two": ("rows", SLIP, term_slip("double")),
+    "a bracket closed early": ("rows", ("bracket-slip",), bracket),
     "small angle early": ("rows", ("small-angle-early",), small_angle),
 }  # fmt: skip
 
 
 def derive(
-    bodies: list[dict[str, str]], origin: str, angles: str, planted: Planted | None, draw: random.Random
+    bodies: list[dict[str, str]], origin: str, angles: str, planted: Sequence[Planted], draw: random.Random
 ) -> Steps | None:
-    """The derivation with the mistake; None where it cannot be made here."""
+    """The derivation with the mistakes; None where one cannot be made here."""
     s = start(bodies, origin, angles)
     for step, work in (("energies", energies), ("lagrangian", None), ("forces", lagrange), ("rows", None)):
-        if planted is not None and planted[0] == step and not planted[2](s, draw):
+        if not all(make(s, draw) for at, _, make in planted if at == step):
             return None
         if work is not None:
             work(s)
@@ -491,21 +508,38 @@ def named(found: Grade, planted: Planted) -> str:
     return "another mistake for the same equations" if found.mistakes else "terms alone"
 
 
-def campaign(count: int, seed: int, only: str = "") -> tuple[Counter[str], list[str], float]:
-    """Random mechanisms, forms, conventions and mistakes."""
+def named_both(found: Grade, planted: Sequence[Planted]) -> str:
+    """How the answer names two mistakes."""
+    causes = [{m.cause, *m.also} for m in found.mistakes]
+    wanted = [set(codes) for _, codes, _ in planted]
+    terms_ = {f.cause for f in found.findings}
+    if len(causes) == 2:
+        pairs = [(causes[0], causes[1]), (causes[1], causes[0])]
+        if any(one & wanted[0] and other & wanted[1] for one, other in pairs):
+            return "both named"
+        return "two others for the same equations"
+    if len(causes) == 1:
+        return "one mistake for the same equations"
+    if len(found.findings) <= 2 and all(codes & terms_ for codes in wanted):
+        return "the two terms named, which are all that differs"
+    return "terms alone, no more than two" if len(found.findings) <= 2 else "terms alone"
+
+
+def campaign(count: int, seed: int, only: str = "", size: int = 1) -> tuple[Counter[str], list[str], float]:
+    """Random mechanisms, forms, conventions and mistakes, ``size`` in each derivation."""
     draw, tally, missed, slowest = random.Random(seed), Counter[str](), [], 0.0
     while sum(tally.values()) < count:
         name, form = draw.choice(list(MECHANISMS)), draw.choice(FORMS)
         origin, angles = draw.choice(CONVENTIONS)
-        what = draw.choice(list(MISTAKES))
-        planted = MISTAKES[what]
-        if planted[0] in MADE_AFTER.get(form, ()) or (only and only not in what):
+        what = draw.sample(list(MISTAKES), size)
+        planted = [MISTAKES[x] for x in what]
+        if any(p[0] in MADE_AFTER.get(form, ()) for p in planted) or (only and not any(only in x for x in what)):
             continue
         s = derive(MECHANISMS[name], origin, angles, planted, draw)
         text = written(s, form) if s is not None else None
         if text is None:
             continue
-        where = f"{name}, {form}, {origin} {angles}: {what}"
+        where = f"{name}, {form}, {origin} {angles}: {' and '.join(what)}"
         started = time.perf_counter()
         try:
             found = grade_text(text)
@@ -515,13 +549,13 @@ def campaign(count: int, seed: int, only: str = "") -> tuple[Counter[str], list[
             continue
         slowest = max(slowest, time.perf_counter() - started)
         if found.verdict != "wrong":
-            right = derive(MECHANISMS[name], origin, angles, None, draw)
+            right = derive(MECHANISMS[name], origin, angles, (), draw)
             same = right is not None and equivalent(s, right)
             said = "equivalent to right" if same else f"NOT DETECTED ({'; '.join(found.assumes)})"
         else:
-            said = named(found, planted)
+            said = named(found, planted[0]) if size == 1 else named_both(found, planted)
         tally[said.partition(" (")[0]] += 1
-        if said.startswith(("NOT", "terms", "another")):
+        if said.startswith(("NOT", "terms", "another", "one mistake", "two others")):
             missed.append(f"{where}: {said} {[m.cause for m in found.mistakes]} {[f.says for f in found.findings][:3]}")
     return tally, missed, slowest
 
@@ -548,7 +582,7 @@ def right_ones(seed: int = 1) -> list[str]:
     for name, bodies in MECHANISMS.items():
         for origin, angles in CONVENTIONS:
             for form in FORMS:
-                s = derive(bodies, origin, angles, None, draw)
+                s = derive(bodies, origin, angles, (), draw)
                 text = written(s, form) if s is not None else None
                 if text is None:
                     continue
@@ -564,13 +598,14 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=300)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", default="", help="mistakes with this in their name")
+    parser.add_argument("--pairs", action="store_true", help="two mistakes in each derivation")
     parser.add_argument("--right", action="store_true", help="every right one instead")
     options = parser.parse_args()
     if options.right:
         bad = right_ones()
         print("\n".join(bad) or "every right one is called correct")
         sys.exit(bool(bad))
-    tally, missed, slowest = campaign(options.count, options.seed, options.only)
+    tally, missed, slowest = campaign(options.count, options.seed, options.only, 2 if options.pairs else 1)
     total = sum(tally.values())
     for what, count in sorted(tally.items()):
         print(f"{count:6d}  {100 * count / total:5.1f} %  {what}")

@@ -8,12 +8,14 @@ once shows that there is nothing else: no products ω_j ω_k, nothing linear in 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...models.states import States
 from ...records.check import Result
+from ...records.entries import to_entries
 from ...reference import centrifugal_matrix, gravity_vector, mass_matrix
 from ...reference.rounding import spread
 from ...reference.rounding.bounds import EPSILON, allowed, turns
@@ -34,17 +36,18 @@ def compare(cell: Cell) -> Iterator[Result]:
     states = cell.states
     states = States(states.labels[::-1][chosen], states.theta[::-1][chosen], states.omega[::-1][chosen])
     theta, omega = states.theta, states.omega
-    mass = columns(cell, theta, "alpha") - mass_matrix(cell.scene.system, theta)
+    true = mass_matrix(cell.scene.system, theta)
+    mass = columns(cell, theta, "alpha") - true
     looked_at, sizes = _spreads(cell, states, np.abs(mass).reshape(len(theta), -1).max(axis=-1))
 
-    def result(term: str, error: Array, scale: Array) -> Result:
+    def result(term: str, error: Array, scale: Array, theory: Array | None = None) -> Result:
         line = None
         if sizes is not None:
             size: Array = getattr(sizes, SAYS[term][1])
             line = sharp.line(error[looked_at], size, sharp.TERMS, states.at(looked_at), len(states))
-        return _result(cell, term, error, scale, states, line)
+        return _result(cell, term, error, scale, states, line, theory)
 
-    yield result("M", mass, cell.amplitude.entries())
+    yield result("M", mass, cell.amplitude.entries(), true)
     if cell.scene.system.gravity:
         rest = np.zeros_like(theta)
         error = cell.torques(theta, rest, rest, gravity=True) - gravity_vector(cell.scene.system, theta)
@@ -54,7 +57,7 @@ def compare(cell: Cell) -> Iterator[Result]:
     if cell.states.omega.any():
         centrifugal = centrifugal_matrix(cell.scene.system, theta)
         entries = cell.amplitude.absolute_rows(cell.amplitude.velocity_terms(np.eye(cell.scene.system.n))).T
-        yield result("C", columns(cell, theta, "omega") - centrifugal, entries)
+        yield result("C", columns(cell, theta, "omega") - centrifugal, entries, centrifugal)
         error = cell.torques(theta, omega, np.zeros_like(theta), gravity=False)
         error -= (centrifugal @ (omega**2)[..., None])[..., 0]
         yield result("velocity", error, cell.amplitude.absolute_rows(cell.amplitude.velocity_terms(omega)))
@@ -93,9 +96,18 @@ SAYS = {
 }
 
 
-def _result(cell: Cell, term: str, error: Array, scale: Array, states: States, line: sharp.Line | None) -> Result:
+def _result(
+    cell: Cell,
+    term: str,
+    error: Array,
+    scale: Array,
+    states: States,
+    line: sharp.Line | None,
+    theory: Array | None,
+) -> Result:
     raised = turns(states.theta).reshape(-1, *[1] * (error.ndim - 1))
-    found = worst(quotient(error, EPSILON * raised * scale))
+    quotients = quotient(error, EPSILON * raised * scale)
+    found = worst(quotients)
     bound = allowed(cell.scene.system.n)
     entry = f"{term}[{','.join(str(i + 1) for i in found.index[1:])}]"
     agrees = found.value <= bound
@@ -110,5 +122,13 @@ def _result(cell: Cell, term: str, error: Array, scale: Array, states: States, l
         allowed=bound,
         unit="ε",
         details={"entry": entry, "state": states.labels[found.index[0]], "states": len(states)}
-        | (line.details() if line else {}),
+        | (line.details() if line else {})
+        | ({} if theory is None else _entries(theory, error, quotients, states.labels, found.index[0], bound)),
     )
+
+
+def _entries(
+    theory: Array, error: Array, quotients: Array, labels: tuple[str, ...], state: int, bound: float
+) -> dict[str, Any]:
+    names = [str(k + 1) for k in range(theory.shape[-1])]
+    return to_entries(labels[state], names, names, theory[state], error[state], quotients[state], bound)

@@ -54,7 +54,8 @@ def _result(cell: TreeCell, part: str, words: str, got: Array, expected: Array, 
         at = (state, *index)
         return f"{words}: the entry of {where} is {got[at]:.9g}, and by the equations of motion {expected[at]:.9g}"
 
-    return judged(cell, f"{NAME} {part}", got - expected, unit, says, {})
+    theory = expected if part == "M" else None
+    return judged(cell, f"{NAME} {part}", got - expected, unit, says, {}, theory)
 
 
 def _mass_matrix(cell: TreeCell) -> tuple[Array, Array, Array]:

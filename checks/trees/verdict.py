@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...records.check import Result
+from ...records.entries import to_entries
 from ...reference.rounding.bounds import EPSILON
 from ..cell import quotient, worst
 from .cell import TreeCell
@@ -23,16 +24,25 @@ def judged(
     unit: Array,
     says: Callable[[int, tuple[int, ...]], str],
     details: dict[str, Any],
+    theory: Array | None = None,
 ) -> Result:
     """One result: the worst of ``error`` over ``unit``, (B, …) both, against the roundings that each state allows.
 
-    ``says``: the sentence where it differs, for the number of the worst state and the rest of the worst index.
+    ``says``: the sentence where it differs, for the number of the worst state and the rest of the worst index;
+    ``theory``: of a matrix (B, nv, nv), what it should be, which is told entry by entry.
     """
     allowed = cell.roundings.reshape(-1, *[1] * (error.ndim - 1))
-    excess = worst(quotient(error, EPSILON * allowed * unit))
+    quotients = quotient(error, EPSILON * allowed * unit)
+    excess = worst(quotients)
     state, *rest = excess.index
     bound = float(cell.roundings[state])
     agrees = excess.value <= 1
+    if theory is not None:
+        names = [cell.freedom(i) for i in range(theory.shape[-1])]
+        roundings = bound * quotients[state]
+        details = details | to_entries(
+            cell.states.labels[state], names, names, theory[state], error[state], roundings, bound
+        )
     return cell.result(
         check,
         "agrees" if agrees else "differs",

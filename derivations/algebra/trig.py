@@ -221,6 +221,11 @@ class Space:
         """How many symbols there are."""
         return 4 * self.n + 2 + len(self.extra)
 
+    @cached_property
+    def first_sign(self) -> int:
+        """The place of the first of the signs of rates (:mod:`.signs`), which stand together; 0 where there is none."""
+        return next((4 * self.n + 2 + k for k, name in enumerate(self.extra) if name.startswith("sgn(")), 0)
+
     def own(self, name: str) -> Formula:
         """A symbol of ``extra`` by its name."""
         return self.symbol(self.own_place(name))

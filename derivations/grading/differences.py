@@ -16,6 +16,7 @@ from flint import fmpq
 
 from ..algebra.multiples import divided
 from ..algebra.notation import pretty, text
+from ..algebra.signs import switches
 from ..algebra.symbols import symbols_of
 from ..algebra.trig import CONSTANT_ONE, COS, NOTHING, ONE, Formula, Key, Space, digit, unit
 from ..reading.submission import Submission
@@ -35,7 +36,7 @@ def terms(space: Space, f: Formula, apart: bool = False, beside: Sequence[int] =
     """
     parts: dict[Term, dict[Key, fmpq]] = {}
     for (e, h, s), c in f.terms.items():
-        q = space.motion(e) + (space.outside(e) if apart else 0)
+        q = space.motion(e) + switches(space, e) + (space.outside(e) if apart else 0)
         q += sum(digit(e, place) * unit(place) for place in beside)
         parts.setdefault((q, h, s), {})[e - q, 0, COS] = c
     return {key: Formula(part) for key, part in parts.items()}

@@ -283,13 +283,19 @@ def explanations(known: KnownMistakes, rows: Sequence[Vector], alignment: Alignm
     found = singles(known, rows)
     if not found:
         found = sums(known, rows, Remainder(known, rows, alignment))
-    if not found and len(rows) == known.symbols.n:
+    if not found and len(rows) == known.symbols.n and not _uncombined(known, rows):
         found = singles_solved(known, rows)
     if not found:
         found = composed(known, rows, alignment)
     if not found:
         found = term_by_term(known, rows, alignment)
     return ranked(found)[:MOST_EXPLANATIONS]
+
+
+def _uncombined(known: KnownMistakes, rows: Sequence[Vector]) -> bool:
+    """Whether all rows but one are right ones, so that nobody has combined or solved them."""
+    right = set(known.right_projective)
+    return sum(known.point.projective(row) in right for row in rows) >= known.symbols.n - 1 > 0
 
 
 # Mistakes that share their equations with a likelier one are listed after it.

@@ -12,7 +12,7 @@ from ..reading.submission import Submission
 from ..steps.conventions import Convention
 from ..steps.derivation import NEWTON_STAGES, Mistake
 from ..steps.stages import StageName
-from .differences import lagrangian_differences, row_differences
+from .differences import aligned, lagrangian_differences, lagrangian_scalings, row_differences
 from .explain import Alignment, align, explanations
 from .forms.any_mechanism import named_anywhere
 from .forms.hamilton import first_order_differences
@@ -69,11 +69,15 @@ def _with_cause(s: Submission, h: Hypothesis, found: Grade) -> Grade:
     named = named_anywhere(s, h)
     if not named or (len(found.findings) == 1 and _says_no_more(named[0], found.findings[0])):
         return found
+    if len(found.findings) <= len(named) == 2 and all(x.stage == "equation" for x in named):
+        return found  # the two terms, and no more
     return replace(found, mistakes=named)
 
 
 def _says_no_more(mistake: NamedMistake, term: WrongTerm) -> bool:
     """Whether a mistake is a slip of the pen in the one term that differs: a sign has many causes, and none is said."""
+    if mistake.cause == "bracket-slip":
+        return term.cause != "term-wrong"  # which says nothing
     return mistake.stage == "equation" or (term.cause == "sign" and mistake.stage == "derivative")
 
 
@@ -87,8 +91,18 @@ MADE_AT: dict[StageName, tuple[str, ...]] = {  # at which stages of the catalogu
 def named_in_stages(
     s: Submission, h: Hypothesis, found: StageJudge, marks: Sequence[StageMark]
 ) -> tuple[NamedMistake, ...]:
-    """The mistakes of the catalogue that explain the first wrong stage, where all before it is right."""
-    first = next(mark.stage for mark in marks if mark.outcome == "wrong")
+    """The mistakes of the catalogue that explain the first wrong stage, where all before it is right.
+
+    Of two energies that are both wrong, neither follows from the other, and both are explained.
+    """
+    wrong_ones = [mark for mark in marks if mark.outcome == "wrong"]
+    energies = [mark for mark in wrong_ones if mark.stage in ("kinetic", "potential")]
+    named = [_named_in_stage(s, h, found, mark) for mark in (energies if wrong_ones[0] in energies else wrong_ones[:1])]
+    return tuple(mistake for mistakes in named for mistake in mistakes)
+
+
+def _named_in_stage(s: Submission, h: Hypothesis, found: StageJudge, mark: StageMark) -> tuple[NamedMistake, ...]:
+    first = mark.stage
     plain = replace(s, stages=None)
     assert s.stages is not None
     if first in ("equations", "solved"):
@@ -103,8 +117,7 @@ def named_in_stages(
             return mistakes
     mistakes = named_anywhere(made, h)
     at_stage = all(x.stage in MADE_AT.get(first, AFTER_LAGRANGIAN) for x in mistakes)
-    findings = next(mark.findings for mark in marks if mark.outcome == "wrong")
-    plain_slip = len(findings) == 1 and any(_says_no_more(x, findings[0]) for x in mistakes)
+    plain_slip = len(mark.findings) == 1 and any(_says_no_more(x, mark.findings[0]) for x in mistakes)
     return mistakes if at_stage and not plain_slip else ()
 
 
@@ -170,8 +183,8 @@ def _count(s: Submission, h: Hypothesis) -> int:
     if s.uses_momenta:
         return len(first_order_differences(s, h.mechanism, h.variant.given))
     if s.lagrangian is not None:
-        return len(lagrangian_differences(s, h.mechanism)[0])
-    return len(row_differences(s, h.mechanism))
+        return len(lagrangian_scalings(s.space, s.lagrangian, h.mechanism.lagrangian)[0].wrong)
+    return sum(len(scaled.wrong) for _, scaled in aligned(s, h.mechanism.rows))  # without a word for each
 
 
 def answer(known: KnownMistakes, verdict: Verdict, **parts: object) -> Grade:

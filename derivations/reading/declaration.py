@@ -19,6 +19,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ...models.errors import InvalidInput, nearest
+from ..algebra.signs import sign_symbols
 from ..algebra.trig import NOTHING, Formula, Space
 from ..steps.declared import Declared, Joined, pivot_to_centre
 from .evaluation import Evaluation
@@ -31,7 +32,7 @@ from .tokens import LONGEST_LINE
 from .vocabulary import ANGLES, FUNCTIONS, LETTERS, Vocabulary
 
 MOST_BODIES = 8
-QUANTITIES = ("mass", "length", "centre", "inertia", "at", "spring", "rest", "damping", "drive")
+QUANTITIES = ("mass", "length", "centre", "inertia", "at", "spring", "rest", "damping", "friction", "drive")
 FIELDS = ("name", "on", "coordinate", "joint", "along", "about", "motion", *QUANTITIES)
 FRACTION = re.compile(r"\\(?:[dt]?frac|cdot|times|left|right|over|pi)(?![A-Za-z])|[0-9.]+(?:[eE][+-]?[0-9]+)?")
 GLYPHS_APART = {"vartheta": "theta", "th": "theta", "varphi": "phi"}  # one letter, unless both are used
@@ -66,10 +67,13 @@ class Own:
     variable: Variable | None
 
 
-def declared(data: dict[str, Any], texts: Sequence[str] = (), constants: Sequence[str] = ()) -> Own | None:
+def declared(
+    data: dict[str, Any], texts: Sequence[str] = (), constants: Sequence[str] = (), *, has_signs: bool = False
+) -> Own | None:
     """The mechanism that a file declares; None where it names one.
 
-    ``texts``: its lines of mathematics; ``constants``: names of quantities besides those of the bodies.
+    ``texts``: its lines of mathematics; ``constants``: names of quantities besides those of the bodies; ``has_signs``:
+    signs of rates may be written, though no body has friction.
     """
     system = data.get("system")
     if isinstance(system, str) and system in PRESETS and "bodies" not in data:
@@ -95,7 +99,9 @@ def declared(data: dict[str, Any], texts: Sequence[str] = (), constants: Sequenc
     taken = frozenset({*names, *(base for base, _ in coordinates), *map(str, data.get("define", {}))})
     names += [_reaction(k) for k, body in enumerate(bodies) if _is_given(body, k)]
     letter = variable(texts, len(bodies), momenta=has_momenta(data), coordinates=coordinates, taken=taken)
-    space = Space.general(len(bodies), (*names, *momentum_symbols(letter, len(bodies))))
+    signs = has_signs or any("friction" in b for b in bodies)
+    own = (*names, *(sign_symbols(len(bodies)) if signs else ()), *momentum_symbols(letter, len(bodies)))
+    space = Space.general(len(bodies), own)
     symbols = {name: space.own(name) for name in names}
     plain = [base + index for base, index in coordinates]
     if len(set(plain)) < len(plain) or set(plain) & set(names):
@@ -208,7 +214,7 @@ def _body(
         names[place], names.index(on) if on in names[:place] else -1,  # a body may be called "support" itself
         None if joint == "hinge" else along,  # type: ignore[arg-type]
         mass, length, centre, inertia, value("at") if "at" in body else None, value("spring"), value("rest"),
-        value("damping"), symbols[_reaction(place)] if given else value("drive"), given,
+        value("damping"), value("friction"), symbols[_reaction(place)] if given else value("drive"), given,
     )  # fmt: skip
 
 

@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from flint import fmpq
 
 from ..algebra.quotient import Budget, Quotient, number
-from ..algebra.trig import COS, SIN, Formula
+from ..algebra.signs import sign_of
+from ..algebra.trig import COS, SIN, Formula, unit
 from .matrices import Grid, added, inverse, multiplied, scaled
 from .meaning import WORDS, Meaning
 from .parser import Call, Inverse, Matrix, Name, Node, Number, Power, Product, Root, Sum, Symbol
@@ -113,6 +114,8 @@ class Evaluation:
         return found
 
     def _call(self, node: Call) -> Quotient:
+        if node.function in ("sgn", "abs"):
+            return self._sign(node)
         angle = self.angle(node.argument)
         size = 1 + sum(abs(h) for h in angle.halves.values()) // 2
         if node.function == "tan":
@@ -122,6 +125,23 @@ class Evaluation:
             tangent = Quotient(self._wave(angle, SIN), {}, size)
             return tangent.times(Quotient(cosine, {}, size).inverse(), self.budget)
         return Quotient(self._wave(angle, SIN if node.function == "sin" else COS), {}, size)
+
+    def _sign(self, node: Call) -> Quotient:
+        """sgn or |…| of a rate, or of the sum or difference of two, times a number."""
+        value, space = self.scalar(node.argument), self.space
+        if self.meaning.kind != "mechanism" or not space.first_sign:
+            fail(node.at, "the sign of a rate, as dry friction has it, is read where the mechanism is declared body by "
+                          'body, with friction = "F"')  # fmt: skip
+        places = {unit(space.n + k): k for k in range(space.n)}
+        form = {places[e]: c for (e, h, _), c in value.numerator.terms.items() if e in places and not h}
+        size = abs(next(iter(form.values()), fmpq(1)))
+        whole = {k: int((c / size).p) for k, c in form.items() if abs(c) == size}
+        sign = sign_of(space, whole) if len(whole) == len(value.numerator.terms) and not value.denominator else None
+        if sign is None:
+            fail(node.at, "only the sign of a rate, or of the sum or difference of two, is read, as in sgn(x') or "
+                          "sgn(theta2' - theta1')")  # fmt: skip
+        found = Quotient(sign, {}, 1)
+        return found if node.function == "sgn" else found.times(value, self.budget)
 
     def _wave(self, angle: _Angle, phase: int) -> Formula:
         """cos or sin of an angle and some quarter turns: cos(x + π/2) = -sin x, sin(x + π/2) = cos x."""

@@ -17,6 +17,7 @@ from ...models.errors import InvalidInput
 from .layout import laid_out
 from .names import GREEK
 from .spellings import OF_TIME, D
+from .srepr import from_srepr
 from .tokens import LONGEST_LINE
 from .vocabulary import Vocabulary
 
@@ -128,7 +129,7 @@ def variable(
 
     ``momenta``: the file says that it has momenta, so that p is one whatever stands there; ``taken``: names in use.
     """
-    lines = [normalize("NFD", laid_out(line)) for line in texts if len(line) <= LONGEST_LINE]
+    lines = [normalize("NFD", laid_out(from_srepr(line))) for line in texts if len(line) <= LONGEST_LINE]
     found: dict[str, None] = {}
     for line in lines:
         for pattern in DERIVED_LETTER:

@@ -6,7 +6,8 @@ product   = factor { ["*"|"/"] factor }              side by side is a product; 
 factor    = ("+"|"-") factor | primary [ "^" whole number ]
 primary   = number | symbol | "(" sum ")" | call | "\\frac" group group
           | "[" rows "]" | "\\begin{bmatrix}" rows "\\end{bmatrix}"
-call      = ("cos"|"sin"|"tan") [ "^" whole number ] ( "(" sum ")" | [number] symbol ) | "sqrt" "(" sum ")"
+          | "|" sum "|"
+call      = ("cos"|"sin"|"tan"|"sgn"|"abs") [ "^" whole number ] ( "(" sum ")" | [number] symbol ) | "sqrt" "(" sum ")"
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from .vocabulary import Vocabulary
 
 DEEPEST = 60  # brackets within brackets
 LARGEST_POWER = 12
+SIDE_BY_SIDE = ("symbol", "function", "open", "fraction", "number", "name", "matrix")  # a product without a sign
 
 
 @dataclass(frozen=True)
@@ -67,7 +69,7 @@ class Power:
 
 @dataclass(frozen=True)
 class Call:
-    """cos, sin or tan of an angle, to a power."""
+    """cos, sin or tan of an angle; or sgn or abs of a rate."""
 
     function: str
     argument: Node
@@ -151,6 +153,7 @@ class _Parser:
         self.tokens = tokenize(line, names, words)
         self.slashes = slashes or Slashes()
         self.place = 0
+        self.in_bars = False
         self.blanks: list[int] = []  # where things stand side by side, with a blank between
 
     @property
@@ -212,7 +215,7 @@ class _Parser:
                 parts.append((token.text == "*", self.factor(depth)))
                 if token.text == "/":
                     self.below(parts, depth)
-            elif token.kind in ("symbol", "function", "open", "fraction", "number", "name", "matrix"):
+            elif token.kind in SIDE_BY_SIDE or (token.kind == "bar" and not self.in_bars):
                 if token.kind == "number" and isinstance(parts[-1][1], Number):
                     fail(token.at, "two numbers side by side; write * between them")
                 if token.at > self.tokens[self.place - 1].end:
@@ -354,6 +357,8 @@ class _Parser:
                 return self.matrix(depth)
             case "function":
                 return self.call(depth)
+            case "bar" if not self.in_bars:
+                return self.bars(depth)
             case "fraction":
                 return self.fraction(depth)
             case "close":
@@ -362,6 +367,17 @@ class _Parser:
                 return fail(token.at, "the line ends where a term is expected")
             case _:
                 return fail(token.at, f"a term is expected before {token.text!r}")
+
+    def bars(self, depth: int) -> Node:
+        """|x|; bars within bars cannot be told apart."""
+        opened = self.advance()
+        self.in_bars = True
+        node = self.sum(depth + 1)
+        if not self.sees("bar"):
+            fail(self.next.at, f"the bar of column {opened.at + 1} is not closed")
+        self.advance()
+        self.in_bars = False
+        return Call("abs", node, opened.at)
 
     def call(self, depth: int) -> Node:
         function = self.advance()

@@ -15,7 +15,7 @@ from .tokens import LONGEST_LINE
 STARTS = re.compile(r"\s*(?:Equality|Eq|Add|Mul|Pow|(?:Mutable|Immutable)DenseMatrix)\((?=.*\bSymbol\()", re.DOTALL)
 NAME = re.compile(r"[A-Za-zα-ωΑ-Ωϑϕ\\][\w\\{}^]{0,39}")
 DEEPEST = 80  # brackets in one another; Python's own parser has 200
-FUNCTIONS = frozenset({"sin", "cos", "tan", "sqrt", "exp", "log"})
+FUNCTIONS = frozenset({"sin", "cos", "tan", "sqrt", "exp", "log", "sign", "Abs"})
 EXPECTED = "of sympy's srepr, Equality, Add, Mul, Pow, Symbol, Function, Derivative, numbers and matrices are read"
 
 
@@ -26,6 +26,9 @@ def from_srepr(line: str) -> str:
     """
     if len(line) > LONGEST_LINE or not STARTS.match(line):
         return line
+    left, equals, right = line.partition(" = ")  # no srepr has an equals sign with blanks
+    if equals:
+        return f"{from_srepr(left)} = {from_srepr(right)}"
     if _depth(line) > DEEPEST:
         raise InvalidInput(f"column 1: more than {DEEPEST} brackets in one another")
     try:

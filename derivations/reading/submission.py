@@ -13,6 +13,7 @@ from ...models.errors import InvalidInput, nearest
 from ...models.readers.bounded_file import read_text, shown
 from ...models.readers.toml_text import parse_toml
 from ..algebra.quotient import Quotient
+from ..algebra.signs import without_squares
 from ..algebra.symbols import KINDS, Symbols, symbols_of
 from ..algebra.trig import Formula, Space
 from ..steps.conventions import Convention
@@ -29,7 +30,7 @@ from .momenta import Variable, has_momenta, variable, with_variable
 from .names import base_and_index, plain_name
 from .parser import Slashes, parse_equation, parse_expression
 from .srepr import from_srepr
-from .tokens import FULL_WIDTH, LONGEST_LINE
+from .tokens import FULL_WIDTH, LONGEST_LINE, SIGNS
 from .typeset import Typesetter
 from .vocabulary import FUNCTIONS, Vocabulary, vocabulary
 
@@ -154,13 +155,14 @@ def read_fields(data: dict[str, Any], reader: Reader) -> Submission:
     return reader.submission(rows, lagrangian)
 
 
-def opened(data: dict[str, Any], slashes: int = 0, constants: Sequence[str] = ()) -> Reader:
+def opened(data: dict[str, Any], slashes: int = 0, constants: Sequence[str] = (), *, has_signs: bool = False) -> Reader:
     """A reader for the lines of these fields: mechanism, convention and the file's own names are read.
 
-    ``constants``: names of quantities besides those that a declared mechanism has.
+    ``constants``: names of quantities besides those that a declared mechanism has; ``has_signs``: signs of rates
+    are read in every line of a declared mechanism.
     """
     texts = list(_texts(data))
-    own = declared(data, texts, constants)
+    own = declared(data, texts, constants, has_signs=has_signs or any(SIGNS.search(text) for text in texts))
     kind, n = _system(data) if own is None else ("mechanism", len(own.mechanism.bodies))
     convention = convention_of(data, n)
     defined = data.get("define", {})
@@ -366,8 +368,10 @@ class Reader:
         difference = added(value, other, -1, self.evaluation.budget)
         text = self.typesetter.equation((left, right))
         if isinstance(difference, Grid):
-            return [entry.numerator for row in difference.rows for entry in row], text
-        return [difference.numerator], text
+            found = [entry.numerator for row in difference.rows for entry in row]
+        else:
+            found = [difference.numerator]
+        return [without_squares(self.evaluation.space, f) for f in found], text
 
     def lagrangian(self, line: object) -> Formula:
         """The Lagrangian."""

@@ -24,7 +24,7 @@ LONGEST_NUMBER = 40  # digits
 LARGEST_EXPONENT_OF_TEN = 40
 
 Kind = Literal[
-    "number", "symbol", "function", "name", "operator", "open", "close", "fraction", "separator", "matrix", "end"
+    "number", "symbol", "function", "name", "operator", "open", "close", "fraction", "separator", "matrix", "bar", "end"
 ]  # fmt: skip
 
 
@@ -62,7 +62,10 @@ _SPACE = (
 SPACING = re.compile(rf"(?:{_SPACE}|\\(?:begin|end)\{{(?!\w*matrix|array)[A-Za-z]{{1,20}}\*?\}}|\\\\|&)+")
 IN_MATRIX = re.compile(rf"(?:{_SPACE})+")
 MATRIX = re.compile(r"\\(?P<which>begin|end)\{(?P<name>[pbB]?(?:small)?matrix|array)\}(?:\{[clr| ]{0,20}\})?")
-SIGN = re.compile(r"(?:sgn|sign)(?=\s*[({\\])")
+SIGN = re.compile(r"\\?(?P<name>sgn|sign|abs|tanh)(?=\s*[({\\\[])")
+SIGNS = re.compile(r"sgn|sign|abs|[|]|vert(?![A-Za-z])")
+BARS = re.compile(r"\||\\[lr]?vert(?![A-Za-z])|\\mid(?![A-Za-z])")
+OF_RATES = {"sgn": "sgn", "sign": "sgn", "abs": "abs"}
 NUMBER = re.compile(r"(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 ANGLE = rf"(?:\\[A-Za-z]+|(?:var)?theta|omega|(?:var)?phi|psi|alpha|beta|gamma|th|[{''.join(GLYPHS)}]|[A-Za-z])"
 INDEX = rf"(?:_?[0-9]+|_\s*\{{\s*[0-9A-Za-z]+\s*\}}|\{{\s*[0-9]+\s*\}}|_?[{LOWS}]+|_[A-Za-z])"
@@ -148,6 +151,12 @@ class _Tokenizer:
             return Token("close", c, at), at + 1
         if c in ",;&":
             return Token("separator", c, at), at + 1
+        bar = BARS.match(line, at)
+        if bar:
+            return Token("bar", "|", at), bar.end()
+        of_rates = self.of_rates(at)
+        if of_rates:
+            return of_rates
         if c == "\\":
             return self.command(at)
         return self.word(at)
@@ -279,14 +288,18 @@ class _Tokenizer:
                 best, end = name, found.end()
         return (Token("name", best, at), end) if best else None
 
+    def of_rates(self, at: int) -> tuple[Token, int] | None:
+        """sgn, sign or abs, unless the author calls something else so."""
+        found = SIGN.match(self.line, at)
+        if found is None or found["name"] in self.names:
+            return None
+        if found["name"] == "tanh":
+            fail(at, "tanh of a rate, as of smoothed friction, is not read; dry friction is: sgn(x'), with "
+                     'friction = "F" where the mechanism is declared')  # fmt: skip
+        return Token("function", OF_RATES[found["name"]], at), found.end()
+
     def word(self, at: int) -> tuple[Token, int]:
         line, names = self.line, self.names
-        if SIGN.match(line, at) and not names & {"sgn", "sign"}:
-            fail(
-                at,
-                "the sign of a rate, as of dry friction, is not read; give the friction a name where the mechanism is "
-                'declared, as in drive = "F", and write F',
-            )
         name = NAME.match(line, at)
         if name and name[0] in names and name[0] not in self.apart:
             return Token("name", name[0], at), name.end()

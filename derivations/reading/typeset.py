@@ -78,14 +78,19 @@ class Typesetter:
                     return base.function + str(exponent).translate(SUPERSCRIPTS) + self.text(base)[len(base.function) :]
                 return self.text(base, 3) + str(exponent).translate(SUPERSCRIPTS)
             case Call(function=function, argument=argument):
-                inner = self.text(argument)
-                return f"{function} {inner}" if isinstance(argument, Symbol) else f"{function}({inner})"
+                return self._call(function, argument)
             case Matrix(rows=rows):
                 return "[" + "; ".join(", ".join(self.text(entry) for entry in row) for row in rows) + "]"
             case Root(base=base):
                 return f"√{self.text(base, 3)}"
             case Inverse(base=base):
                 return self.text(base, 3) + "⁻¹"
+
+    def _call(self, function: str, argument: Node) -> str:
+        inner = self.text(argument)
+        if function == "abs":
+            return f"|{inner}|"
+        return f"{function} {inner}" if isinstance(argument, Symbol) else f"{function}({inner})"
 
     def _product(self, parts: tuple[tuple[bool, Node], ...], inside: int) -> str:
         above = [(self.text(part, 2), part) for is_above, part in parts if is_above]

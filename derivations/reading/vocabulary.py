@@ -38,7 +38,7 @@ LETTER_INDEX = re.compile(
     rf"{GREEK}\s*\}}?\s*(?:_\s*\{{?\s*(?P<low>[A-Za-z]{{1,2}})(?![A-Za-z])|(?P<direct>[A-Z]{{1,2}})(?![a-z]))"
 )
 WORDS = re.compile(
-    r"\\[A-Za-z]+|theta|omega|alpha|beta|gamma|phi|psi|rho|pi|cos|sin|tan|inv|sqrt|lambda|Derivative|diff|array|Matrix|Eq"
+    r"\\[A-Za-z]+|theta|omega|alpha|beta|gamma|phi|psi|rho|pi|cos|sin|tan|inv|sqrt|lambda|Derivative|diff|array|Matrix|Eq|sgn|sign|abs"
 )
 
 

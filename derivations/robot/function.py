@@ -5,31 +5,37 @@
         ...
         return a_x, a_theta
 
-Assignments, arithmetic, sin, cos and tan are followed, and nothing else. Coordinates and rates come in the joints'
-order: as one state, as two lists, or each by itself.
+Assignments, arithmetic, sin, cos, tan and sign are followed, loops over ranges and lists whose length the text says,
+and lists of lists; nothing else. Coordinates and rates come in the order of the joints: as one state, as two lists, or
+each by itself.
 """
 
 from __future__ import annotations
 
 import ast
-from typing import NoReturn
+from typing import NoReturn, TypeAlias
 
 from flint import fmpq
 
 from ...models.errors import InvalidInput
+from ..algebra.signs import without_squares
 from ..algebra.trig import Formula
 from ..reading.evaluation import Evaluation
 from ..reading.matrices import Grid
 from ..reading.names import plain_name
 from ..reading.parser import Call, Name, Node, Number, Power, Product, Sum, Symbol
 
+Value: TypeAlias = "Node | list[Value]"
+
 LARGEST_TEXT = 20_000
 MOST_NODES = 5_000
-FUNCTIONS = ("sin", "cos", "tan")
+FUNCTIONS = {"sin": "sin", "cos": "cos", "tan": "tan", "sign": "sgn", "abs": "abs", "fabs": "abs"}
 MODULES = ("math", "np", "numpy", "sympy", "sp", "jnp")
 LISTS = ("array", "asarray", "stack", "hstack", "Matrix", "float")
 GRAVITY = ("g", "gravity", "G")
 LARGEST_EXPONENT = 12
+MOST_ZEROS = 16
+MOST_STEPS = 2_000  # statements and entries of lists, with loops as often as they run
 
 
 def names_in_function(text: str) -> list[str]:
@@ -75,12 +81,16 @@ def _fail(node: ast.AST, message: str) -> NoReturn:
 
 
 class _Follower:
-    """``here``: what each of the function's names stands for: an expression, or a list of them."""
+    """``here``: what each of the function's names stands for: an expression, or a list.
+
+    ``made``: the lists that the function makes itself, whose entries it may change.
+    """
 
     def __init__(self, evaluation: Evaluation, names: tuple[str, ...]) -> None:
         self.evaluation, self.n = evaluation, len(names)
-        self.here: dict[str, Node | list[Node]] = {}
-        self.count = 0
+        self.here: dict[str, Value] = {}
+        self.made: list[list[Value]] = []
+        self.count = self.steps = 0
         self.letters = {plain_name(name) or name: k for k, name in enumerate(names, 1)}
 
     def parameters(self, function: ast.FunctionDef) -> None:
@@ -98,9 +108,9 @@ class _Follower:
         state: list[Node] = [Symbol(letter, k, 0) for letter in "tw" for k in range(1, self.n + 1)]
         listed = _listed(function, free)
         if len(free) == 1:
-            self.here[free[0]] = state
+            self.here[free[0]] = [*state]
         elif len(free) == 2 and (self.n > 1 or listed):
-            self.here |= {free[0]: state[: self.n], free[1]: state[self.n :]}
+            self.here |= {free[0]: [*state[: self.n]], free[1]: [*state[self.n :]]}
         elif len(free) == 2 * self.n:
             self.here |= dict(zip(free, state, strict=True))
         else:
@@ -117,22 +127,135 @@ class _Follower:
                 if statement.value is None:
                     _fail(statement, "nothing is returned")
                 found = self.value(statement.value)
-                return found if isinstance(found, list) else [found]
+                return [self._number(statement, x) for x in (found if isinstance(found, list) else [found])]
             self.statement(statement)
         raise InvalidInput("function: it returns nothing")
 
     def statement(self, statement: ast.stmt) -> None:
-        """An assignment, or a remark in quotes."""
+        """An assignment, a loop, or a remark in quotes."""
+        self._step(statement)
         if isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant):
+            return
+        if isinstance(statement, ast.For) and not statement.orelse:
+            for value in self._values(statement.iter):
+                self._assign(statement.target, value)
+                for inner in statement.body:
+                    self.statement(inner)
+            return
+        if isinstance(statement, ast.While):
+            _fail(statement, "how often a while loop runs is not known from the text; write for i in range(…)")
+        if isinstance(statement, ast.AugAssign) and isinstance(statement.target, ast.Name | ast.Subscript):
+            before = ast.Subscript(statement.target.value, statement.target.slice, ast.Load()) if isinstance(
+                statement.target, ast.Subscript) else ast.Name(statement.target.id, ast.Load())  # fmt: skip
+            made = ast.copy_location(ast.BinOp(before, statement.op, statement.value), statement)
+            self._assign(statement.target, self.expression(ast.fix_missing_locations(made)))
+            return
+        if isinstance(statement, ast.Expr) and self._appended(statement.value):
             return
         if isinstance(statement, ast.AnnAssign) and statement.value is not None:
             self._assign(statement.target, self.value(statement.value))
         elif isinstance(statement, ast.Assign) and len(statement.targets) == 1:
             self._assign(statement.targets[0], self.value(statement.value))
         else:
-            _fail(statement, f"{type(statement).__name__}: assignments and one return are followed, and nothing else")
+            what = type(statement).__name__
+            _fail(statement, f"{what}: assignments, loops over ranges and one return are followed, and nothing else")
 
-    def _assign(self, target: ast.expr, value: Node | list[Node]) -> None:
+    def _step(self, node: ast.AST) -> None:
+        self.steps += 1
+        if self.steps > MOST_STEPS:
+            _fail(node, f"more than {MOST_STEPS} steps, with loops as often as they run")
+
+    def _appended(self, node: ast.expr) -> bool:
+        """Whether it is x.append(…), of a list that the function made; then it is done."""
+        match node:
+            case ast.Call(func=ast.Attribute(value=ast.Name(id=name), attr="append"), args=[entry], keywords=[]):
+                values = self.here.get(name)
+                if isinstance(values, list) and any(values is own for own in self.made):
+                    values.append(self.value(entry))
+                    return True
+        return False
+
+    def _values(self, node: ast.expr) -> list[Value]:
+        """What a loop runs over: a range, a list, or several of them side by side."""
+        called = _called(node) if isinstance(node, ast.Call) and not node.keywords else ""
+        arguments = node.args if isinstance(node, ast.Call) else []
+        if called == "range" and 1 <= len(arguments) <= 3:
+            bounds = [self._whole(x) for x in arguments]
+            if None not in bounds and bounds[2:] != [0]:
+                numbers = range(*[bound for bound in bounds if bound is not None])
+                if len(numbers) <= MOST_STEPS:
+                    return [Number(fmpq(k), 0) for k in numbers]
+            _fail(node, "the bounds of this range are not known from the text, or too far apart")
+        if called == "enumerate" and len(arguments) == 1:
+            return [[Number(fmpq(k), 0), value] for k, value in enumerate(self._values(arguments[0]))]
+        if called == "zip" and arguments:
+            return [[*values] for values in zip(*map(self._values, arguments), strict=False)]
+        found = self.value(node)
+        return found if isinstance(found, list) else _fail(node, "a range or a list is needed here")
+
+    def _made(self, values: list[Value]) -> list[Value]:
+        self.made.append(values)
+        return values
+
+    def _number(self, node: ast.AST, value: Value) -> Node:
+        return value if not isinstance(value, list) else _fail(node, "a list stands where a number is needed")
+
+    def _entries(self, node: ast.ListComp | ast.GeneratorExp, generators: list[ast.comprehension]) -> list[Value]:
+        """The entries of a list that a loop makes."""
+        if not generators:
+            self._step(node)
+            return [self.value(node.elt)]
+        first, *others = generators
+        if first.ifs or first.is_async:
+            _fail(node, "a condition in a list is not followed")
+        kept, found = dict(self.here), []
+        for value in self._values(first.iter):
+            self._assign(first.target, value)
+            found += self._entries(node, others)
+        self.here = kept
+        return found
+
+    def _entry(self, node: ast.Subscript) -> Value | None:
+        """An entry of a list: x[i], x[i, j], x[i][j]; None where there is none."""
+        values: Value | None = self.value(node.value)
+        for place in node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]:
+            index = self._whole(place)
+            if not isinstance(values, list) or index is None or not -len(values) <= index < len(values):
+                return None
+            values = values[index]
+        return values
+
+    def _put(self, target: ast.Subscript, value: Value) -> None:
+        """x[i] = …, of a list that the function made."""
+        places = target.slice.elts if isinstance(target.slice, ast.Tuple) else [target.slice]
+        values = self.value(target.value)
+        for place in places:
+            index = self._whole(place)
+            own = isinstance(values, list) and any(values is x for x in self.made)
+            if not isinstance(values, list) or not own or index is None or not -len(values) <= index < len(values):
+                _fail(target, "this entry is not followed; only those of lists that the function makes are changed")
+            if place is places[-1]:
+                values[index] = value if isinstance(value, list) else self._named(value)
+            else:
+                values = values[index]
+
+    def _whole(self, node: ast.expr | None) -> int | None:
+        """A whole number that is known from the text, as a loop's variable."""
+        match node:
+            case ast.Name(id=name):
+                value = self.here.get(name)
+                return int(value.value.p) if isinstance(value, Number) and value.value.q == 1 else None
+            case ast.Call() if _called(node) == "len" and len(node.args) == 1:
+                values = self.value(node.args[0])
+                return len(values) if isinstance(values, list) else None
+            case ast.BinOp(left=left, op=ast.Add() | ast.Sub() | ast.Mult() | ast.FloorDiv() | ast.Mod(), right=right):
+                one, other = self._whole(left), self._whole(right)
+                if one is None or other is None or max(abs(one), abs(other)) > MOST_STEPS:
+                    return None
+                return _calculated(node, one, other)
+        return _whole(node)
+
+    def _assign(self, target: ast.expr, value: Value) -> None:
         if isinstance(target, ast.Name):
             self.here[target.id] = value if isinstance(value, list) else self._named(value)
         elif isinstance(target, ast.Tuple | ast.List) and isinstance(value, list):
@@ -140,6 +263,8 @@ class _Follower:
                 _fail(target, f"{len(target.elts)} names for {len(value)} values")
             for one, part in zip(target.elts, value, strict=True):
                 self._assign(one, part)
+        elif isinstance(target, ast.Subscript):
+            self._put(target, value)
         else:
             _fail(target, "this is not followed on the left of an assignment")
 
@@ -152,21 +277,42 @@ class _Follower:
         self.evaluation.definitions[name] = node
         return Name(name, node.at)
 
-    def value(self, node: ast.expr) -> Node | list[Node]:
+    def value(self, node: ast.expr) -> Value:  # noqa: PLR0911 -- one for each kind
         """An expression, or several."""
         if isinstance(node, ast.Tuple | ast.List):
-            return [self.expression(part) for part in node.elts]
+            return self._made([self.value(part) for part in node.elts])
+        if isinstance(node, ast.ListComp):
+            return self._made(self._entries(node, node.generators))
         if isinstance(node, ast.Name) and isinstance(self.here.get(node.id), list):
             return self.here[node.id]
         if isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Slice):
             values, part = self.value(node.value), node.slice
             if isinstance(values, list) and part.step is None:
-                return values[slice(_whole(part.lower), _whole(part.upper))]
+                return values[slice(self._whole(part.lower), self._whole(part.upper))]
+        if isinstance(node, ast.Subscript):
+            entry = self._entry(node)
+            if entry is not None:
+                return entry
         if isinstance(node, ast.Call) and _called(node) in LISTS and len(node.args) == 1:
-            return self.value(node.args[0])
+            found = self.value(node.args[0])
+            return self._made([*found]) if isinstance(found, list) else found
+        if isinstance(node, ast.Call) and _called(node) == "zeros" and len(node.args) == 1:
+            return self._zeros(node, node.args[0])
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult) and isinstance(node.left, ast.List):
+            count, values = self._whole(node.right), [self.value(part) for part in node.left.elts]
+            if count is not None and count * len(values) <= MOST_STEPS:
+                return self._made(values * count)
         return self.expression(node)
 
-    def expression(self, node: ast.expr) -> Node:  # noqa: PLR0911 -- one for each kind
+    def _zeros(self, node: ast.AST, shape: ast.expr) -> list[Value]:
+        sizes = [self._whole(x) for x in (shape.elts if isinstance(shape, ast.Tuple) else [shape])]
+        if len(sizes) > 2 or any(size is None or not 0 <= size <= MOST_ZEROS for size in sizes):
+            _fail(node, f"zeros of one or two sizes that are known from the text, up to {MOST_ZEROS}")
+        rows, *columns = [size for size in sizes if size is not None]
+        zero = Number(fmpq(0), 0)
+        return self._made([self._made([zero] * columns[0]) if columns else zero for _ in range(rows)])
+
+    def expression(self, node: ast.expr) -> Node:  # noqa: PLR0911, PLR0912 -- one for each kind
         """A number's expression."""
         at = node.col_offset
         match node:
@@ -185,18 +331,25 @@ class _Follower:
             case ast.BinOp(left=left, op=ast.Pow(), right=right):
                 return Power(self.expression(left), self._exponent(right), at)
             case ast.Call() if _called(node) in FUNCTIONS and len(node.args) == 1:
-                return Call(_called(node), self.expression(node.args[0]), at)
+                return Call(FUNCTIONS[_called(node)], self.expression(node.args[0]), at)
             case ast.Call() if _called(node) == "square" and len(node.args) == 1:
                 return Power(self.expression(node.args[0]), 2, at)
             case ast.Call() if _called(node) == "float" and len(node.args) == 1:
                 return self.expression(node.args[0])
-            case ast.Subscript(value=of, slice=place):
-                values, index = self.value(of), _whole(place)
-                if isinstance(values, list) and index is not None and -len(values) <= index < len(values):
-                    return values[index]
+            case ast.Call() if _called(node) == "sum" and len(node.args) == 1:
+                return self._sum(node.args[0])
+            case ast.Subscript():
+                entry = self._entry(node)
+                if entry is not None:
+                    return self._number(node, entry)
             case ast.Attribute(value=ast.Name(id="self"), attr=name):
                 return self._name(node, name)
-        _fail(node, f"{ast.unparse(node)[:60]!r} is not followed; arithmetic, sin, cos and tan are")
+        _fail(node, f"{ast.unparse(node)[:60]!r} is not followed; arithmetic, sin, cos, tan and the sign of a rate are")
+
+    def _sum(self, node: ast.expr) -> Node:
+        values = self._entries(node, node.generators) if isinstance(node, ast.GeneratorExp) else self._values(node)
+        parts = tuple((1, self._number(node, value)) for value in values)
+        return Sum(parts, node.col_offset) if parts else Number(fmpq(0), node.col_offset)
 
     def _name(self, node: ast.expr, name: str) -> Node:
         if name in self.here:
@@ -212,7 +365,7 @@ class _Follower:
         _fail(node, f"{name!r} is not known; give it a value in [symbols]")
 
     def _exponent(self, node: ast.expr) -> int:
-        value = _whole(node)
+        value = self._whole(node)
         if value is None or abs(value) > LARGEST_EXPONENT:
             _fail(node, f"a power that is no whole number up to {LARGEST_EXPONENT}")
         return value
@@ -232,7 +385,7 @@ class _Follower:
         for k, node in enumerate(returned, 1):
             value = self.evaluation.value(Sum(((1, Symbol("a", k, 0)), (-1, node)), 0))
             assert not isinstance(value, Grid)  # no matrix is followed
-            found.append(value.numerator)
+            found.append(without_squares(self.evaluation.space, value.numerator))
         return found
 
 
@@ -252,6 +405,21 @@ def _called(node: ast.Call) -> str:
     if isinstance(node.func, ast.Attribute) and isinstance(node.func.value, ast.Name):
         return node.func.attr if node.func.value.id in MODULES else ""
     return node.func.id if isinstance(node.func, ast.Name) else ""
+
+
+def _calculated(node: ast.BinOp, one: int, other: int) -> int | None:
+    match node.op:
+        case ast.Add():
+            return one + other
+        case ast.Sub():
+            return one - other
+        case ast.Mult():
+            return one * other
+        case ast.FloorDiv() if other:
+            return one // other
+        case ast.Mod() if other:
+            return one % other
+    return None
 
 
 def _whole(node: ast.expr | None) -> int | None:

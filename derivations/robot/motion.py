@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ...models.errors import InvalidInput
 from ...reference.truth.enclosures import precision, rounded
+from ..algebra.signs import Form, signs_in
 from ..algebra.trig import COS, Formula, Space
 from .coordinates import Coordinates
 
@@ -33,6 +34,7 @@ class _Term:
     gravity: int
     halves: tuple[tuple[int, int], ...]
     phase: int
+    signs: tuple[Form, ...] = ()  # of rates
 
 
 class OwnMotion:
@@ -67,6 +69,8 @@ class OwnMotion:
             for numbers, powers in ((w, term.rates), (s, term.places)):
                 for k, power in powers:
                     value *= numbers[k] ** power
+            for form in term.signs:
+                value *= sum((w[k] * c for k, c in form), arb(0)).sgn()
             if term.gravity:
                 value *= g**term.gravity
             if term.acceleration < 0:
@@ -115,6 +119,7 @@ class OwnMotion:
 def _terms(space: Space, rows: Sequence[Formula]) -> list[_Term]:
     n, found = space.n, []
     with_gravity = any(powers[4 * n] for row in rows for powers, *_ in space.monomials(row))
+    forms = signs_in(space)
     for i, row in enumerate(rows):
         for powers, halves, phase, c in space.monomials(row):
             accelerations = [k for k in range(n) if powers[k]]
@@ -125,9 +130,11 @@ def _terms(space: Space, rows: Sequence[Formula]) -> list[_Term]:
                 raise InvalidInput(f"equations: row {i + 1} divides by a rate")
             places = tuple((k, powers[4 * n + 2 + k]) for k in range(n) if powers[4 * n + 2 + k])
             turned = tuple((k, h) for k, h in enumerate(halves) if h)
+            signs = tuple(form for place, form in forms.items() if powers[place])
             part = _part(sum(power for _, power in rates), bool(powers[4 * n]), with_gravity)
+            part = PARTS.index("passive") if signs else part
             acceleration = accelerations[0] if accelerations else -1
-            found.append(_Term(i, acceleration, part, c, rates, places, powers[4 * n], turned, phase))
+            found.append(_Term(i, acceleration, part, c, rates, places, powers[4 * n], turned, phase, signs))
     return found
 
 

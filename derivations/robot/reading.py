@@ -15,6 +15,7 @@ from ...models.trees.system import TreeSystem
 from ..algebra.trig import Formula, constant
 from ..reading.names import GREEK, plain_name, spelling
 from ..reading.submission import Reader, Submission, opened
+from ..reading.tokens import SIGNS
 from ..steps.derivation import lagrange_rows
 from .coordinates import Coordinates, read_coordinates
 from .function import function_rows, names_in_function
@@ -175,6 +176,9 @@ def _constants(
         plain = plain_name(name)
         if plain is None:
             raise InvalidInput(f"symbols.{name!s:.40}: a letter or a word, with an index if you like, is needed")
+        if plain in values:
+            twin = next(other for other, _ in own.numbers if plain_name(other) == plain)
+            raise InvalidInput(f"symbols.{name!s:.40}: {twin} and {name} are one symbol, and have two values; keep one")
         values[plain] = value
     if "g" in values:
         raise InvalidInput("symbols.g: gravity is the mechanism's; leave g out")
@@ -193,6 +197,7 @@ def _reader(system: TreeSystem, own: OwnEquations, names: tuple[str, ...], const
     ]
     data: dict[str, Any] = {"system": "mechanism", "bodies": bodies}
     try:
-        return opened(data | ({"define": dict(own.define)} if own.define else {}), constants=constants)
+        defined = {"define": dict(own.define)} if own.define else {}
+        return opened(data | defined, constants=constants, has_signs=any(SIGNS.search(text) for text in own.texts))
     except InvalidInput as error:
         raise InvalidInput(f"symbols: {error}" if str(error).startswith("bodies") else str(error)) from None

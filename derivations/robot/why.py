@@ -14,6 +14,8 @@ import numpy as np
 from ...models.errors import InvalidInput
 from ...models.trees.own import IN_MODEL
 from ...models.trees.system import TreeSystem
+from ..algebra.signs import switches
+from ..algebra.trig import Formula
 from .coordinates import coordinates_in, other_conventions
 from .graded import wrong_terms
 from .quantities import Quantity, joint_unit
@@ -45,9 +47,26 @@ class Reason:
 
 def reasons(d: RobotDerivation, system: TreeSystem, true: TrueTerms) -> list[Reason]:
     """Why the equations do not give the mechanism's accelerations, the first that explains all; never empty."""
+    smooth = _without_friction(d)
+    if smooth is not d:
+        right = _right(smooth, true)
+        says = ("the equations have dry friction, and the truth that they are held against is that of the model "
+                "without it" + ("; without it they are right" if right else ""))  # fmt: skip
+        reason = Reason(True, "dry-friction", "equations", None, None, says)
+        return [reason] if right else [reason, *reasons(smooth, system, true)]
     return (
         _numbers(d, true) or _left_out(d, system, true) or _convention(d, true) or _graded(d) or _terms(d, system, true)
     )
+
+
+def _without_friction(d: RobotDerivation) -> RobotDerivation:
+    """The same without all terms with the sign of a rate; itself, where it has none."""
+    space = d.submission.space
+    if not any(switches(space, e) for row in d.rows for e, _, _ in row.terms):
+        return d
+    rows = [Formula({key: c for key, c in row.terms.items() if not switches(space, key[0])}) for row in d.rows]
+    labelled = tuple((label, row) for (label, _), row in zip(d.submission.rows, rows, strict=False))
+    return replace(d, rows=tuple(rows), submission=replace(d.submission, rows=labelled))
 
 
 def _right(d: RobotDerivation, true: TrueTerms, values: dict[str, float] | None = None) -> bool:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+from ..algebra.signs import sign_of
 from ..algebra.trig import HALF, NOTHING, Formula, Space
 from .conventions import Convention
 from .derivation import add
@@ -22,7 +23,8 @@ class Joined:
 
     ``slide``: the direction of a slide, None for a hinge. ``length``: from its joint to where it carries others;
     ``at``: where the joint sits on the carrier, from the carrier's joint. ``centre``, ``inertia``: of its mass, the
-    inertia about the centre of mass. ``stiffness``, ``rest``, ``damping``, ``drive``: at its joint.
+    inertia about the centre of mass. ``stiffness``, ``rest``, ``damping``, ``friction``, ``drive``: at its joint;
+    ``friction`` is dry, a force or torque against the motion.
     """
 
     name: str
@@ -36,14 +38,16 @@ class Joined:
     stiffness: Formula = NOTHING
     rest: Formula = NOTHING
     damping: Formula = NOTHING
+    friction: Formula = NOTHING
     drive: Formula = NOTHING
     given: bool = False  # its motion is given; its drive is whatever brings that about
 
     @property
     def quantities(self) -> tuple[Formula, ...]:
         """All but the drive."""
-        own = (self.mass, self.length, self.centre, self.inertia, self.stiffness, self.rest, self.damping)
-        return own if self.at is None else (*own, self.at)
+        own = (self.mass, self.length, self.centre, self.inertia, self.stiffness, self.rest)
+        passive = (self.damping, self.friction)
+        return (*own, *passive) if self.at is None else (*own, *passive, self.at)
 
 
 @dataclass(frozen=True)
@@ -69,8 +73,15 @@ class Declared:
             stretch = add(space.q(i).times(c) for i, c in form.items()) - body.rest
             elastic = elastic + body.stiffness.times(HALF) * stretch * stretch
             for i, c in form.items():
-                forces[i] = forces[i] + (body.drive - body.damping * rate).times(c)
+                forces[i] = forces[i] + (body.drive - body.damping * rate - self.dry_friction(k, form)).times(c)
         return Mechanism(space, tuple(placed), elastic, tuple(forces))
+
+    def dry_friction(self, k: int, motion: Form) -> Formula:
+        """What dry friction takes from the drive of joint k while it moves: its size times the sign of the rate."""
+        friction = self.bodies[k].friction
+        sign = sign_of(self.space, motion) if friction else NOTHING
+        assert sign is not None  # a mechanism with friction has all signs of joints' rates
+        return friction * sign
 
     @property
     def given(self) -> tuple[int, ...]:

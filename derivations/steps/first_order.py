@@ -19,7 +19,7 @@ from ..algebra.trig import CONSTANT_ONE, NOTHING, Formula, Key, Space, digit, un
 from .derivation import add
 
 MOST_COORDINATES = 4  # whose momenta are eliminated
-WORK = 1_000_000  # products of terms; a second or two
+WORK = 300_000  # products of terms; less than a second
 
 
 class NoMomenta(ValueError):

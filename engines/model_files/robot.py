@@ -157,7 +157,14 @@ ROBOT_READERS: dict[str, RobotReader] = {
             factorises=True,
             mesh_axes=MESH_AXES,
             same_frame=1e-6,
-            mistakes={"urdf": ("extension_honoured", "fixed_massless_inertia_dropped", "collision_weighs")},
+            mistakes={
+                "urdf": (
+                    "extension_honoured",
+                    "fixed_massless_inertia_dropped",
+                    "collision_weighs",
+                    "inertial_rotation_lost",
+                )
+            },
         ),
         RobotReader(
             "pinocchio-aba",

@@ -25,9 +25,10 @@ import numpy as np
 
 from ...models.spatial import Inertial, from_quaternion
 from ...models.spatial_mechanism import Joint, RigidBody, SpatialMechanism
-from ..mujoco import quiet_data
+from ..mujoco import SAME_FRAME, VERSION, quiet_data
 from ..protocol import Array
 from ..quiet import silenced
+from ..releases import has
 from .robot_coordinates import Block, EngineState, RobotCoordinates
 from .robot_joints import HeldJoint, match, named_alike, unique
 from .robot_meshes import find_in, own_packages
@@ -41,6 +42,10 @@ KINDS = {
     int(mujoco.mjtJoint.mjJNT_SLIDE): "slide",
     int(mujoco.mjtJoint.mjJNT_HINGE): "hinge",
 }
+if has("mujoco: springs and dampers are switched off one by one", VERSION):
+    SPRINGS_OFF, DAMPERS_OFF = int(mujoco.mjtDisableBit.mjDSBL_SPRING), int(mujoco.mjtDisableBit.mjDSBL_DAMPER)
+else:
+    SPRINGS_OFF = DAMPERS_OFF = int(mujoco.mjtDisableBit.mjDSBL_PASSIVE)
 # Arrays of the compiled model that act in forward dynamics beside joints, bodies and gravity.
 SET_TO_ZERO = (
     "actuator_armature",
@@ -93,7 +98,7 @@ class MujocoRobot:
         model, kind = self._model, KINDS[int(self._model.jnt_type[j])]
         dof, position = int(model.jnt_dofadr[j]), int(model.jnt_qposadr[j])
         single = kind in {"hinge", "slide"}
-        off, bits = model.opt.disableflags, mujoco.mjtDisableBit
+        off = model.opt.disableflags
         low, high = (float(end) for end in model.jnt_range[j])
         return Joint(
             name=name,
@@ -102,9 +107,9 @@ class MujocoRobot:
             anchor=model.jnt_pos[j].copy() if kind != "free" else np.zeros(3),
             ref=float(model.qpos0[position]) if single else 0.0,
             armature=float(model.dof_armature[dof]),
-            damping=0.0 if off & int(bits.mjDSBL_DAMPER) else float(model.dof_damping[dof]),
+            damping=0.0 if off & DAMPERS_OFF else float(model.dof_damping[dof]),
             friction=float(model.dof_frictionloss[dof]),
-            stiffness=0.0 if off & int(bits.mjDSBL_SPRING) else float(model.jnt_stiffness[j]),
+            stiffness=0.0 if off & SPRINGS_OFF else float(model.jnt_stiffness[j]),
             springref=float(model.qpos_spring[position]) if single else 0.0,
             limits=(low, high) if model.jnt_limited[j] else None,
         )
@@ -146,7 +151,10 @@ class BoundMujoco:
         matrix = np.empty(found.shape[1:])
         for row, state in enumerate(self._states(q, np.zeros((len(q), self._model.nv)))):
             mujoco.mj_fwdPosition(self._model, self._data)
-            mujoco.mj_fullM(self._model, self._data, matrix)
+            if has("mujoco: mj_fullM takes MjData", VERSION):
+                mujoco.mj_fullM(self._model, self._data, matrix)
+            else:
+                mujoco.mj_fullM(self._model, matrix, self._data.qM)
             found[row] = state.our_matrix(matrix)
         return found
 
@@ -187,14 +195,15 @@ def _switch_off(model: Any) -> None:
     option.integrator = int(mujoco.mjtIntegrator.mjINT_EULER)
     option.density = option.viscosity = 0.0
     for name in SET_TO_ZERO:
-        getattr(model, name)[:] = 0.0
+        if hasattr(model, name):  # an older release has fewer of them
+            getattr(model, name)[:] = 0.0
 
 
 def _inertial(model: Any, body: int) -> Inertial:
     """As MuJoCo uses it: within 1e-6 m or rad of the body's own frame it takes that frame (``body_sameframe``)."""
-    same, kinds = int(model.body_sameframe[body]), mujoco.mjtSameFrame
-    centre = np.zeros(3) if same == int(kinds.mjSAMEFRAME_BODY) else model.body_ipos[body].copy()
-    turned = same in {int(kinds.mjSAMEFRAME_BODY), int(kinds.mjSAMEFRAME_BODYROT)}
+    same, (of_body, turned_alike) = int(model.body_sameframe[body]), SAME_FRAME
+    centre = np.zeros(3) if same == of_body else model.body_ipos[body].copy()
+    turned = same == of_body or same == turned_alike != 0
     axes = np.eye(3) if turned else from_quaternion(model.body_iquat[body])
     return Inertial(float(model.body_mass[body]), centre, axes @ np.diag(model.body_inertia[body]) @ axes.T)
 

@@ -2,6 +2,8 @@
 
 * A point mass or a thin rod has moments below 1e-15 kg m², which the compiler raises (``boundinertia``): those of
   tensors without products are set in the compiled model. That raising moves other tensors by no more than that.
+* MuJoCo 3.3 turns other tensors to principal axes until no product exceeds 1e-7 of the largest moment; those that are
+  left with more than rounding are turned here, and set in the compiled model.
 * Accelerations are ``qacc_smooth``, what ``mj_forward`` finds before constraints, of which the model has none.
 """
 
@@ -16,8 +18,9 @@ from ...models.spatial_mechanism import WORLD, Joint, RigidBody, SpatialMechanis
 from ...models.writers.mjcf import LEAST_INERTIA
 from ..model_files.robot_coordinates import Block, RobotCoordinates
 from ..model_files.robot_mujoco import BoundMujoco
-from ..mujoco import INTEGRATORS, compiled, empty_spec, keep_centres, quiet_data
+from ..mujoco import INTEGRATORS, VERSION, compiled, empty_spec, keep_centres, quiet_data
 from ..protocol import Array
+from ..releases import has
 
 # MuJoCo's bindings have no type stubs that fit: Any, here and nowhere else.
 mujoco: Any = import_module("mujoco")
@@ -28,6 +31,8 @@ KINDS = {
     "ball": mujoco.mjtJoint.mjJNT_BALL,
     "free": mujoco.mjtJoint.mjJNT_FREE,
 }
+# A rotation, three moments and a rotation again, each rounded a few times; a compiler that stops early leaves 1e8.
+ROUNDINGS = 64
 
 
 class MujocoTree:
@@ -103,7 +108,24 @@ def _model(mechanism: SpatialMechanism) -> Any:
         moments = np.diag(body.inertial.tensor)
         if _diagonal(body) and (moments < LEAST_INERTIA).any() and body.inertial.mass:
             model.body_inertia[model.body(f"body{k}").id] = moments
+        elif not _diagonal(body):
+            _keep_tensor(model, model.body(f"body{k}").id, body.inertial.tensor)
     return model
+
+
+def _keep_tensor(model: Any, number: int, tensor: Array) -> None:
+    """Turn the tensor (3, 3) of one body to principal axes anew, where the compiler has left more than rounding."""
+    turn = np.empty(9)
+    mujoco.mju_quat2Mat(turn, model.body_iquat[number])
+    axes = turn.reshape(3, 3)
+    held = axes @ np.diag(model.body_inertia[number]) @ axes.T
+    if np.abs(held - tensor).max() <= ROUNDINGS * np.finfo(float).eps * np.abs(tensor).max():
+        return
+    moments, axes = np.linalg.eigh(tensor)
+    axes[:, 0] *= np.sign(np.linalg.det(axes))  # a rotation, no reflection
+    quaternion = np.empty(4)
+    mujoco.mju_mat2Quat(quaternion, np.ascontiguousarray(axes).ravel())
+    model.body_inertia[number], model.body_iquat[number] = moments, quaternion
 
 
 def _body(parent: Any, body: RigidBody, k: int) -> Any:
@@ -131,7 +153,10 @@ def _diagonal(body: RigidBody) -> bool:
 
 def _joint(body: Any, joint: Joint, name: str) -> None:
     made = body.add_joint(name=name, type=KINDS[joint.kind], armature=joint.armature)
-    made.damping[0], made.stiffness[0] = joint.damping, joint.stiffness
+    if has("mujoco: a joint's damping is a polynomial", VERSION):
+        made.damping[0], made.stiffness[0] = joint.damping, joint.stiffness
+    else:
+        made.damping, made.stiffness = joint.damping, joint.stiffness
     if joint.kind in ("hinge", "slide"):
         made.axis, made.ref, made.springref = joint.axis.tolist(), joint.ref, joint.springref
     if joint.kind != "free":

@@ -1,30 +1,24 @@
 """Messages over a socket: framed, bounded and checked, because an engine may write into any file of its process.
 
-A frame is MAGIC, the length of the content and its CRC-32, and the pickled content. The parent reads what is there and
-never waits for the rest of a frame, so that a worker that stops in the middle of one holds nobody up.
+The content of a frame (:mod:`.frames`) is a pickled object: both ends are furiko's own. The parent reads what is there
+and never waits for the rest of a frame, so that a worker that stops in the middle of one holds nobody up.
 """
 
 from __future__ import annotations
 
 import pickle
 import socket
-import struct
-import zlib
 
-HEADER = struct.Struct(">8sQI")
-MAGIC = b"furiko\x01\n"
-LARGEST = 1 << 30  # bytes of one message: the proven values of the largest scene take a hundredth
+from .frames import BrokenChannel, Frames, framed
+
 SEND_TIMEOUT = 30.0  # [s] for a job to be taken: an idle worker reads at once
 
-
-class BrokenChannel(ConnectionError):
-    """The bytes that came are not a frame: the worker wrote something else into its connection."""
+__all__ = ["SEND_TIMEOUT", "BrokenChannel", "Channel", "encode"]
 
 
 def encode(message: object) -> bytes:
     """The frame of one message."""
-    content = pickle.dumps(message, protocol=pickle.HIGHEST_PROTOCOL)
-    return HEADER.pack(MAGIC, len(content), zlib.crc32(content)) + content
+    return framed(pickle.dumps(message, protocol=pickle.HIGHEST_PROTOCOL))
 
 
 class Channel:
@@ -32,7 +26,7 @@ class Channel:
 
     def __init__(self, connection: socket.socket) -> None:
         self.connection = connection
-        self._buffer = bytearray()
+        self._frames = Frames()
 
     def send(self, message: object) -> None:
         """Send a message; raises ConnectionError or TimeoutError where the other end does not take it."""
@@ -41,9 +35,9 @@ class Channel:
     def receive(self) -> object:
         """Wait for the next message; raises EOFError where the other end is closed."""
         while True:
-            complete, message = self._next()
-            if complete:
-                return message
+            content = self._frames.next()
+            if content is not None:
+                return _decoded(content)
             self._read()
 
     def available(self) -> list[object]:
@@ -53,11 +47,9 @@ class Channel:
         """
         self._read()
         found: list[object] = []
-        while True:
-            complete, message = self._next()
-            if not complete:
-                return found
-            found.append(message)
+        while (content := self._frames.next()) is not None:
+            found.append(_decoded(content))
+        return found
 
     def close(self) -> None:
         """Close this end."""
@@ -67,25 +59,11 @@ class Channel:
         part = self.connection.recv(1 << 20)
         if not part:
             raise EOFError("the connection is closed")
-        self._buffer += part
+        self._frames.add(part)
 
-    def _next(self) -> tuple[bool, object]:
-        """Whether a whole frame is in the buffer, and its content."""
-        buffer = self._buffer
-        if not MAGIC.startswith(bytes(buffer[: len(MAGIC)])):
-            raise BrokenChannel("it wrote something else into its connection to furiko")
-        if len(buffer) < HEADER.size:
-            return False, None
-        _, length, check = HEADER.unpack_from(buffer)
-        if length > LARGEST:
-            raise BrokenChannel(f"it announced a message of {length} bytes; {LARGEST} are the limit")
-        if len(buffer) < HEADER.size + length:
-            return False, None
-        content = bytes(buffer[HEADER.size : HEADER.size + length])
-        del buffer[: HEADER.size + length]
-        if zlib.crc32(content) != check:
-            raise BrokenChannel("a message arrived damaged")
-        try:
-            return True, pickle.loads(content)
-        except Exception as error:
-            raise BrokenChannel(f"a message cannot be read: {type(error).__name__}: {error}") from None
+
+def _decoded(content: bytes) -> object:
+    try:
+        return pickle.loads(content)
+    except Exception as error:
+        raise BrokenChannel(f"a message cannot be read: {type(error).__name__}: {error}") from None

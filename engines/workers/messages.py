@@ -19,10 +19,14 @@ class Job(Protocol):
 
 @dataclass(frozen=True)
 class Setup:
-    """A worker's first message: where to find modules, and which to import before the first job comes."""
+    """A worker's first message: where to find modules, and which to import before the first job comes.
+
+    ``memory``: bytes that it may allocate, and each engine's process that it starts; None for any number.
+    """
 
     paths: tuple[str, ...]
     modules: tuple[str, ...]
+    memory: int | None = None
 
 
 @dataclass(frozen=True)

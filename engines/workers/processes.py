@@ -56,24 +56,28 @@ class Workers:
     """A temporary folder for workers to run in, and workers that wait there for their first job."""
 
     folder: str
+    memory: int | None = None  # bytes that each may allocate
     modules: tuple[str, ...] = ()  # imported by each worker while its first job is still being decided on
     waiting: list[WorkerProcess] = field(default_factory=list)
     taken: list[WorkerProcess] = field(default_factory=list)
 
     def worker(self) -> WorkerProcess:
         """One that waits, or a fresh one."""
-        self.taken.append(self.waiting.pop() if self.waiting else spawn(self.folder, self.modules))
+        self.taken.append(self.waiting.pop() if self.waiting else spawn(self.folder, self.modules, self.memory))
         return self.taken[-1]
 
 
 @contextlib.contextmanager
-def worker_processes(ahead: int = 0, modules: Sequence[str] = ()) -> Iterator[Workers]:
-    """A source of workers, so many of them started already; all its workers are ended with it."""
+def worker_processes(ahead: int = 0, modules: Sequence[str] = (), memory: int | None = None) -> Iterator[Workers]:
+    """A source of workers, so many of them started already; all its workers are ended with it.
+
+    ``memory``: bytes that each may allocate, None for any number.
+    """
     remove_left_behind()
     with tempfile.TemporaryDirectory(prefix=f"{PREFIX}{os.getpid()}-", ignore_cleanup_errors=True) as folder:
-        found = Workers(folder, tuple(modules))
+        found = Workers(folder, memory, tuple(modules))
         try:
-            found.waiting.extend(spawn(folder, found.modules) for _ in range(min(ahead, MOST_AHEAD)))
+            found.waiting.extend(spawn(folder, found.modules, memory) for _ in range(min(ahead, MOST_AHEAD)))
             yield found
         finally:
             for worker in found.waiting + found.taken:
@@ -100,8 +104,8 @@ def _alive(process: int) -> bool:
     return True
 
 
-def spawn(folder: str, modules: Sequence[str] = ()) -> WorkerProcess:
-    """A fresh worker process that runs in ``folder``."""
+def spawn(folder: str, modules: Sequence[str] = (), memory: int | None = None) -> WorkerProcess:
+    """A fresh worker process that runs in ``folder``; ``memory``: bytes that it may allocate."""
     if sys.platform == "win32":
         raise LibraryMissing("engines run in processes of their own, which needs Linux or macOS; on Windows use WSL")
     ours, theirs = socket.socketpair()
@@ -124,5 +128,5 @@ def spawn(folder: str, modules: Sequence[str] = ()) -> WorkerProcess:
     ours.settimeout(SEND_TIMEOUT)
     channel = Channel(ours)
     with contextlib.suppress(OSError):  # if it has died, its closed connection will tell
-        channel.send(Setup(tuple(os.path.abspath(path) for path in sys.path), tuple(modules)))
+        channel.send(Setup(tuple(os.path.abspath(path) for path in sys.path), tuple(modules), memory))
     return WorkerProcess(process, channel)

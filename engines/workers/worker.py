@@ -16,6 +16,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 from .channel import Channel
+from .limits import LIMITS, limit_memory
 from .messages import Done, Failed, Setup
 
 if TYPE_CHECKING:
@@ -30,6 +31,9 @@ def main() -> None:
     channel = Channel(socket.socket(fileno=int(sys.argv[1])))
     setup = channel.receive()
     assert isinstance(setup, Setup)
+    LIMITS.seconds, LIMITS.memory = None, setup.memory  # whoever gives it jobs keeps the clock
+    if setup.memory:
+        limit_memory(setup.memory)
     sys.path += [path for path in setup.paths if path not in sys.path]
     for module in setup.modules:
         with contextlib.suppress(ImportError):  # the job that needs it will say so

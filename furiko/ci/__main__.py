@@ -1,4 +1,6 @@
-"""What ``furiko-ci`` leaves in its folder: ``python -m furiko.ci FOLDER STATUS``, and annotations for GitHub.
+"""What ``furiko-ci`` leaves in its folder: ``python -m furiko.ci FOLDER STATUS...``, and annotations for GitHub.
+
+The statuses are those of each command that ran; the exit status is the gravest of them.
 
 After ``furiko check`` the folder has a run's reports; where it failed before there were any, they say why. After
 ``furiko diagnose`` it has ``models/1.json`` and so on, one a file, of which the summary and the JUnit file are made.
@@ -8,6 +10,7 @@ from __future__ import annotations
 
 import os
 import sys
+import traceback
 from pathlib import Path
 
 import msgspec
@@ -16,7 +19,7 @@ from ..models import InvalidInput
 from ..models.readers.bounded_file import read_text
 from ..models.writers.whole_file import write_whole
 from ..records.errors import Error, ErrorDocument
-from ..records.exit_status import AGREES, INCOMPLETE
+from ..records.exit_status import AGREES, INCOMPLETE, INTERNAL_ERROR, gravest
 from ..records.findings import DiagnoseDocument
 from ..reports import github, read_stream
 from ..reports.model_files import Answer, failure_markdown, models_junit, models_markdown
@@ -26,9 +29,8 @@ LARGEST = 50_000_000  # bytes of one answer: a robot of hundreds of links has a 
 LONGEST_MESSAGE = 10_000  # bytes of what a command says where it fails; it is one line
 
 
-def main(arguments: list[str]) -> int:
-    """Write what is missing in the folder, and print the annotations. ``arguments``: folder, exit status of furiko."""
-    folder, status = Path(arguments[0]), int(arguments[1])
+def main(folder: Path, status: int) -> None:
+    """Write what is missing in the folder, and print the annotations. ``status``: the exit status of all."""
     if (folder / "models").is_dir():
         lines = _of_models(folder)
     elif (folder / SUMMARY).is_file():
@@ -38,7 +40,6 @@ def main(arguments: list[str]) -> int:
         lines = _of_failure(folder, status)
     if os.environ.get("GITHUB_ACTIONS") == "true":
         sys.stdout.write("".join(f"{line}\n" for line in lines[: github.MOST]))
-    return AGREES
 
 
 def _of_models(folder: Path) -> list[str]:
@@ -81,9 +82,18 @@ def _of_failure(folder: Path, status: int) -> list[str]:
     return [github.of_error(error, path)]
 
 
-if __name__ == "__main__":
+def _run(arguments: list[str]) -> int:
+    statuses = [int(status) for status in arguments[1:]]
     try:
-        sys.exit(main(sys.argv[1:]))
+        main(Path(arguments[0]), gravest(statuses))
     except (InvalidInput, OSError) as error:
         sys.stderr.write(f"furiko-ci: {error}\n")
-        sys.exit(INCOMPLETE)
+        statuses.append(INCOMPLETE)
+    except Exception:
+        traceback.print_exc()
+        statuses.append(INTERNAL_ERROR)
+    return gravest(statuses)
+
+
+if __name__ == "__main__":
+    sys.exit(_run(sys.argv[1:]))

@@ -11,10 +11,12 @@ from importlib import import_module
 
 def main() -> None:
     """Run the command line of this process, and end the process with its exit status."""
-    from .process import Stopped, catch_signals
-
-    catch_signals()  # first of all: imports take a while, and may be interrupted as well
     try:
-        import_module(".main", __package__).main()
-    except Stopped as error:
-        sys.exit(error.status)
+        from .process import catch_signals, release_signals
+
+        catch_signals()  # first of all: imports take a while, and may be interrupted as well
+        status = import_module(".main", __package__).main()
+        release_signals()
+    except KeyboardInterrupt as error:  # Stopped, or Python's own
+        status = getattr(error, "status", 130)
+    sys.exit(status)

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import click
 
-from ..records.exit_status import AGREES, DIFFERS, INCOMPLETE
+from ..records.exit_status import AGREES, DIFFERS, INCOMPLETE, gravest
 from .options import engine_option, json_option, report_folder_option, scene_names
 from .output import print_failure, print_json
-from .progress import status_line
+from .progress import bench_progress
 
 
 @click.command()
@@ -18,10 +18,12 @@ from .progress import status_line
 @engine_option
 @report_folder_option
 @click.option(
-    "--budget", type=click.FloatRange(1), default=60.0, show_default=True, help="Time for the whole run, about [s]."
+    "--budget", type=click.FloatRange(1), default=60.0, show_default=True, help="Approximate time of the whole run [s]."
 )
 @click.option(
-    "--skips", is_flag=True, help="Measure what a check skips: the same verdicts with and without, and times."
+    "--skips",
+    is_flag=True,
+    help="Measure the work that a check skips: are the verdicts the same, and how much time is saved.",
 )
 @click.option(
     "--sharpness", is_flag=True, help="Measure the smallest relative error of an entry that a check notices (minutes)."
@@ -49,7 +51,7 @@ def bench(
     from ..models.writers.whole_file import make_folder
 
     make_folder(out)  # first: the benchmark takes a while
-    with status_line() as watch:
+    with bench_progress() as watch:
         found = run_bench(scenes or None, engines or None, budget=budget, skips=skips, sharpness=sharpness, watch=watch)
     differs = any(not skip.same for skip in found.skips) or any(motion.causes for motion in found.motions)
     status = DIFFERS if differs else AGREES
@@ -58,7 +60,7 @@ def bench(
         write(out, found)
     except InvalidInput as error:
         print_failure(str(error))
-        status = max(status, INCOMPLETE)
+        status = gravest((status, INCOMPLETE))
     if as_json:
         print_json(found)
     else:

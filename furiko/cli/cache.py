@@ -23,7 +23,7 @@ def cache(clear: bool, as_json: bool) -> int:
     """Show or clear the results kept from earlier runs.
 
     Kinds: results of one scene on one engine, and truths, the reference values of one scene. Entries that were used
-    least recently are deleted where the folder would exceed its limit.
+    least recently are deleted when the folder would exceed its limit.
     """
     import msgspec
 

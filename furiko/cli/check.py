@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from ..records.exit_status import DIFFERS, INCOMPLETE
+from ..records.exit_status import INCOMPLETE, gravest
 from .options import engine_option, jobs_option, json_option, report_folder_option, scene_names, words
 from .output import print_failure, print_json, print_text
 from .progress import check_progress
@@ -27,15 +27,16 @@ from .progress import check_progress
 @report_folder_option
 @click.option("--baseline", type=click.Path(path_type=Path), help="Compare with this earlier report.jsonl.")
 @click.option("--known", type=click.Path(path_type=Path), help="A TOML file of known differences, which do not fail.")
-@click.option("--known-strict", is_flag=True, help="Exit 1 as well where a known difference is none any more.")
+@click.option("--known-strict", is_flag=True, help="Exit 1 also if a known difference has gone.")
 @jobs_option
 @click.option(
     "--timeout", type=click.FloatRange(0.1), default=60.0, show_default=True, help="Time limit of one check [s]."
 )
+@click.option("--memory", type=click.FloatRange(0.05), help="Memory limit of each engine's process [GiB].")
 @click.option(
     "--sharp/--no-sharp",
     default=None,
-    help="Exit 1 as well where a result is loose: within the proven bound, but beyond what rounding does.  "
+    help="Exit 1 also if a result is loose: within the proven bound, but further off than rounding usually gets.  "
     "[default: as with --baseline]",
 )
 @click.option("--no-cache", is_flag=True, help="Do not use results of earlier runs, and keep none.")
@@ -50,6 +51,7 @@ def check(
     known_strict: bool,
     jobs: int | None,
     timeout: float,
+    memory: float | None,
     sharp: bool | None,
     no_cache: bool,
     as_json: bool,
@@ -62,7 +64,8 @@ def check(
     from ..checks.imported_ahead import MODULES
     from ..engines.workers.processes import worker_processes
 
-    with worker_processes(jobs or os.cpu_count() or 1, MODULES) as source:
+    most = None if memory is None else int(memory * 2**30)
+    with worker_processes(jobs or os.cpu_count() or 1, MODULES, most) as source:
         from ..reports import compare, known_in, read_known, read_stream
         from ..run import ReportNotWritten
         from ..run import check as run_check
@@ -119,4 +122,4 @@ def check(
             print_text(accounted.text())
         if comparison is not None:
             print_text(comparison.text())
-    return DIFFERS if DIFFERS in statuses else max(statuses)
+    return gravest(statuses)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..records.exit_status import AGREES
+from ..records.exit_status import gravest
 from .failures import Failure, failure_of
 from .options import engine_names, json_option, scene_names
 from .output import print_failure, print_json, print_text
@@ -59,7 +59,7 @@ if TYPE_CHECKING:
 def diagnose(models: tuple[Path, ...], fix: Path | None, out: Path | None, as_json: bool, **how: Any) -> int:
     """Check how engines read an MJCF or URDF file; say why they differ.
 
-    Several files are answered one after the other, in short; the exit status is the highest of theirs.
+    With several files, each gets a short answer. The exit status is 1 if one of them differs, else the highest of all.
     """
     asked = _Asked(**how)
     if len(models) == 1:
@@ -109,10 +109,10 @@ def _one(model: Path, asked: _Asked, fix: Path | None, out: Path | None, as_json
 
 def _several(models: tuple[Path, ...], asked: _Asked, as_json: bool) -> int:
     """Each file in short, as soon as it is answered; one that cannot be is told, and the others are answered."""
-    worst, entries = AGREES, []
+    statuses, entries = [], []
     for model in models:
         found = _answered(model, asked)
-        worst = max(worst, found.status if isinstance(found, Failure) else found.exit_status)
+        statuses.append(found.status if isinstance(found, Failure) else found.exit_status)
         if as_json:
             entries.append(_entry(model, found))
         elif isinstance(found, Failure):
@@ -121,7 +121,7 @@ def _several(models: tuple[Path, ...], asked: _Asked, as_json: bool) -> int:
             print_text(found.brief())
     if as_json:
         print_json({"models": entries})
-    return worst
+    return gravest(statuses)
 
 
 def _answered(model: Path, asked: _Asked) -> Diagnosis | Failure:

@@ -22,9 +22,9 @@ from .output import print_text
 def diff(before: Path, after: Path, factor: float) -> int:
     """Compare two runs of check.
 
-    BEFORE and AFTER: report.jsonl of each run, or the folder it is in. Lists comparisons whose outcome changed, whose
-    error grew or shrank, and those that only one run has; first what else is not the same, as an engine's version.
-    Exit 1 where something broke or its error grew.
+    BEFORE and AFTER: report.jsonl of each run, or the folder it is in. First come other
+    differences of the runs, such as an engine's version; then comparisons whose outcome changed, whose error grew or
+    shrank, and those that only one run has. Exit 1 if something broke or its error grew.
     """
     from ..reports import compare, read_stream
 

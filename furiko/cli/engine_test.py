@@ -23,7 +23,7 @@ SIGNS = {"right": "✓", "wrong": "✗", "note": "!", "skipped": "-"}
 def engine_test(engine: str, timeout: float, as_json: bool) -> int:
     """Test an adapter, step by step, before its engine is judged.
 
-    Looked at are shapes, buffers, order, signs, units, coordinates and runs. ENGINE: a name that `furiko engines`
+    Tests shapes, buffers, order, signs, units, coordinates and runs. ENGINE: a name that `furiko engines`
     lists, a file with one adapter (./my_adapter.py), or module:Class. The exit status is 1 where the adapter is wrong.
     """
     from ..checks.conformance.kit import engine_test as test

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import click
 
 from ..records.exit_status import AGREES
-from .options import json_option
+from .options import engine_names as known_engines
+from .options import found_here, json_option
 from .output import print_json, print_table, print_text
 
 if TYPE_CHECKING:
@@ -17,21 +18,25 @@ if TYPE_CHECKING:
 
 
 @click.command()
+@click.argument("names", nargs=-1, metavar="[NAME]...", callback=found_here, shell_complete=known_engines)
 @json_option
-def engines(as_json: bool) -> int:
-    """List the engines, their versions, and what they cannot compute."""
-    from ..engines import engine_info, engine_names, engine_version, names_on_request, plugin_names, untested
+def engines(names: tuple[str, ...], as_json: bool) -> int:
+    """List the engines, their versions, and what they cannot compute.
+
+    NAME: only this one; also of another version or place, as furiko check -e takes it (./venv:mujoco).
+    """
+    from ..engines import all_of, engine_info, engine_names, engine_version, names_on_request, plugin_names, untested
     from ..models.errors import installing
 
     always = engine_names()
-    known = [*always, *names_on_request(), *plugin_names()]
+    known = all_of(names) or [*always, *names_on_request(), *plugin_names()]
     infos = [replace(engine_info(name), name=name) for name in known]
     if as_json:
         print_json([_row(info, engine_version(info.name), info.name not in always) for info in infos])
     else:
         rows = [
             (
-                info.name + ("" if info.name in always else " *"),
+                info.name + ("" if names or info.name in always else " *"),
                 engine_version(info.name) + (" (not tested)" if untested(info) else "")
                 or f"not installed: {installing(info.package)}",
                 info.formulation,
@@ -41,7 +46,8 @@ def engines(as_json: bool) -> int:
             for info in infos
         ]
         print_table(("engine", "version", "formulation", "integrators", "does not give"), rows)
-        print_text("* runs only where it is named: -e NAME")
+        if not names:
+            print_text("* runs only where it is named: -e NAME, as are NAME@VERSION, ENVIRONMENT:NAME and ./program")
     return AGREES
 
 

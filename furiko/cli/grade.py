@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 
 @click.command()
 @click.argument("files", metavar="[FILE|FOLDER]...", type=click.Path(path_type=Path), nargs=-1)
-@click.option("--problem", type=click.Path(path_type=Path), help="What a teacher pins: mechanism, points, hints.")
+@click.option("--problem", type=click.Path(path_type=Path), help="What a teacher fixes: mechanism, points, hints.")
 @click.option("--hints", type=click.IntRange(0, 4), help="With --problem: how much is told, 0 (right or wrong) to 4.")
 @click.option("--out", type=click.Path(path_type=Path), help="With --problem: write pages, CSV, JUnit, JSON here.")
 @click.option("--gradescope", type=click.Path(path_type=Path), help="With --problem: write one file's results.json.")
 @click.option("--autograder", type=click.Path(path_type=Path), help="With --problem: write a zip for Gradescope.")
 @click.option("--jobs", "-j", type=click.IntRange(1, 256), help="With --problem: how many are graded at once.")
 @click.option("--callable", "function", metavar="MODULE:FUNCTION", help="Grade a function that you trust.")
-@click.option("--system", help="The mechanism of a --callable; a FILE is held to it, and nothing is assumed then.")
+@click.option("--system", help="The mechanism of a --callable, or the one that a FILE must be about.")
 @click.option("--links", type=click.IntRange(1, 20), help="The number of angles, likewise.")
 @click.option("--japanese", is_flag=True, help="Print the result in Japanese.")
 @json_option
@@ -47,11 +47,11 @@ def grade(
     gravity and, for rods, density; it returns the accelerations. It runs in a process of its own, with limits of time
     and memory. That is no sandbox: grade only code that you would run yourself.
 
-    With --system or --links a file that states another problem is refused, and a derivation that is right only on some
-    condition is wrong.
+    With --system or --links a file about another problem is refused, and a derivation that is right only on some
+    condition counts as wrong.
 
-    With --problem any number of files, or folders with a file a student, is held to a problem file: points for each
-    row, hints up to its level, a table of who made which mistake. No submission can harm another one's grade.
+    With --problem any number of files, or folders with one file per student, are graded by a problem file: points for
+    each row, hints up to its level, a table of who made which mistake. No submission can change another one's grade.
     """
     if autograder is not None:
         from ..autograder import write_autograder

@@ -31,12 +31,14 @@ COMMANDS = {
     "enclose": "Prove where a scene's motion is: intervals that contain it.",
     "engine-test": "Test an adapter, step by step, before its engine is judged.",
     "engines": "List the engines, their versions, and what they cannot compute.",
+    "environments": "List or remove the environments made for versions of engines.",
     "export": "Write a scene's mechanism as an MJCF or URDF file.",
     "grade": "Grade a derivation: correct, or which term is wrong and why.",
     "history": "Show a folder of runs as one page, with badges.",
     "lesson": "Write a web page for teaching: thirty mistakes in derivations.",
     "scenes": "List the scenes of the catalogue.",
     "stress": "Find where engines, integrators and formulas break.",
+    "versions": "Find which release of an engine changed what, by the theory.",
 }
 
 
@@ -80,10 +82,10 @@ def cli() -> None:
     """Cross-check hand-derived equations of motion of multi-pendulums and physics engines."""
 
 
-def main() -> None:
-    """Run the command line of this process, and end the process with its exit status."""
+def main() -> int:
+    """Run the command line of this process; returns its exit status."""
     open_standard_streams()
-    sys.exit(run(sys.argv[1:]))
+    return run(sys.argv[1:])
 
 
 def run(arguments: list[str]) -> int:

@@ -53,11 +53,12 @@ engine_option = click.option(
     "-e",
     "engines",
     multiple=True,
-    metavar="NAME|FILE.py|module:Class",
+    metavar="NAME[@VERSION]|FILE.py|ENVIRONMENT:NAME|PROGRAM|module:Class",
     callback=found_here,
     shell_complete=engine_names,
-    help="Run only this engine, or an adapter of your own: a file, or a class in a module, looked for in the current "
-    "folder too (an example is in furiko.engines.protocol); may be repeated.",
+    help="Run only this engine: a name, another version of it (mujoco@3.3.7, installed once in an environment of its "
+    "own), the one of an environment (./venv:mujoco), a program (./program), or an adapter of your own: a file, or a "
+    "class in a module, looked for in the current folder too; may be repeated.",
 )
 report_folder_option = click.option(
     "--out",

@@ -1,17 +1,22 @@
-"""The process of a command: signals that end it, and standard streams that may be closed, full, or nowhere."""
+"""The process of a command: signals that end it, and standard streams that may be closed, full, or nowhere.
+
+It imports next to nothing: until it is there, signals do as Python has them.
+"""
 
 from __future__ import annotations
 
-import contextlib
 import io
 import os
 import signal
 import sys
 import time
-from dataclasses import dataclass
-from types import FrameType
-from typing import TextIO
 
+TYPE_CHECKING = False  # typing would take longer than all else here
+if TYPE_CHECKING:
+    from types import FrameType
+    from typing import TextIO
+
+SOON = 0.05  # [s] after which a signal that came where no exception leaves is raised again
 AGAIN = 5.0  # [s] after which a signal that had no effect is raised again
 QUIET = 2.0  # [s] in which a second signal is the same wish: a closed terminal sends several
 
@@ -32,12 +37,12 @@ class OutputFailed(Exception):
         self.closed_by_reader = isinstance(error, BrokenPipeError)
 
 
-@dataclass
 class _Signals:
     """The signals that this process has received."""
 
-    last: float = -QUIET
-    stopped: Stopped | None = None
+    def __init__(self) -> None:
+        self.last = -QUIET
+        self.stopped: Stopped | None = None
 
     def stop(self, number: int, frame: FrameType | None) -> None:
         """End, unless that is under way."""
@@ -58,13 +63,32 @@ _signals = _Signals()
 
 def catch_signals() -> None:
     """Raise :class:`Stopped` at SIGINT, SIGTERM and SIGHUP. A signal that this process was told to ignore stays so."""
-    numbers = [signal.SIGINT, signal.SIGTERM]
+    sys.unraisablehook = _unraisable
     if sys.platform != "win32":
         signal.signal(signal.SIGALRM, _signals.stop_again)
-        numbers.append(signal.SIGHUP)
-    for number in numbers:
+    for number in _numbers():
         if signal.getsignal(number) in (signal.SIG_DFL, signal.default_int_handler):
             signal.signal(number, _signals.stop)
+
+
+def release_signals() -> None:
+    """Have the signals end this process at once: all is done, and what the interpreter still does may be cut off."""
+    for number in _numbers():
+        if signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, signal.SIG_DFL)
+    _alarm(0.0)
+
+
+def _numbers() -> list[signal.Signals]:
+    return [signal.SIGINT, signal.SIGTERM, *([signal.SIGHUP] if sys.platform != "win32" else [])]
+
+
+def _unraisable(unraisable: sys.UnraisableHookArgs) -> None:
+    """A signal that came in a callback of the interpreter's, as of an import's lock, is raised again outside of it."""
+    if isinstance(unraisable.exc_value, Stopped):
+        _alarm(SOON)
+    else:
+        sys.__unraisablehook__(unraisable)
 
 
 def _alarm(seconds: float) -> None:
@@ -127,7 +151,9 @@ class _Raw(io.FileIO):
 
 def _text(raw: _Raw, before: TextIO | None) -> io.TextIOWrapper:
     if before is not None:
-        with contextlib.suppress(OSError):
+        from contextlib import suppress  # signals are caught by now
+
+        with suppress(OSError):
             before.flush()
     encoding = getattr(before, "encoding", None) or "utf-8"
     # a character that the encoding does not know is written out, and no error

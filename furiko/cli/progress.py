@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from ..bench import Doing
     from ..checks.plan import Plan
     from ..records.check import Result
     from ..stress import Progress
+    from .remaining import Place, Size
+
+EVERY = 0.5  # [s] between two looks at what is left: a large run has a hundred results in a second
 
 
 @contextmanager
 def check_progress() -> Iterator[Callable[[Plan, Result], None] | None]:
-    """A progress bar over the planned checks: a function to call with each result, or None."""
+    """A progress bar over the planned checks, with what is left: a function to call with each result, or None."""
     if not sys.stderr.isatty():
         yield None
         return
@@ -23,11 +28,21 @@ def check_progress() -> Iterator[Callable[[Plan, Result], None] | None]:
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
     from ..reports.words import one_line
+    from .remaining import Cells, about
 
-    columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    begun = time.monotonic()
+    columns = (
+        TextColumn("{task.description}", markup=False),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TextColumn("{task.fields[left]}"),
+    )
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("checking", total=None)
+        task = bar.add_task("checking", total=None, left="")
         seen: set[tuple[str, str, str]] = set()
+        cells: list[Cells] = []
+        looked = [begun]
 
         def watch(plan: Plan, result: Result) -> None:
             settled = {(r.scene, r.engine, r.check) for r in plan.settled}
@@ -35,9 +50,21 @@ def check_progress() -> Iterator[Callable[[Plan, Result], None] | None]:
             seen.add((result.scene, result.engine, result.comparison))
             total = sum(len(t.checks) for t in plan.tasks) + len(settled)
             now = one_line(f"{result.scene} {result.engine}", 80)
+            if not cells:
+                cells.append(Cells(_planned(plan)))
+            cells[0].took((result.scene, result.engine, result.comparison), result.seconds)
             bar.update(task, completed=min(len(seen), total), total=total, description=now)
+            if (clock := time.monotonic()) - looked[0] > EVERY:
+                looked[0] = clock
+                bar.update(task, left=about(cells[0].remaining(clock - begun)))
 
         yield watch
+
+
+def _planned(plan: Plan) -> Iterator[tuple[Place, Size]]:
+    for task in plan.tasks:
+        system = task.scene.system
+        yield from (((task.scene.name, task.engine, check), (system.kind, system.n)) for check in task.checks)
 
 
 @contextmanager
@@ -56,8 +83,46 @@ def status_line() -> Iterator[Callable[[str], None]]:
 
 
 @contextmanager
-def stress_progress() -> Iterator[Callable[[Progress], None] | None]:
-    """Cases done, questions open, and the case that runs now: a function to call with each state, or None."""
+def bench_progress() -> Iterator[Callable[[Doing], None]]:
+    """One line that says what runs now and, once a part is done, how long the others take."""
+    if not sys.stderr.isatty():
+        yield lambda _: None
+        return
+    from rich.console import Console
+    from rich.text import Text
+
+    from ..reports.words import one_line
+    from .remaining import Parts, about
+
+    begun = time.monotonic()
+    said: list[str] = [""]
+    parts: list[Parts] = []
+
+    class Line:
+        """Written anew whenever the line is: what is left goes down between two calls, too."""
+
+        def __rich__(self) -> Text:
+            left = about(parts[0].remaining(time.monotonic() - begun)) if parts else ""
+            return Text("; ".join(filter(None, (one_line(said[0]), left))))
+
+    with Console(stderr=True).status(Line()):
+
+        def watch(now: Doing) -> None:
+            if not parts and now.planned:
+                parts.append(Parts(now.planned))
+            if parts:
+                parts[0].begins(now.part, time.monotonic() - begun)
+            said[0] = now.words
+
+        yield watch
+
+
+@contextmanager
+def stress_progress(budget: float) -> Iterator[Callable[[Progress], None] | None]:
+    """Cases done, questions open, time left, the case that runs now: a function to call with each state, or None.
+
+    How many more cases a question takes is not known, so that the time is that of ``budget`` [s]: at most so much.
+    """
     if not sys.stderr.isatty():
         yield None
         return
@@ -66,20 +131,30 @@ def stress_progress() -> Iterator[Callable[[Progress], None] | None]:
     from rich.progress import Progress as Bar
 
     from ..reports.words import one_line
+    from .remaining import about
 
+    begun = time.monotonic()
     columns = (
         TextColumn("{task.fields[done]} cases, {task.fields[open]} questions open"),
         BarColumn(),
         TimeElapsedColumn(),
+        TextColumn("{task.fields[left]}"),
         TextColumn("{task.description}", markup=False),
     )
     with Bar(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("starting", total=None, done=0, open="?")
+        task = bar.add_task("starting", total=None, done=0, open="?", left="")
 
         def watch(now: Progress) -> None:
             total = now.done + now.open  # every open question takes at least one more case
+            left = about(max(budget - (time.monotonic() - begun), 0.0)).replace("about", "at most")
             bar.update(
-                task, completed=now.done, total=total, description=one_line(now.now, 80), done=now.done, open=now.open
+                task,
+                completed=now.done,
+                total=total,
+                description=one_line(now.now, 80),
+                done=now.done,
+                open=now.open,
+                left=left,
             )
 
         yield watch

@@ -64,7 +64,7 @@ def stress(
     from ..stress import stress as run_stress
 
     unwritten = ""
-    with stress_progress() as watch:
+    with stress_progress(budget) as watch:
         try:
             found = run_stress(
                 axes or None,

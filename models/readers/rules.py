@@ -74,6 +74,7 @@ class UrdfRules:
     fixed_massless_inertia_dropped: bool = _mistake(
         "drops the inertia of a link without mass where it is fixed to another link (fusestatic)"
     )
+    inertial_rotation_lost: bool = _mistake("drops the rotation of an inertial: <inertial><origin rpy=…/>")
     collision_weighs: bool = _mistake("gives links without <inertial> the mass of their collision geometry, 1000 kg/m³")
     extension_honoured: bool = _mistake("does what MuJoCo's own <mujoco> in the file says")
     impossible_inertia_becomes_sphere: bool = _mistake(

@@ -23,6 +23,9 @@ try:
 except ImportError as error:  # whatever else needs numba imports this module first
     raise missing("numba", error) from error
 
+from .announcing import announce  # needs numba as well
+
+announce()
 LINE = 8  # numbers in a line of the cache
 F = TypeVar("F", bound=Callable[..., Any])
 

@@ -8,8 +8,9 @@ from functools import cached_property
 
 from ...records.bench import Bench, Motion, Point, Reach, Speed
 from ..words import SAME, batch, duration, figure, link_words, multiple, speed_words
+from ..zigzags import zigzags
 from .plot import KINDS, LARGE, Plot, Series, draw
-from .rendering import render
+from .rendering import render_with_plots
 
 FURIKO = "furiko"
 WORST = 1.0  # rad or rad/s: a larger error has nothing to do with the motion, and is not drawn
@@ -53,6 +54,7 @@ class MotionView:
                     engines.index(engine) % KINDS,
                     schemes.index(plain) % KINDS,
                     plain != scheme,
+                    engine,
                 )
             )
         return found
@@ -67,6 +69,11 @@ class MotionView:
         shown = [(error, seconds) for error, seconds in front if error <= WORST]
         labels = ("error at the end, θ [rad] and ω [rad/s]", "time [s]")
         return draw(self.series, *labels, frame=LARGE, log_x=True, log_y=True, falling_x=True, front=shown)
+
+    @cached_property
+    def zigzags(self) -> list[str]:
+        """Why curves turn back."""
+        return zigzags(self.motion)
 
     def reach(self, method: tuple[str, str], error: float) -> Reach:
         """A method's time to come within an error."""
@@ -127,6 +134,7 @@ class SpeedView:
                     tuple((float(s.n), s.median, _said(s)) for s in rows),
                     engines.index(engine) % KINDS,
                     of_engine.index((engine, call, single)) % KINDS,
+                    group=engine,
                 )
             )
         return found
@@ -148,6 +156,7 @@ class SpeedView:
                 tuple((max(r.error, FINEST), r.median, _said(r)) for r in rows[id(s)] if r.error is not None),
                 s.colour,
                 s.mark,
+                group=s.group,
             )
             for s in self.series
         ]
@@ -178,7 +187,7 @@ def _said(speed: Speed) -> str:
 def to_html(found: Bench) -> str:
     """The whole page as text."""
     kinds = dict.fromkeys(speed.system for speed in found.speeds)
-    return render(
+    return render_with_plots(
         "bench.html.j2",
         bench=found,
         motions=[MotionView(motion) for motion in found.motions],

@@ -8,7 +8,7 @@ from ...records.check import Header
 from ...records.stress import ChainMotion, ChainSummary, SmallSwings, StressSummary, TipConvergence
 from .chain_pictures import ChainPicture, draw_chains
 from .plot import Plot, draw
-from .rendering import render
+from .rendering import render_with_plots
 from .series import Points, to_series
 
 INSTANTS = ("0.125", "0.25", "0.375", "0.5", "0.75", "1", "1.5", "2")  # [s] at which chains are pictured
@@ -24,7 +24,7 @@ def chain_page(summary: StressSummary, header: Header) -> str:
     chain = summary.chain
     fine = [m for m in chain.motions if m.amplitude == LARGE and m.tolerance <= FINE]
     shown = _few(fine)
-    return render(
+    return render_with_plots(
         "chain.html.j2",
         ("style.css", "stress.css"),
         chain=chain,

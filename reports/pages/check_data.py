@@ -12,6 +12,7 @@ from typing import Any, TypeGuard
 import msgspec
 
 from ...records.check import Result, SceneEntry
+from ...records.entries import ENTRIES, Entries, entries_in
 from ...records.printable import printable
 from ..causes import Explanation
 from ..known import Known
@@ -25,6 +26,7 @@ MOST_DRAWN = 30_000  # numbers in drawings of mechanisms: a sixth of a megabyte
 LONGEST_DETAIL = 2000  # characters of a list or a table
 MOST_TIMES = 400  # of one error over time, or of one motion
 MOST_FRAMES = 200_000  # numbers in all motions: a megabyte
+MOST_ENTRIES = 45_000  # numbers in all matrices: a quarter of a megabyte
 HUGE = 1e308  # stands for infinity, which JSON does not have
 
 SYSTEMS = {
@@ -52,15 +54,15 @@ class Texts:
         return found
 
 
-def page_data(report: Report, known: Known | None = None) -> tuple[str, bool]:
-    """The run as JSON for a script element, and whether there is something to plot.
+def page_data(report: Report, known: Known | None = None) -> tuple[str, bool, bool]:
+    """The run as JSON for a script element; whether there is something to plot; whether there are matrices.
 
     No character of the JSON can end the element or begin another.
     """
     data = _data(report, known)
     encoded = msgspec.json.encode(data).decode()
     safe = encoded.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
-    return safe, bool(data["histories"])
+    return safe, bool(data["histories"]), bool(data["matrices"])
 
 
 def _data(report: Report, known: Known | None) -> dict[str, Any]:
@@ -77,6 +79,7 @@ def _data(report: Report, known: Known | None) -> dict[str, Any]:
         "checks": [texts.number(check) for check in report.checks],
         "cells": [rows.cell(cell) for cell in report.table.values() if cell.results],
         "histories": rows.histories,
+        "matrices": rows.matrices,
         "causes": _causes(explanations, texts),
         "known": known is not None,
         "grave": bool(report.counts["differs"] or report.counts["error"]),
@@ -100,6 +103,8 @@ class _Rows:
         self._engines = {name: i for i, name in enumerate(report.engines)}
         self._checks = {name: i for i, name in enumerate(report.checks)}
         self.histories: list[dict[str, Any]] = []
+        self.matrices: list[dict[str, Any]] = []
+        self._with_matrix = _with_matrix(report)
         self._frames = 0
 
     def cell(self, cell: TableCell) -> list[Any]:
@@ -130,6 +135,7 @@ class _Rows:
             known if result.outcome == "differs" else -1,
             self._details(result),
             self._history(result),
+            self._matrix(result),
         ]
         while row[-1] in (-1, []):
             row.pop()
@@ -139,9 +145,21 @@ class _Rows:
         return -1 if value is None else self._texts.number(f"{figure(value)} {unit}".rstrip())
 
     def _details(self, result: Result) -> list[int]:
-        shown = [(key, value) for key, value in result.details.items() if key not in (HISTORY, MOTION)]
+        shown = [(key, value) for key, value in result.details.items() if key not in (HISTORY, MOTION, ENTRIES)]
         pairs = ((self._texts.number(key), self._texts.number(_detail(value))) for key, value in shown if key)
         return [number for pair in pairs for number in pair]
+
+    def _matrix(self, result: Result) -> int:
+        entries = self._with_matrix.get(id(result))
+        if entries is None:
+            return -1
+        names = {
+            "state": self._texts.number(entries.state),
+            "rows": [self._texts.number(name) for name in entries.rows],
+            "columns": [self._texts.number(name) for name in entries.columns],
+        }
+        self.matrices.append(msgspec.structs.asdict(entries) | names)
+        return len(self.matrices) - 1
 
     def _history(self, result: Result) -> int:
         found = errors_over_time(result)
@@ -153,6 +171,18 @@ class _Rows:
         shown = motion if self._frames <= MOST_FRAMES else None
         self.histories.append({"errors": found, "motion": shown})
         return len(self.histories) - 1
+
+
+def _with_matrix(report: Report) -> dict[int, Entries]:
+    """The matrices that the page has room for, by their results: of those that differ first."""
+    found: dict[int, Entries] = {}
+    left = MOST_ENTRIES
+    for result in sorted(report.results, key=lambda result: WORDS.index(word(result))):
+        entries = entries_in(result.details)
+        left -= 3 * len(entries.rows) * len(entries.columns) if entries else 0
+        if entries and left >= 0:
+            found[id(result)] = entries
+    return found
 
 
 def errors_over_time(result: Result) -> list[list[float | None]]:

@@ -6,8 +6,6 @@ page without JavaScript, and on paper. All else is data, from which the page's o
 
 from __future__ import annotations
 
-import base64
-import hashlib
 from collections import Counter
 from functools import cache
 
@@ -16,7 +14,7 @@ from ..known import Known
 from ..report import Report, group_line, worst_rounding
 from ..words import GLYPHS, LEGEND, WORDS, Word, figure, outcome_of, package_of, word
 from .check_data import page_data
-from .rendering import TEMPLATES, environment, render
+from .rendering import TEMPLATES, digest, environment, render
 
 PAGE = "report.html.j2"
 PARTS = ("facts", "causes", "by_engine", "reasons", "browse", "loose")  # it includes these
@@ -24,14 +22,15 @@ MOST_LISTED = 40  # lines of a list in the markup; the table has all results
 SCRIPTS = ("formula.js", "check.js")
 # Where there is something to plot: uPlot, with its licence, and what draws with it.
 PLOTTING = ("uplot/uPlot.js", "motion.js")
+HEAT = "heat.js"  # where there are matrices
 
 
 def to_html(report: Report, known: Known | None = None) -> str:
     """The whole page as text; nothing from the stream is markup. ``known``: its known differences."""
     from markupsafe import Markup
 
-    data, plotted = page_data(report, known)
-    script = _script(plotted)
+    data, plotted, mapped = page_data(report, known)
+    script = _script(plotted, mapped)
     return render(
         PAGE,
         ("style.css", *(("uplot/uPlot.css",) if plotted else ()), "check.css"),
@@ -47,7 +46,7 @@ def to_html(report: Report, known: Known | None = None) -> str:
         most=MOST_LISTED,
         data=Markup(data),
         script=Markup(script),
-        script_digest=_digest(script),
+        script_digest=digest(script),
     )
 
 
@@ -58,17 +57,13 @@ def load_templates() -> None:
 
 
 @cache
-def _script(plotted: bool) -> str:
-    parts = [(TEMPLATES / name).read_text(encoding="utf-8") for name in (*(PLOTTING if plotted else ()), *SCRIPTS)]
+def _script(plotted: bool, mapped: bool) -> str:
+    names = (*(PLOTTING if plotted else ()), *((HEAT,) if mapped else ()), *SCRIPTS)
+    parts = [(TEMPLATES / name).read_text(encoding="utf-8") for name in names]
     if plotted:
         licence = (TEMPLATES / "uplot" / "LICENSE.txt").read_text(encoding="utf-8")
         parts.insert(0, f"/* uPlot, which draws the plots of this page:\n\n{licence}*/")
     return "\n".join(parts)
-
-
-def _digest(script: str) -> str:
-    """What the page's policy names: a browser runs this script and no other."""
-    return base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
 
 
 def _by_engine(report: Report) -> list[tuple[str, str, Counter[Word], str]]:

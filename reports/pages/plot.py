@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -35,7 +36,8 @@ SMALL = Frame(520, 300, left=62, right=500, top=12, bottom=256, decades=8)
 class Series:
     """A line through points (x, y, what a mark says when pointed at).
 
-    ``colour`` and ``mark`` are numbers below :data:`KINDS`; no marks are drawn where ``mark`` is None.
+    ``colour`` and ``mark`` are numbers below :data:`KINDS`; no marks are drawn where ``mark`` is None. ``group``: what
+    it is shown and hidden with, as its engine; empty for itself alone.
     """
 
     name: str
@@ -43,6 +45,7 @@ class Series:
     colour: int
     mark: int | None = None
     dashed: bool = False
+    group: str = ""
 
 
 @dataclass(frozen=True)
@@ -56,7 +59,8 @@ class Line:
 
 @dataclass(frozen=True)
 class Plot:
-    """``front``: the path of a staircase below which nothing was measured; empty for none."""
+    """``front``: the path of a staircase below which nothing was measured; empty for none. ``across``, ``up``: the
+    axes as the page's script reads them: low, high, start, stop, whether logarithmic."""
 
     title: str
     x_label: str
@@ -66,6 +70,8 @@ class Plot:
     y_ticks: tuple[Tick, ...]
     lines: tuple[Line, ...]
     front: str
+    across: str
+    up: str
 
 
 def draw(
@@ -101,7 +107,13 @@ def draw(
         up.ticks(frame.decades if log_y else LINEAR_TICKS),
         tuple(_line(one, points, across, up) for one, points in kept),
         path(_stairs(front, across, up)),
+        _axis(across),
+        _axis(up),
     )
+
+
+def _axis(axis: Axis) -> str:
+    return json.dumps([axis.low, axis.high, axis.start, axis.stop, axis.log])
 
 
 def _line(series: Series, points: Sequence[Point], across: Axis, up: Axis) -> Line:

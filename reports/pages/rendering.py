@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import hashlib
 from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
@@ -21,6 +23,25 @@ def render(template: str, styles: Sequence[str] = ("style.css",), **values: Any)
 
     style = "\n".join((TEMPLATES / name).read_text(encoding="utf-8") for name in styles)
     return environment().get_template(template).render(style=Markup(style), **values)
+
+
+def script(names: Sequence[str]) -> tuple[str, str]:
+    """The text of scripts, one after the other, and its digest as a page's policy names it: no other script runs."""
+    text = "\n".join((TEMPLATES / name).read_text(encoding="utf-8") for name in names)
+    return text, digest(text)
+
+
+def digest(text: str) -> str:
+    """What the page's policy names: a browser runs this script and no other."""
+    return base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+
+
+def render_with_plots(template: str, styles: Sequence[str] = ("style.css",), **values: Any) -> str:
+    """A page whose plots can be asked."""
+    from markupsafe import Markup
+
+    text, said = script(("plots.js",))
+    return render(template, styles, script=Markup(text), script_digest=said, **values)
 
 
 @cache

@@ -18,7 +18,7 @@ from ...records.stress import (
 )
 from .chain_page import chain_page
 from .plot import Plot, draw
-from .rendering import render
+from .rendering import render_with_plots
 from .series import to_series
 from .stability_map import Column, StabilityMap, draw_map
 
@@ -41,7 +41,7 @@ def stress_page(summary: StressSummary, header: Header) -> str:
     single = [f for f in summary.frontiers if not f.pair]
     pairs = [f for f in summary.frontiers if f.pair]
     engines = list(dict.fromkeys(f.engine for f in summary.frontiers))
-    return render(
+    return render_with_plots(
         "stress.html.j2",
         ("style.css", "stress.css"),
         summary=summary,

@@ -10,6 +10,7 @@ from typing import TextIO
 
 from ...records.bench import Bench, Motion, Reach, Sharpness, Skip, Speed
 from ..words import SAME, batch, duration, figure, link_words, multiple, speed_words
+from ..zigzags import zigzags
 from .console import PlainConsole
 
 
@@ -59,6 +60,8 @@ def _motion(motion: Motion, console: PlainConsole) -> None:
     console.line("* on the Pareto front; in brackets: the time as a multiple of furiko's", "dim")
     for reason, found in _reasons(motion).items():
         console.line(f"not reached by {'; '.join(found)}: {reason}", "dim")
+    for sentence in zigzags(motion):
+        console.line(f"turns back: {sentence}", "dim")
     for sentence in motion.left_out:
         console.line(f"left out: {sentence}", "dim")
     for cause in motion.causes:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, TextIO
 
@@ -35,8 +36,19 @@ class PlainConsole:
             self._plain = True
 
     def line(self, words: str = "", style: str = "") -> None:
-        """Print one line, however long: a terminal wraps it, a pipe gets one line to search for."""
-        self.rich.print(self.text(words, style), soft_wrap=True)
+        """Print one line. On a terminal a long one goes on below, further in; a pipe gets one line to search for."""
+        for part in self._wrapped(words) if self.rich.is_terminal else [words]:
+            self.rich.print(self.text(part, style), soft_wrap=True)
+
+    def _wrapped(self, words: str) -> list[str]:
+        """The line in as many as the terminal needs, broken between words; a word that is too long stays whole."""
+        found = []
+        for line in words.split("\n"):
+            further = " " * (len(line) - len(line.lstrip()) + 2)
+            found += textwrap.wrap(
+                line, self.rich.width, subsequent_indent=further, break_long_words=False, break_on_hyphens=False
+            ) or [""]
+        return found
 
     def text(self, words: str, style: str = "") -> Text:
         """Text for a cell of a table."""

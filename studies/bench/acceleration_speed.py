@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from ...engines import AnyShape, BareCall, cannot, engine_info, engine_version, load_engine
+from ...engines import AnyShape, BareCall, cannot, engine_info, load_engine, why_missing
 from ...models import NLegPendulum, RodChain
 from ...models.states import random_states
 from ...models.systems import DocumentSystem
@@ -115,7 +115,7 @@ def of_engines(system: DocumentSystem, engines: Sequence[str], batch: int) -> It
     """The most direct calls of the installed engines that take the system, each in all its lighter contexts."""
     for name in engines:
         info = engine_info(name)
-        if (info.package and not engine_version(name)) or cannot(info, system):
+        if why_missing(name) or cannot(info, system):
             continue
         engine = load_engine(name, system)
         for says, bare in _direct_calls(engine, system, batch):

@@ -11,9 +11,9 @@ from functools import cache, partial
 import numpy as np
 from numpy.typing import NDArray
 
-from ...engines import AnyShape, EngineInfo, Integrator, Native, cannot, engine_info, engine_version, load_engine
+from ...engines import AnyShape, EngineInfo, Integrator, Native, cannot, engine_info, load_engine, why_missing
 from ...models import InvalidInput, Scene
-from ...models.errors import installing, library
+from ...models.errors import library
 from ...reference.truth.end_points import lookup
 from ...reference.truth.quadruple import QuadrupleTrajectory
 
@@ -72,9 +72,7 @@ def methods(scene: Scene, engines: Sequence[str]) -> tuple[list[Method], list[st
 
 def why_not(info: EngineInfo, scene: Scene) -> str:
     """The reason why an engine is left out; empty where it is not."""
-    if info.package and not engine_version(info.name):
-        return f"not installed: {installing(info.package)}"
-    return cannot(info, scene.system) or ""
+    return why_missing(info.name) or cannot(info, scene.system) or ""
 
 
 def start(scene: Scene) -> tuple[Array, Array]:

@@ -117,7 +117,7 @@ def test_results_do_not_depend_on_the_number_of_workers():
 def test_a_missing_engine_is_skipped_unless_it_was_asked_for(monkeypatch):
     from furiko.checks import plan
 
-    monkeypatch.setattr(plan, "engine_version", lambda name: "" if name == "mujoco" else "1.0")
+    monkeypatch.setattr("furiko.engines.registry.engine_version", lambda name: "" if name == "mujoco" else "9")
     skipped = plan.make_plan(["rods-1"], None, "smoke").settled
     assert [(r.engine, r.outcome) for r in skipped] == [("mujoco", "skipped")]
     assert "pip install 'furiko[mujoco]'" in skipped[0].reason

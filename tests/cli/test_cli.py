@@ -266,7 +266,7 @@ def test_help_is_printed(tmp_path, arguments):
 
 def test_every_file_of_a_command_is_listed():
     files = {path.stem for path in (Path(furiko.__file__).parent / "cli").glob("*.py")}
-    files -= {"__init__", "main", "options", "output", "progress", "process", "failures"}
+    files -= {"__init__", "main", "options", "output", "progress", "process", "failures", "remaining"}
     assert {name.replace("_", "-") for name in files} == set(COMMANDS)
 
 

@@ -44,7 +44,10 @@ ROOMS = {
             ("chain",),
         ],
     ),
-    "engines": ({"models", "records"}, [("workers",), (".",), ("model_files",), ("trees",)]),
+    "engines": (
+        {"models", "records"},
+        [("workers",), ("info", "protocol", "releases"), ("places",), (".",), ("model_files",), ("trees",)],
+    ),
     "diagnosis": (
         {"models", "records", "reference", "engines"},
         [("finding", "explanation", "measurement", "question"), ("fits",), (".",), ("model_files",)],
@@ -55,7 +58,7 @@ ROOMS = {
     ),
     "studies": (
         {"models", "records", "reference", "engines", "diagnosis", "checks"},
-        [(".",), ("bench", "stress")],
+        [(".",), ("bench", "stress", "versions")],
     ),
     "derivations": (
         {"models", "reference"},

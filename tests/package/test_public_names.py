@@ -14,7 +14,7 @@ SOURCE = ast.parse(Path(furiko.__file__).read_text(encoding="utf-8"))
 def typed():
     """Names and modules that a type checker sees."""
     (block,) = (node for node in SOURCE.body if isinstance(node, ast.If))
-    return {name.name: node.module for node in block.body for name in node.names}
+    return {name.name: node.module for node in block.body if node.level for name in node.names}
 
 
 def test_one_list_three_times():

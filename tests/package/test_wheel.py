@@ -14,7 +14,8 @@ ALONE = (
     "CHANGELOG.md", "CONTRIBUTING.md", "CITATION.cff", "CODE_OF_CONDUCT.md", "SECURITY.md",
     "action.yml", ".pre-commit-hooks.yaml", "Containerfile", ".containerignore",
 )  # fmt: skip
-DATA = {".toml", ".json", ".j2", ".css", ".js", ".html", ".txt", ".yml", ".typed"}  # what the code reads at run time
+# What the code reads at run time.
+DATA = {".toml", ".json", ".j2", ".css", ".js", ".html", ".txt", ".yml", ".typed", ".xml", ".urdf"}
 
 
 def links():

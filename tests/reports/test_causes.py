@@ -85,13 +85,13 @@ def test_causes_that_hold_together_are_apart_from_alternatives(make):
     (entry,) = together.causes.explanations
     assert entry.headline == "mujoco: gravity and mass, both together: explains 4 of 4 differences in 1 scene"
     assert entry.lines == [
-        "gravity: gravity is 9.8 m/s², asked for 9.81",
-        "mass: mass of link 1 is 1.25, asked for 1.0 kg",
+        "gravity is 9.8 m/s², asked for 9.81",
+        "mass of link 1 is 1.25, asked for 1.0 kg",
     ]
     either = run(make, [diagnosis(alternatives=[GRAVITY, mass(1, 1.25)])])
     (entry,) = either.causes.explanations
     assert "one of 2 causes; the measurements cannot tell which" in entry.headline
-    assert [line.split(":")[0] for line in entry.lines] == ["either gravity", "or mass"]
+    assert [line.split(" is ")[0] for line in entry.lines] == ["either gravity", "or mass of link 1"]
     both = run(make, [diagnosis(findings=[GRAVITY], alternatives=[mass(1, 1.25), mass(2, 1.5)])])
     assert len(both.causes.explanations[0].lines) == 3
     for report in (together, either, both):
@@ -113,8 +113,8 @@ def test_different_values_are_said_place_by_place(make):
     (entry,) = report.causes.explanations
     assert "mass, at several places" in entry.headline
     assert [line.split(", ")[0] for line in entry.lines] == [
-        "mass: mass of link 1 is 1.25",
-        "mass: mass of link 2 is 1.5",
+        "mass of link 1 is 1.25",
+        "mass of link 2 is 1.5",
     ]
 
 

@@ -99,7 +99,8 @@ def test_a_failure_carries_its_whole_diagnosis(make):
     root = parsed(Report(whole.header, whole.results, whole.footer, (found,)))
     failure = root.find("testsuite/testcase/failure")
     assert failure.get("type") == "mass"
-    assert "either mass: mass of link 1 is 2" in failure.text
+    assert "either mass of link 1 is 2" in failure.text
+    assert failure.get("message").startswith("either mass of link 1 is 2; ")
 
 
 @settings(deadline=None, max_examples=60)

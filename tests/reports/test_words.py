@@ -23,6 +23,9 @@ from furiko.reports.words import figure, last_line, one_line, printable
         (-2.5e9, "-2.5e9"),
         (5e-324, "4.9e-324"),
         (None, "–"),
+        (float("inf"), "∞"),
+        (float("-inf"), "−∞"),
+        (float("nan"), "NaN"),
     ],
 )
 def test_figures(value, text):

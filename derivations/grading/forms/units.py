@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from ...algebra.notation import SUPERSCRIPTS, pretty, text
+from ...algebra.signs import signs_in
 from ...algebra.trig import Formula, Space, digits
 from ...algebra.trig import unit as unit_at
 from ...reading.submission import Submission
@@ -103,6 +104,7 @@ def _known(s: Submission) -> dict[int, Units]:
             at = s.first_order.at
             momentum = (1, 1, -1) if slide else (1, 2, -1)
             known |= {at.momenta[k]: momentum, at.slopes[k]: _times(momentum, (0, 0, -1))}
+    known |= dict.fromkeys(signs_in(space), NONE)
     if s.mechanism is None:
         for k in range(n):
             known |= {space.names.index(f"I{k + 1}"): (1, 2, 0), space.names.index(f"lc{k + 1}"): LENGTH}
@@ -131,7 +133,8 @@ def _own(space: Space, mechanism: Declared, known: dict[int, Units]) -> dict[int
 def _fields(body: Joined) -> list[tuple[Formula, Units]]:
     force = (1, 1, -2) if body.slide is not None else (1, 2, -2)
     own = LENGTH if body.slide is not None else NONE
-    fields = [(body.mass, MASS), (body.length, LENGTH), (body.centre, LENGTH), (body.inertia, (1, 2, 0)),
+    fields = [(body.friction, force),
+              (body.mass, MASS), (body.length, LENGTH), (body.centre, LENGTH), (body.inertia, (1, 2, 0)),
               (body.stiffness, _times(force, own, -1)), (body.rest, own), (body.drive, force),
               (body.damping, _times(force, _times(own, (0, 0, -1)), -1))]  # fmt: skip
     return fields if body.at is None else [*fields, (body.at, LENGTH)]

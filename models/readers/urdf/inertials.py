@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -74,6 +75,8 @@ class Inertials:
         if _impossible(found):
             self._notes.add(_why(found), given)
         pose = placement(given).pose
+        if self._rules.inertial_rotation_lost:
+            pose = replace(pose, rotation=np.eye(3))
         self.tensors[link] = (Inertial(mass, pose.translation, tensor), pose.rotation)
         return found.transformed(pose)
 

@@ -38,10 +38,10 @@
   }));
 
   for (const [scene, engine, word, said, share, rows] of data.cells) {
-    const results = rows.map(([check, outcome, measured, allowed, of, line, reason, cause, explanation, known, details, history]) => ({
+    const results = rows.map(([check, outcome, measured, allowed, of, line, reason, cause, explanation, known, details, history, matrix]) => ({
       check, word: outcome, measured: text(measured), allowed: text(allowed), share: of, line: text(line ?? -1),
       reason: text(reason ?? -1), cause: text(cause ?? -1), explanation: explanation ?? -1, known: known ?? -1,
-      details: details ?? [], history: history ?? -1,
+      details: details ?? [], history: history ?? -1, matrix: matrix ?? -1,
     }));
     scenes[scene].cells[engine] = { scene, engine, word, said: text(said), share, results };
   }
@@ -188,8 +188,14 @@
     if (result.reason) parts.push(result.reason.includes("\n") ? make("pre", {}, result.reason) : make("p", {}, result.reason));
     if (result.line) parts.push(make("p", { class: "faint" }, `rounding gives at most ${result.line} in this state`));
     if (result.history >= 0) parts.push(folded("errors over time, and the motion", () => furikoMotion(data.histories[result.history], make, svg), result.word === 0));
+    if (result.matrix >= 0) parts.push(folded("the matrix, entry by entry", () => furikoHeat(text(data.checks[result.check]).split(" ").at(-1), matrixOf(result.matrix), make), result.word === 0));
     if (result.details.length) parts.push(folded("state and further figures", () => figures(result)));
     return parts;
+  }
+
+  function matrixOf(number) {
+    const map = data.matrices[number];
+    return { ...map, state: text(map.state), rows: map.rows.map(text), columns: map.columns.map(text) };
   }
 
   function resultRows(result) {

@@ -2,6 +2,8 @@
 
 import pytest
 
+from furiko.records.entries import entries_in
+
 
 def outcomes(results):
     return {check: result.outcome for check, result in results.items()}
@@ -62,6 +64,21 @@ def test_a_bad_answer_is_an_error_of_its_own_check(run_cell, engine, says):
     asking = ("accelerations", "symmetry", "step map")
     others = {check: outcome for check, outcome in outcomes(results).items() if not check.startswith(asking)}
     assert set(others.values()) == {"agrees"}
+
+
+def test_a_matrix_is_told_entry_by_entry(run_cell):
+    """The fake engine adds 1e-10 to the torque of angle 2 for a unit acceleration of angle 1."""
+    found = entries_in(run_cell("fake_engines:HeavyEntry", "n-leg-3")["terms M"].details)
+    assert [[round(value * 1e10, 3) for value in row] for row in found.error] == [
+        [0, 0, 0, 0],
+        [1, 0, 0, 0],
+        *[[0] * 4] * 2,
+    ]
+    tree = entries_in(run_cell("fake_tree_engines:WrongMass", "cart-pole")["terms M"].details)
+    assert tree.rows == ["track", "pivot"]
+    assert tree.error[1][1] == pytest.approx(1e-9 * tree.theory[1][1], rel=1e-2)  # the error has three digits
+    assert tree.roundings[1][1] > tree.allowed
+    assert (tree.error[0][0], tree.error[0][1]) == (0, 0)
 
 
 def test_a_trajectory_is_not_run_where_accelerations_differ(run_cell):

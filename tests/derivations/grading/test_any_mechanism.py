@@ -41,6 +41,62 @@ def test_a_mistake_is_named_as_it_was_made(name, changes, cause):
     assert [mistake.cause for mistake in found.mistakes] == [cause]
 
 
+CART = """
+system = "mechanism"
+[[bodies]]
+name = "cart"
+coordinate = "x"
+joint = "slide"
+mass = "M"
+[[bodies]]
+name = "rod"
+coordinate = "theta"
+length = "l"
+centre = "c"
+mass = "m"
+inertia = "I"
+[equations]
+1 = "(M + m) x'' + m c theta'' cos(theta) - m c theta'^2 sin(theta) = 0"
+2 = "(I + m c^2) theta'' + m c x'' cos(theta) + m g c sin(theta) = 0"
+"""
+
+
+@pytest.mark.parametrize(
+    ("changes", "causes"),
+    [
+        ({"(I + m c^2)": "(2 I + m c^2)", "+ m g c sin(theta)": "- m g c sin(theta)"},  # ½ of ½ I ω², and U's sign
+         ["inertia-half-missing", "potential-energy-sign"]),
+        ({"- m c theta'^2 sin(theta)": "", "(I + m c^2)": "m c^2"}, ["inertia-missing", "velocity-terms-forgotten"]),
+        # ½ forgotten in the rod's T of its centre, and what follows in row 1 lacks its velocity term
+        ({"(M + m) x'' + m c theta'' cos(theta) - m c theta'^2 sin(theta)": "(M + 2 m) x'' + 2 m c theta'' cos(theta)",
+          "(I + m c^2) theta'' + m c x''": "(I + 2 m c^2) theta'' + 2 m c x''"},
+         ["half-missing", "velocity-terms-forgotten"]),
+    ],
+)  # fmt: skip
+def test_two_mistakes_are_both_named(changes, causes):
+    text = CART
+    for right, wrong in changes.items():
+        assert right in text
+        text = text.replace(right, wrong)
+    found = grade_text(text)
+    assert sorted(mistake.cause for mistake in found.mistakes) == causes
+
+
+def test_of_two_wrong_energies_both_are_named():
+    head, _, _ = CART.partition("[equations]")
+    kinetic = "kinetic = \"M x'^2/2 + m/2 (x'^2 + 2 c x' theta' cos(theta) + c^2 theta'^2) + I theta'^2\""
+    potential = 'potential = "m g c cos(theta)"'
+    lines = head.split("[[bodies]]", 1)
+    found = grade_text("\n".join([lines[0], kinetic, potential, "[[bodies]]" + lines[1]]))
+    assert [mistake.cause for mistake in found.mistakes] == ["inertia-half-missing", "potential-energy-sign"]
+
+
+def test_a_height_that_alone_is_wrong_is_named_before_the_position():
+    # y = -c sin θ in U, where T does not tell x and y apart: less is wrong if the height is
+    found = grade_text(CART.replace("m g c sin(theta)", "m g c cos(theta)").replace("M + m", "m + M"))
+    assert found.mistakes[0].cause == "height-sine"
+
+
 @pytest.mark.parametrize(
     ("text", "says"),
     [
@@ -63,7 +119,12 @@ def test_degrees_are_named(factor):
 
 @pytest.mark.parametrize(
     ("term", "says"),
-    [("g*sin(t1*pi/180)", "radians"), ("m*g*sgn(w1)", "dry friction"), ("\\operatorname{sgn}(w1)", "drive =")],
+    [
+        ("g*sin(t1*pi/180)", "radians"),
+        ("m*g*sgn(w1)", "dry friction"),
+        ("\\operatorname{sgn}(w1)", "friction ="),
+        ("m*g*tanh(w1)", "smoothed"),
+    ],
 )
 def test_what_is_not_read_says_what_to_write(term, says):
     with pytest.raises(InvalidInput, match=says):

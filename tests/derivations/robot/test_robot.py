@@ -3,10 +3,11 @@
 
 import numpy as np
 import pytest
+from flint import arb
 
 from furiko.derivations.robot.plane import plane_of
 from furiko.derivations.robot.reading import read_robot
-from furiko.derivations.robot.rows import alignment, true_terms
+from furiko.derivations.robot.rows import _factor, alignment, true_terms
 from furiko.derivations.robot.why import reasons
 from furiko.models import InvalidInput
 from furiko.models.scene import scene_from_toml
@@ -334,6 +335,7 @@ REFUSED = [
     (cart_pole("", UPRIGHT[: UPRIGHT.index("2 =")]), "equations: 1 row for 2 joints; one for each joint is needed"),
     (cart_pole("", UPRIGHT.replace("x'' +", "x''*theta'' +")), "accelerations are multiplied by one another"),
     (cart_pole("", UPRIGHT.replace("M = 1.1", '"M-1" = 1.1')), "symbols.M-1: a letter or a word, with an index"),
+    (cart_pole("", UPRIGHT.replace("m = 0.3", "m = 0.3\nm_1 = 0.3\nm1 = 0.4")), "symbols.m1: m_1 and m1 are one symbol"),
     (cart_pole("", UPRIGHT.replace("M = 1.1", '"" = 1.1')), "symbols.: a letter or a word, with an index"),
     (cart_pole("", UPRIGHT.replace("M = 1.1", "M = nan")), "symbols.M: the name of a joint, or a finite number"),
     (cart_pole('lagrangian = "x"\n', UPRIGHT), "lagrangian: equations is given already"),
@@ -351,3 +353,129 @@ def test_what_cannot_be_taken_as_meant_is_refused_with_its_place(text, says):
     with pytest.raises(InvalidInput) as refused:
         read(text)[0].motion()
     assert says in str(refused.value)
+
+
+def test_dry_friction_in_the_equations_is_said_to_be_theirs_alone():
+    with_friction = UPRIGHT.replace("(theta) = 0", "(theta) + F*sgn(x') = 0", 1).replace("l = 0.7", "l = 0.7\nF = 0.25")
+    d, system, true = read(cart_pole("", with_friction))
+    (found,) = reasons(d, system, true)
+    assert found.in_model
+    assert found.cause == "dry-friction"
+    # The cart is pushed against its motion by 0.25 N: M(θ) (s̈ - s̈ without friction) = (-0.25 sgn ẋ, 0)
+    change = d.motion().accelerations(true.q, true.v) - true.accelerations
+    pushed = np.einsum("bij,bj->bi", true.mass_matrix, change)
+    assert np.abs(pushed - np.stack([-0.25 * np.sign(true.v[:, 0]), 0 * true.v[:, 0]], axis=1)).max() <= 1e-12  # ~ 4 N
+    d, system, true = read(cart_pole("", with_friction.replace("- m*l*theta'^2", "+ m*l*theta'^2", 1)))
+    assert [r.cause for r in reasons(d, system, true)] == ["dry-friction", "sign"]
+
+
+def test_dry_friction_in_a_function_is_followed():
+    function = FUNCTION.replace("dth ** 2 * s", "dth ** 2 * s - 0.25 * np.sign(dx)")
+    d, system, true = read(cart_pole(function, ""))
+    assert [r.cause for r in reasons(d, system, true)] == ["dry-friction"]
+
+
+# The arm's rows in its relative angles, summed over the masses by loops: v_b = Σ_k≤b l_k q̇-sum_k (cos, sin)
+LOOPS = """
+angles = "relative"
+from = "down"
+function = '''
+import numpy as np
+
+def arm(q, v):
+    m, l = [1.5, 0.5], np.array([0.7, 0.4])
+    angle = [sum(q[k] for k in range(j + 1)) for j in range(2)]
+    rate = []
+    for j in range(2):
+        rate.append(sum(v[: j + 1]))
+    # rows of the absolute angles; what i and j both carry hangs on the larger of them, (i + j + 1)//2 of 0 and 1
+    A, b = np.zeros((2, 2)), [0.0] * 2
+    for i in range(len(m)):
+        for j in range(len(m)):
+            carried = sum(m[k] for k in range((i + j + 1) // 2, 2))
+            A[i, j] += carried * l[i] * l[j] * np.cos(angle[i] - angle[j])
+            b[i] -= carried * l[i] * l[j] * np.sin(angle[i] - angle[j]) * rate[j] ** 2
+        for k in range(i, 2):
+            b[i] -= m[k] * g * l[i] * np.sin(angle[i])
+    det = A[0][0] * A[1][1] - A[0][1] * A[1][0]
+    first = (A[1][1] * b[0] - A[0][1] * b[1]) / det
+    second = (A[0][0] * b[1] - A[1][0] * b[0]) / det
+    return [first, second - first]
+'''
+"""
+
+
+def test_loops_in_a_function_are_followed():
+    d, _, true = read(LOOPS + ARM)
+    got = d.motion().accelerations(true.q, true.v)
+    assert np.abs(got - true.accelerations).max() <= 1e-14 * np.abs(true.accelerations).max()  # as above
+
+
+@pytest.mark.parametrize(
+    ("there", "other", "says"),
+    [
+        ("for k in range(i, 2):", "while True:", "how often a while loop runs"),
+        ("for k in range(i, 2):", "for k in range(10**9):", "bounds of this range are not known"),
+        ("for k in range(i, 2):", "for k in range(q[0]):", "bounds of this range are not known"),
+        ("for k in range(i, 2):", "for k in range(1999):\n          for n in range(1999):", "more than 2000 steps"),
+        ("A[i, j] +=", "q[i] +=", "only those of lists that the function makes"),
+        ("A[i, j] +=", "A[i, 5] =", "only those of lists"),
+        ("for j in range(2)]", "for j in range(2) if j]", "a condition in a list"),
+        ("det = A", "if det: det = A", "line 18: If: assignments, loops"),
+    ],
+)  # fmt: skip
+def test_loops_that_cannot_be_followed_are_refused(there, other, says):
+    assert there in LOOPS
+    with pytest.raises(InvalidInput, match=says):
+        read(LOOPS.replace(there, other, 1) + ARM)
+
+
+def numbers(rows):
+    """Rows whose terms are given as numbers in 3 states: (B, row, terms) of 2 accelerations and 3 parts."""
+    return np.array(rows, dtype=float).transpose(2, 0, 1)
+
+
+def test_a_row_belongs_to_a_joint_only_with_half_of_its_terms():
+    # Joint 1's row has 4 terms: factor 2 is borne out by 2 of them, which is half, and by 1, which is less than half.
+    term = np.array([1.0, -0.4, 2.5])
+    right = [[term, 2 * term, 3 * term, 4 * term, 0 * term]]
+    half = [[2 * term, 4 * term, term, -term, 0 * term]]
+    fewer = [[2 * term, 5 * term, term, -term, 0 * term]]
+    votes, found = _factor(numbers(half)[:, 0], numbers(right)[:, 0])
+    assert (votes, found) == (2, 0.5)
+    assert _factor(numbers(fewer)[:, 0], numbers(right)[:, 0]) == (0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("terms", "paired"),
+    [
+        ("m*l*theta'^2*sin(theta)", True),  # one of three terms of row 1 is wrong: two bear the factor out
+        ("2*m*l*theta''*cos(theta) - 2*m*l*theta'^2*sin(theta)", False),  # 1, 3 and 2 times the right ones
+    ],
+)
+def test_wrong_rows_are_told_apart_by_the_terms_that_agree(terms, paired):
+    text = UPRIGHT.replace("- m*l*theta'^2*sin(theta) = 0", f"+ {terms} = 0", 1)
+    d, _, true = read(cart_pole("", text))
+    assert (alignment(d.motion(), true) is not None) == paired
+
+
+@pytest.mark.parametrize("ref", [0.0, 0.3, -1.2])
+def test_a_joints_ref_is_where_its_coordinate_starts(ref):
+    # MuJoCo: q is ref in the configuration that the file draws. The arm drawn straight down has absolute angle
+    # 2 = angle 1 - (q2 - ref), the elbow turning the other way round (axis +y).
+    text = 'angles = "absolute"\n' + ARM.replace("ref = 0.3", f"ref = {ref}") + ABSOLUTE
+    d, _, true = read(text)
+    got = d.motion().accelerations(true.q, true.v)
+    assert np.abs(got - true.accelerations).max() <= 1e-14 * np.abs(true.accelerations).max()  # as above
+    q1, q2 = true.q[:, 0], true.q[:, 1]
+    angles = np.array([[float(x) for x in d.coordinates.positions([arb(x) for x in state])] for state in true.q])
+    assert np.abs(angles - np.stack([q1, q1 - (q2 - ref)], axis=1)).max() <= 4e-15  # some roundings of numbers below 10
+
+
+def test_a_ref_is_in_the_graded_mechanism_too():
+    # of a wrong row the grader says the term in the author's letters, whatever the elbow's ref
+    wrong = ABSOLUTE.replace(r"+ g\sin", r"- g\sin")
+    assert wrong != ABSOLUTE
+    for ref in ("0.3", "0.0", "-1.2"):
+        d, system, true = read('angles = "absolute"\n' + ARM.replace("ref = 0.3", f"ref = {ref}") + wrong)
+        assert [r.says for r in reasons(d, system, true)] == ["Row 2, the term with sin(theta2): the sign is wrong."]

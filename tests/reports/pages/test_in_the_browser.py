@@ -8,6 +8,7 @@ from browser import CHROMIUM, Browser
 from hostile_pages import HOSTILE, everywhere
 
 from furiko.records.check import Diagnosis
+from furiko.records.entries import to_entries
 from furiko.records.findings import Difference
 from furiko.reports.known import Entry, known_in
 from furiko.reports.pages.check_page import to_html
@@ -204,6 +205,46 @@ def test_a_motion_plays_and_its_errors_are_said_at_every_time(make, page):
     shown.run(f"{button}.click(); " + UNTIL.format(f"{button}.textContent === 'Play'"))
     assert shown.run("document.querySelector('.player output').textContent").startswith("0.50 s")
     assert shown.run("document.querySelector('.player button').textContent") == "Play"
+
+
+def heat_map(make):
+    """A mass matrix with one entry that is off by 1e-10, an ε being 1e-16 of it."""
+    entries = to_entries(
+        "random 7", ["1", "2"], ["1", "2"], [[2.0, 0.5], [0.5, 1.0]], [[0.0, 1e-17], [1e-10, 0.0]],
+        [[0.0, 0.05], [1e6, 0.0]], 50.0,
+    )  # fmt: skip
+    return make.report(make.result("differs", check="terms M", details=entries), make.result(engine="exudyn-tree"))
+
+
+def test_a_matrix_is_a_heat_map_that_says_every_entry(make, page):
+    shown = page(heat_map(make), fragment="#0-0")
+    cells = "[...document.querySelectorAll('.heat tbody td')]"
+    assert shown.run(f"{cells}.map((e) => e.className)") == ["h0", "h1", "h3", "h0"]
+    assert shown.run(f"{cells}.map((e) => e.textContent)") == ["0", "2.0e-17", "2.0e-10", "0"]
+    said = "document.querySelector('.entry').textContent"
+    worst = "M[2, 1]: engine 0.5, theory 0.5: off by 1.0e-10, 2.0e-10 of the entry; 1.0e6 ε, rounding explains 50 ε"
+    assert shown.run(said) == worst
+    shown.run(f"{cells}[2].focus()")
+    shown.key("ArrowUp")
+    assert shown.run(said).startswith("M[1, 1]: engine 2, theory 2: no error")
+    shown.key("ArrowRight")
+    assert shown.run(f"document.activeElement === {cells}[1]")
+    shown.run(f"{cells}[2].click()")  # a finger
+    assert shown.run(said) == worst
+    way = "document.querySelector('.heat').closest('details').querySelector('select')"
+    shown.run(f"{{ const s = {way}; s.value = 'roundings'; s.dispatchEvent(new Event('input')) }}")
+    assert shown.run(f"{cells}.map((e) => e.textContent)") == ["0", "0.05", "1.0e6", "0"]
+
+
+@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
+@pytest.mark.parametrize("width", [1400, 390])
+def test_a_heat_map_fits_and_can_be_read(make, page, width, dark):
+    shown = page(heat_map(make))
+    shown.view(width, 844, dark=dark)
+    go(shown, "0-0")
+    assert shown.run("document.getElementById('evidence').scrollWidth") <= width
+    assert shown.run(LOW_CONTRAST) == []
+    assert shown.run(NAMELESS) == []
 
 
 def test_known_differences_are_marked_and_can_be_left_out(make, page):

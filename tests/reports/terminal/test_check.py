@@ -7,6 +7,7 @@ import pytest
 
 from furiko.reports.report import Report
 from furiko.reports.terminal.check import print_report
+from furiko.reports.terminal.console import PlainConsole
 
 
 def printed(report, width=None, encoding="utf-8", path=None) -> str:
@@ -141,3 +142,17 @@ def test_loose_results_have_their_own_mark_and_say_measured_line_and_why(make):
     assert "  ≈ rods-2 × mujoco, accelerations: 50 ε, rounding gives at most 4 ε: Monte-Carlo rounding of M\n" in text
     assert "1 of 2 comparisons is loose; 1 agrees." in text
     assert "~ loose 50 eps" in printed(make.report(make.result("loose")), encoding="ascii")
+
+
+def test_on_a_terminal_a_long_line_goes_on_below_and_in_a_pipe_it_is_one():
+    class Terminal(io.StringIO):
+        def isatty(self):
+            return True
+
+    words = "\n  ✗ mujoco: length of link 1: found 1.01, expected 1"
+    screen, pipe = Terminal(), io.StringIO()
+    PlainConsole(screen, 30).line(words)
+    PlainConsole(pipe, 30).line(words)
+    lines = [line.rstrip() for line in re.sub(r"\x1b\[[0-9;]*m", "", screen.getvalue()).splitlines()]
+    assert lines == ["", "  ✗ mujoco: length of link 1:", "    found 1.01, expected 1"]
+    assert pipe.getvalue() == f"{words}\n"

@@ -328,7 +328,7 @@ def test_json_and_page_and_table_tell_the_same(found, tmp_path, capsys):
     assert html == to_html(again)
     assert html.count('<figure class="chart"') == 1 + 2
     assert "http" not in html.replace("http-equiv", "")
-    assert "<script" not in html
+    assert html.count("<script") == 1  # its own
     assert "NaN" not in html
     print_bench(found, page)
     printed = capsys.readouterr().out
@@ -352,7 +352,7 @@ def test_what_comes_from_a_scene_is_escaped(found):
     (motion,) = found.motions
     nasty = msgspec.structs.replace(motion, scene="<script>alert(1)</script>")
     html = to_html(msgspec.structs.replace(found, motions=[nasty]))
-    assert "<script" not in html
+    assert html.count("<script") == 1  # its own
 
 
 def test_a_scene_without_motion_is_refused(tmp_path):
@@ -363,7 +363,7 @@ def test_a_scene_without_motion_is_refused(tmp_path):
 
 
 def test_an_engine_that_is_asked_for_must_be_there(monkeypatch):
-    monkeypatch.setattr("furiko.bench.engine_version", lambda name: "")
+    monkeypatch.setattr("furiko.engines.registry.engine_version", lambda name: "")
     with pytest.raises(EngineMissing, match=r"pip install 'furiko\[mujoco\]'"):
         bench(["rods-5"], ["mujoco"])
 

@@ -2,28 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 
 from flint import fmpq
 
-from ..algebra.notation import pretty, text
-from ..algebra.trig import COS, HALF, NOTHING, ONE, SIN, Formula, Key, Space, digits, unit
-from ..steps.conventions import Convention
-from ..steps.declared import Declared
-from ..steps.derivation import Stage, add, lagrange_rows
-from ..steps.mechanism import Mechanism
-from .any_parts import AnyMistake, Words
+from ...algebra.notation import text
+from ...algebra.signs import switches
+from ...algebra.trig import COS, HALF, NOTHING, ONE, SIN, Formula, Key, Space, digits, unit
+from ...steps.conventions import Convention
+from ...steps.declared import Declared
+from ...steps.derivation import Stage, add, lagrange_rows
+from ...steps.mechanism import Mechanism
+from .parts import AnyMistake, Words, shown
 
 
-def derivative_mistakes(m: Mechanism, words: Words) -> Iterator[AnyMistake]:
-    """Mistakes in Lagrange's derivatives: in one row, and the same in all rows."""
-    s, n = m.space, m.space.n
-    momenta = [s.by_rate(m.kinetic, i) for i in range(n)]
+def derivative_mistakes(s: Space, kinetic: Formula, potential: Formula, words: Words) -> Iterator[AnyMistake]:
+    """Mistakes in Lagrange's derivatives of T and U: in one row, and the same in all rows."""
+    n = s.n
+    momenta = [s.by_rate(kinetic, i) for i in range(n)]
     through = [
         [s.by_angle(p, j) * s.w(j) for j in range(n)] for p in momenta
     ]  # d/dt of ∂T/∂q̇ by way of each coordinate
-    slope = [s.by_angle(m.kinetic, i) for i in range(n)]
-    height = [s.by_angle(m.potential, i) for i in range(n)]
+    slope = [s.by_angle(kinetic, i) for i in range(n)]
+    height = [s.by_angle(potential, i) for i in range(n)]
     whole = [add(parts) for parts in through]
     inertial = [add(s.by_rate(p, j) * s.a(j) for j in range(n)) for p in momenta]
     kinds: list[tuple[str, str, str, list[Formula]]] = [
@@ -49,13 +50,13 @@ def derivative_mistakes(m: Mechanism, words: Words) -> Iterator[AnyMistake]:
             "inner-derivative-of-cosine",
             "the inner derivative is forgotten in d/dt of cos or sin in ∂T/∂q̇",
             "d/dt cos の中身の微分が抜けています",
-            [by_argument(p, 1) - f for p, f in zip(momenta, whole, strict=True)],
+            [by_argument(s, p, 1) - f for p, f in zip(momenta, whole, strict=True)],
         ),
         (
             "inner-derivative-of-cosine",
             "the inner derivative is forgotten in d/dt of cos or sin in ∂T/∂q̇",
             "d/dt cos の中身の微分が抜けています",
-            [by_argument(p, -1) - f for p, f in zip(momenta, whole, strict=True)],
+            [by_argument(s, p, -1) - f for p, f in zip(momenta, whole, strict=True)],
         ),
         (
             "cosine-time-derivative-sign",
@@ -117,12 +118,13 @@ def _by_row(
         )
 
 
-def by_argument(f: Formula, sign: int) -> Formula:
-    """The derivative of every cos and sin by its whole argument, with ``sign`` for how the difference is written."""
+def by_argument(s: Space, f: Formula, sign: int) -> Formula:
+    """The derivative of every cos and sin by its whole argument, with ``sign`` for how a difference is written."""
     out: dict[Key, fmpq] = {}
     for (e, h, phase), c in f.terms.items():
         if h:
-            out[e, h, 1 - phase] = c * (sign if phase == SIN else -sign)
+            is_difference = min(digits(h, s.n)) < 0
+            out[e, h, 1 - phase] = c * (sign if is_difference else 1) * (1 if phase == SIN else -1)
     return Formula(out)
 
 
@@ -156,6 +158,13 @@ def force_mistakes(m: Mechanism, declared: Declared, convention: Convention, wor
         sums = [
             ("drive", "the drive", "駆動力", body.drive, body.drive),
             ("damping", "the damping", "減衰", -(body.damping * rate), -(body.damping * s.w(k).times(form[k]))),
+            (
+                "friction",
+                "the dry friction",
+                "乾性摩擦",
+                -declared.dry_friction(k, form),
+                -declared.dry_friction(k, {k: form[k]}),
+            ),
         ]
         for code, what, was, force, own in sums:
             if not force:
@@ -236,6 +245,15 @@ def force_mistakes(m: Mechanism, declared: Declared, convention: Convention, wor
                         f"{name} の{was}の速度が差になっています。",
                         rows={k: other + force},
                     )
+        if body.friction:
+            constant = declared.dry_friction(k, form) - body.friction
+            yield AnyMistake(
+                "friction-without-sign",
+                "force",
+                f"The dry friction at {name} has no sign of the rate: it is against the motion, whichever way that is.",
+                f"{name} の乾性摩擦に速度の符号がありません。摩擦は運動と逆向きに働きます。",
+                rows={i: (-constant).times(c) for i, c in form.items()},
+            )
         elastic = body.stiffness * (add(s.q(i).times(c) for i, c in form.items()) - body.rest)
         if elastic:
             yield from _spring(s, k, form, body.stiffness, elastic, name)
@@ -284,6 +302,13 @@ def small_angle_mistakes(m: Mechanism) -> Iterator[AnyMistake]:
         "重力の項に小さい角の近似 sin θ ≈ θ が使われています。",
         rows={i: linear(s, f) - f for i, f in enumerate(gravity) if f},
     )
+    yield AnyMistake(
+        "small-angle-early",
+        "equation",
+        "Gravity is taken for small angles: sin θ has become θ; the exact equations have sin θ.",
+        "重力の項に小さい角の近似 sin θ ≈ θ が使われています。",
+        rows={i: linear(s, sines) - sines for i, f in enumerate(gravity) if (sines := _sines(f))},
+    )
     rows = [f + force for f, force in zip(m.rows, m.driven, strict=True)]
     made = {}
     for i, row in enumerate(rows):
@@ -299,6 +324,10 @@ def small_angle_mistakes(m: Mechanism) -> Iterator[AnyMistake]:
     )
 
 
+def _sines(f: Formula) -> Formula:
+    return Formula({key: c for key, c in f.terms.items() if key[2] == SIN})
+
+
 def linear(s: Space, f: Formula) -> Formula:
     """cos as 1 and sin as its argument."""
     total = NOTHING
@@ -311,17 +340,22 @@ def linear(s: Space, f: Formula) -> Formula:
     return total
 
 
-def slip_mistakes(m: Mechanism, words: Words) -> Iterator[AnyMistake]:
-    """One term of one row: its sign, its factor, left out, sin for cos; named however the rows are combined."""
-    s = m.space
-    for i, row in enumerate(m.rows):
+def slip_mistakes(
+    s: Space, rows: Mapping[int, Formula], lengths: Sequence[Formula], words: Words
+) -> Iterator[AnyMistake]:
+    """One term of one row: its sign, its factor, left out, sin for cos; named however the rows are combined.
+
+    ``lengths``: those that a weight's moment may have lost.
+    """
+    for i, row in rows.items():
+        yield from _lost_lengths(s, i, row, lengths, words)
         groups: dict[tuple[int, int, int], dict[Key, fmpq]] = {}
         for (e, h, phase), c in row.terms.items():
-            groups.setdefault((s.motion(e) + s.outside(e), h, phase), {})[e, h, phase] = c
+            groups.setdefault((s.motion(e) + s.outside(e) + switches(s, e), h, phase), {})[e, h, phase] = c
         for (q, h, phase), terms in groups.items():
             f = Formula(terms)
-            shown = pretty(text(s, Formula({(q, h, phase): ONE}))).lstrip("-−") if q or h else "the constant"
-            where, wo = f"In row {i + 1}, the term with {shown}", f"第{i + 1}式の {shown} の項"
+            term = shown(words, text(s, Formula({(q, h, phase): ONE}))).lstrip("-−") if q or h else "the constant"
+            where, wo = f"In row {i + 1}, the term with {term}", f"第{i + 1}式の {term} の項"
             swapped = Formula({(e, h_, 1 - ph): c for (e, h_, ph), c in f.terms.items()}) if h else NOTHING
             for code, english, japanese, change in (
                 ("sign", "has the wrong sign", "の符号が逆です", f.times(-2)),
@@ -346,7 +380,7 @@ def slip_mistakes(m: Mechanism, words: Words) -> Iterator[AnyMistake]:
             if len(f) > 1:
                 for key, c in f.terms.items():
                     part = Formula({key: c})
-                    inner = pretty(text(s, Formula({(key[0] - s.motion(key[0]), 0, COS): abs(c)})))
+                    inner = shown(words, text(s, Formula({(key[0] - s.motion(key[0]), 0, COS): abs(c)})))
                     yield AnyMistake(
                         "part-missing",
                         "equation",
@@ -361,3 +395,36 @@ def slip_mistakes(m: Mechanism, words: Words) -> Iterator[AnyMistake]:
                         f"{wo}：{inner} の符号が逆です。",
                         rows={i: part.times(-2)},
                     )
+                    yield AnyMistake(
+                        "part-factor",
+                        "equation",
+                        f"{where}: the part {inner} has an extra factor 2.",
+                        f"{wo}：{inner} に余分な 2 が掛かっています。",
+                        rows={i: part},
+                    )
+                    yield AnyMistake(
+                        "part-factor",
+                        "equation",
+                        f"{where}: the part {inner} lacks its factor 2.",
+                        f"{wo}：{inner} に 2 が足りません。",
+                        rows={i: part.times(-HALF)},
+                    )
+
+
+def _lost_lengths(s: Space, i: int, row: Formula, lengths: Sequence[Formula], words: Words) -> Iterator[AnyMistake]:
+    """All that neither moves nor is a spring's, or one wave of it, divided by a length."""
+    waves: dict[tuple[int, int], dict[Key, fmpq]] = {}
+    for key, c in row.terms.items():
+        if key[1] and not s.motion(key[0]):
+            waves.setdefault(key[1:], {})[key] = c
+    parts = [Formula(terms) for terms in waves.values()]
+    for f in (*([add(parts)] if len(parts) > 1 else ()), *parts):
+        for length in lengths:
+            lost = shown(words, text(s, length))
+            yield AnyMistake(
+                "factor-missing",
+                "equation",
+                f"In row {i + 1}, gravity lacks the factor {lost}.",
+                f"第{i + 1}式の重力に {lost} が足りません。",
+                rows={i: f * length.inverse_monomial() - f},
+            )

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..algebra.trig import CONSTANT_ONE, NOTHING
-from ..steps.derivation import Stage, add
-from ..steps.mechanism import Direction, Segment
-from .any_parts import AnyMistake, Change, Made, Parts, angle_name, rate_name
+from ...algebra.trig import CONSTANT_ONE, NOTHING
+from ...steps.derivation import Stage, add
+from ...steps.mechanism import Direction, Segment
+from .parts import AnyMistake, Change, Made, Parts, angle_name, rate_name
 
 
 def segment_mistakes(p: Parts) -> Iterator[AnyMistake]:
@@ -34,8 +34,14 @@ def _everywhere(p: Parts, code: str, stage: Stage, change: Change, english: str,
             if len(places) > 1 and x not in seen:
                 seen.append(x)
                 total = add(p.changed(c, k, made) for c, k in places)
+                hidden = all(_is_half_hidden(p, c, k, made) for c, k in places)
                 yield AnyMistake(
-                    code, stage, f"In the {_what(stage)} of every body: {en}.", f"すべての{_was(stage)}：{ja}。", total
+                    code,
+                    stage,
+                    f"In the {_what(stage)} of every body: {en}.",
+                    f"すべての{_was(stage)}：{ja}。",
+                    total,
+                    half_hidden=hidden,
                 )
             own = p.changed(b, at, made)
             last = made.rate is not None and at == len(way) - 1
@@ -44,8 +50,20 @@ def _everywhere(p: Parts, code: str, stage: Stage, change: Change, english: str,
             if spin:
                 yield AnyMistake(code, stage, f"{both}: {en}.", f"{also_ja}：{ja}。", own + spin)
             yield AnyMistake(
-                code, stage, f"In the {_what(stage)} of {name}: {en}.", f"{name} の{_was(stage)}：{ja}。", own
+                code,
+                stage,
+                f"In the {_what(stage)} of {name}: {en}.",
+                f"{name} の{_was(stage)}：{ja}。",
+                own,
+                half_hidden=_is_half_hidden(p, b, at, made),
             )
+
+
+def _is_half_hidden(p: Parts, b: int, at: int, made: Made) -> bool:
+    """Whether a wrong position shows in only one of the two energies."""
+    if made.vector is None or made.height is None:
+        return False
+    return not p.changed(b, at, Made(made.vector)) or not p.changed(b, at, Made(None, made.height))
 
 
 def _segment_changes(p: Parts) -> Iterator[tuple[str, Stage, Change, str, str]]:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from ..algebra.trig import HALF, Formula
-from ..steps.derivation import add
-from ..steps.mechanism import Body, Segment
-from .any_parts import AnyMistake, Parts, angle_name, rate_name
+from ...algebra.trig import HALF, Formula
+from ...steps.derivation import add
+from ...steps.mechanism import Body, Segment
+from .parts import AnyMistake, Parts, angle_name, rate_name
 
 
 def energy_mistakes_anywhere(p: Parts) -> Iterator[AnyMistake]:

@@ -6,19 +6,24 @@ to it is all that is needed.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
-from ..algebra.trig import COS, HALF, NOTHING, SIN, Formula
-from ..steps.derivation import Stage, add
-from ..steps.mechanism import Direction, Mechanism, Segment
+from ...algebra.notation import pretty
+from ...algebra.trig import COS, HALF, NOTHING, SIN, Formula
+from ...steps.derivation import Stage, add
+from ...steps.mechanism import Direction, Mechanism, Segment
 
 Vector = tuple[Formula, Formula]
 
 
 @dataclass(frozen=True)
 class AnyMistake:
-    """A mistake in any mechanism. ``energy``: what it adds to T - U; ``rows``: what it adds to each row."""
+    """A mistake in any mechanism. ``energy``: what it adds to T - U; ``rows``: what it adds to each row.
+
+    ``half_hidden``: a position is wrong and only one of the two energies shows it, where a mistake would say as much.
+    """
 
     code: str
     stage: Stage
@@ -26,15 +31,28 @@ class AnyMistake:
     japanese: str
     energy: Formula = NOTHING
     rows: dict[int, Formula] = field(default_factory=dict)
+    half_hidden: bool = False
+
+    @property
+    def size(self) -> int:
+        """How many terms it changes: of the energies, or of the rows."""
+        return len(self.energy) + sum(map(len, self.rows.values()))
 
 
 @dataclass(frozen=True)
 class Words:
-    """How the author calls things. ``coordinates``, ``rates`` and ``bodies``: one name each."""
+    """How the author calls things: one name each."""
 
     coordinates: tuple[str, ...]
     rates: tuple[str, ...]
+    accelerations: tuple[str, ...]
     bodies: tuple[str, ...]
+
+
+def shown(words: Words, ascii_text: str) -> str:
+    """A formula in the author's letters."""
+    names = {"t": words.coordinates, "q": words.coordinates, "w": words.rates, "a": words.accelerations}
+    return pretty(re.sub(r"\b([tqwa])([0-9]+)\b", lambda found: names[found[1]][int(found[2]) - 1], ascii_text))
 
 
 class Parts:
