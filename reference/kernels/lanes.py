@@ -32,7 +32,9 @@ def filled_up(states: Any, first: int, lanes: int) -> Any:
     """
     filled = np.empty((lanes, states.shape[1]))
     for i in range(lanes):
-        filled[i] = states[min(first + i, states.shape[0] - 1)]
+        row = min(first + i, states.shape[0] - 1)
+        for j in range(states.shape[1]):  # an assignment to a slice takes seconds to compile
+            filled[i, j] = states[row, j]
     return filled
 
 
