@@ -46,8 +46,8 @@ def write_reports(directory: str | Path, report: Report, known: Known | None = N
     Each is written completely or not at all. Raises :class:`InvalidInput` with the paths of those that cannot be
     written, after the others have been.
     """
-    from .junit import to_junit
-    from .markdown import to_markdown
+    from .ci.junit import to_junit
+    from .ci.markdown import to_markdown
     from .pages.check_page import to_html
 
     folder = Path(directory)

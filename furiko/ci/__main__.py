@@ -21,8 +21,9 @@ from ..models.writers.whole_file import write_whole
 from ..records.errors import Error, ErrorDocument
 from ..records.exit_status import AGREES, INCOMPLETE, INTERNAL_ERROR, gravest
 from ..records.findings import DiagnoseDocument
-from ..reports import github, read_stream
-from ..reports.model_files import Answer, failure_markdown, models_junit, models_markdown
+from ..reports import read_stream
+from ..reports.ci import github
+from ..reports.ci.model_files import Answer, failure_markdown, models_junit, models_markdown
 from ..reports.write import JUNIT, SUMMARY
 
 LARGEST = 50_000_000  # bytes of one answer: a robot of hundreds of links has a few

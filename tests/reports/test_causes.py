@@ -5,8 +5,8 @@ import pytest
 from furiko.records.check import Diagnosis
 from furiko.records.findings import Difference
 from furiko.reports.causes import group_causes
-from furiko.reports.junit import to_junit
-from furiko.reports.markdown import to_markdown
+from furiko.reports.ci.junit import to_junit
+from furiko.reports.ci.markdown import to_markdown
 from furiko.reports.pages.check_page import to_html
 from furiko.reports.report import Report, footer_of
 

@@ -6,10 +6,10 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from ..records.errors import Error
-from ..records.findings import DiagnoseDocument
-from .report import Report
-from .words import one_line
+from ...records.errors import Error
+from ...records.findings import DiagnoseDocument
+from ..report import Report
+from ..words import one_line
 
 MOST = 10  # of one kind that GitHub shows of a step
 _PLACE = re.compile(r"(?P<path>[^:]+?)(?:, line (?P<line>\d{1,9}))?(?:, [^:]*)?:(?P<rest>.*)")

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from furiko.records.check import Diagnosis
 from furiko.records.findings import Difference
-from furiko.reports.junit import to_junit
+from furiko.reports.ci.junit import to_junit
 from furiko.reports.report import Report
 
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from furiko.reports.markdown import escape, to_markdown
+from furiko.reports.ci.markdown import escape, to_markdown
 from furiko.reports.report import Report
 
 HOSTILE = "a|b `c` <img src=x onerror=alert(1)> [l](javascript:x) **b** @you #1 https://x.y \n## h\n| x |"

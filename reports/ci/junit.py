@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from xml.etree import ElementTree as XML
 
-from ..records.check import Outcome, Result
-from .causes import Explanation
-from .known import Entry, Known
-from .report import Report, against, against_line
-from .words import last_line, one_line, printable, word
+from ...records.check import Outcome, Result
+from ..causes import Explanation
+from ..known import Entry, Known
+from ..report import Report, against, against_line
+from ..words import last_line, one_line, printable, word
 
 # JUnit's element for an outcome, inside a test case. One that agrees has none.
 ELEMENTS: dict[Outcome, str] = {"differs": "failure", "error": "error", "skipped": "skipped"}

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from xml.etree import ElementTree as XML
 
-from ..records.errors import Error
-from ..records.findings import DiagnoseDocument
+from ...records.errors import Error
+from ...records.findings import DiagnoseDocument
 from .junit import document
 from .markdown import escape
-from .words import count, one_line, printable
+from ..words import count, one_line, printable
 
 _ELEMENTS = {"differs": "failure", "refused": "failure", "failed": "error", "missing": "skipped"}
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from ..records.check import Result
-from .causes import Explanation
-from .known import Known
-from .report import Report, TableCell, group_line
-from .words import GLYPHS, LEGEND, figure, last_line, listed, one_line, outcome_of
+from ...records.check import Result
+from ..causes import Explanation
+from ..known import Known
+from ..report import Report, TableCell, group_line
+from ..words import GLYPHS, LEGEND, figure, last_line, listed, one_line, outcome_of
 
 MOST_LISTED = 50  # a step summary may hold 1 MiB
 LONGEST_REASON = 2000  # characters; none of furiko's own sentences is as long
