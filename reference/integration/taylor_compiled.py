@@ -302,90 +302,19 @@ def start(theta: Any, omega: Any, state: Any) -> None:
 
 
 @compiled(releases_gil=True)
-def run_rods(
-    masses: Any,
-    lengths: Any,
-    gravity: float,
-    times: Any,
-    top: int,
-    local: float,
-    state: Any,
-    clock: Any,
-    counts: Any,
-    out_theta: Any,
-    out_omega: Any,
-    budget: int,
-) -> int:
+def run_rods(*given: Any) -> int:
     """:func:`run` of a rod chain."""
-    return run(
-        factor_rods,
-        solve_rods,
-        masses,
-        lengths,
-        gravity,
-        times,
-        top,
-        local,
-        state,
-        clock,
-        counts,
-        out_theta,
-        out_omega,
-        budget,
-    )
+    return run(factor_rods, solve_rods, given)
 
 
 @compiled(releases_gil=True)
-def run_legs(
-    masses: Any,
-    lengths: Any,
-    gravity: float,
-    times: Any,
-    top: int,
-    local: float,
-    state: Any,
-    clock: Any,
-    counts: Any,
-    out_theta: Any,
-    out_omega: Any,
-    budget: int,
-) -> int:
+def run_legs(*given: Any) -> int:
     """:func:`run` of an N-leg pendulum."""
-    return run(
-        factor_legs,
-        solve_legs,
-        masses,
-        lengths,
-        gravity,
-        times,
-        top,
-        local,
-        state,
-        clock,
-        counts,
-        out_theta,
-        out_omega,
-        budget,
-    )
+    return run(factor_legs, solve_legs, given)
 
 
 @inlined
-def run(
-    factor: Any,
-    solve: Any,
-    masses: Any,
-    lengths: Any,
-    gravity: float,
-    times: Any,
-    top: int,
-    local: float,
-    state: Any,
-    clock: Any,
-    counts: Any,
-    out_theta: Any,
-    out_omega: Any,
-    budget: int,
-) -> int:
+def run(factor: Any, solve: Any, given: Any) -> int:
     """Advance one trajectory until its last output is written (DONE) or ``budget`` steps are spent (MORE).
 
     BROKEN: the rates are such that the steps are too short ever to get there.
@@ -394,6 +323,7 @@ def run(
     as a sum of two numbers; ``counts``: outputs written and steps taken; out_theta, out_omega: (len(times), n).
     All of them are kept between calls.
     """
+    masses, lengths, gravity, times, top, local, state, clock, counts, out_theta, out_omega, budget = given
     n = len(masses)
     width = (n + EIGHT - 1) // EIGHT * EIGHT
     series = aligned(SERIES * (top + 3) * width).reshape((SERIES, top + 3, width))

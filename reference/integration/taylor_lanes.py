@@ -48,110 +48,19 @@ SIZES = 5
 
 
 @compiled(releases_gil=True)
-def run_rod_lanes(
-    masses: Any,
-    lengths: Any,
-    gravity: Any,
-    theta: Any,
-    omega: Any,
-    times: Any,
-    top: int,
-    local: float,
-    state: Any,
-    factors: Any,
-    clock: Any,
-    lanes: Any,
-    steps: Any,
-    out_theta: Any,
-    out_omega: Any,
-    budget: int,
-) -> int:
+def run_rod_lanes(*given: Any) -> int:
     """:func:`run` of rod chains."""
-    return run(
-        factor_rods,
-        solve_rods,
-        masses,
-        lengths,
-        gravity,
-        theta,
-        omega,
-        times,
-        top,
-        local,
-        state,
-        factors,
-        clock,
-        lanes,
-        steps,
-        out_theta,
-        out_omega,
-        budget,
-    )
+    return run(factor_rods, solve_rods, given)
 
 
 @compiled(releases_gil=True)
-def run_leg_lanes(
-    masses: Any,
-    lengths: Any,
-    gravity: Any,
-    theta: Any,
-    omega: Any,
-    times: Any,
-    top: int,
-    local: float,
-    state: Any,
-    factors: Any,
-    clock: Any,
-    lanes: Any,
-    steps: Any,
-    out_theta: Any,
-    out_omega: Any,
-    budget: int,
-) -> int:
+def run_leg_lanes(*given: Any) -> int:
     """:func:`run` of N-leg pendulums."""
-    return run(
-        factor_legs,
-        solve_legs,
-        masses,
-        lengths,
-        gravity,
-        theta,
-        omega,
-        times,
-        top,
-        local,
-        state,
-        factors,
-        clock,
-        lanes,
-        steps,
-        out_theta,
-        out_omega,
-        budget,
-    )
+    return run(factor_legs, solve_legs, given)
 
 
 @inlined
-def run(
-    factor: Any,
-    solve: Any,
-    masses: Any,
-    lengths: Any,
-    gravity: Any,
-    theta: Any,
-    omega: Any,
-    times: Any,
-    top: int,
-    local: float,
-    state: Any,
-    factors: Any,
-    clock: Any,
-    lanes: Any,
-    steps: Any,
-    out_theta: Any,
-    out_omega: Any,
-    budget: int,
-) -> int:
+def run(factor: Any, solve: Any, given: Any) -> int:
     """Advance all trajectories of an ensemble until the last is DONE, or ``budget`` steps of eight are spent (MORE).
 
     theta, omega, masses, lengths: shape (B, n); gravity, steps: (B,); out_theta, out_omega: (B, len(times), n).
@@ -159,6 +68,24 @@ def run(
     (LANE_ROWS, 8), the first row of it IDLE before the first call. BROKEN: as in :func:`.taylor_compiled.run`;
     lanes[NEXT, 1] is the trajectory.
     """
+    (
+        masses,
+        lengths,
+        gravity,
+        theta,
+        omega,
+        times,
+        top,
+        local,
+        state,
+        factors,
+        clock,
+        lanes,
+        steps,
+        out_theta,
+        out_omega,
+        budget,
+    ) = given
     n = theta.shape[1]
     series = aligned(SERIES * (top + 3) * n * EIGHT).reshape((SERIES, top + 3, n, EIGHT))
     part = aligned(ORDER * n * EIGHT).reshape((ORDER, n, EIGHT))
