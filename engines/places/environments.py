@@ -7,7 +7,6 @@ that file was cut off and is made again. Only one process makes it at a time; ot
 from __future__ import annotations
 
 import contextlib
-import fcntl
 import json
 import os
 import re
@@ -24,6 +23,9 @@ from ..releases import needed_beside, release
 from .index import near
 from .installing import Installer, NotInstalled, installer
 from .surveys import survey
+
+if sys.platform != "win32":
+    import fcntl
 
 MARKER = "furiko-environment.json"
 FORMAT = 1
@@ -174,7 +176,8 @@ def _alone(name: str) -> Iterator[None]:
     except OSError as error:
         raise EngineMissing(f"{folder}: environments cannot be kept there: {error.strerror}") from None
     try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX)
+        if sys.platform != "win32":  # there, two that make one at a time are not kept apart
+            fcntl.flock(descriptor, fcntl.LOCK_EX)
         yield
     finally:
         os.close(descriptor)

@@ -8,9 +8,9 @@ from xml.etree import ElementTree as XML
 
 from ...records.errors import Error
 from ...records.findings import DiagnoseDocument
+from ..words import count, one_line, printable
 from .junit import document
 from .markdown import escape
-from ..words import count, one_line, printable
 
 _ELEMENTS = {"differs": "failure", "refused": "failure", "failed": "error", "missing": "skipped"}
 

@@ -7,9 +7,9 @@ import pytest
 
 from furiko.records.check import Diagnosis
 from furiko.records.findings import Difference
-from furiko.reports.compare import compare
 from furiko.reports.ci.junit import to_junit
 from furiko.reports.ci.markdown import to_markdown
+from furiko.reports.compare import compare
 from furiko.reports.pages.check_page import to_html
 from furiko.reports.report import Report, footer_of
 from furiko.reports.terminal.check import print_report
