@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from ...models import InvalidInput
 from ..places import engines
@@ -27,7 +27,8 @@ class ReaderElsewhere(RobotReader):
         assert place is not None
         info = base_of(place)
         module = self.adapter if not self.adapter.startswith(".") else f"furiko.engines.model_files{self.adapter}"
-        return RemoteRobot(engines.connection(place, info, module), path, language, folders)
+        # It does all that is asked of a RobotEngine, but is made from a connection besides.
+        return cast("RobotEngine", RemoteRobot(engines.connection(place, info, module), path, language, folders))
 
 
 def reader_at(name: str) -> RobotReader | None:

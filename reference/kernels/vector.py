@@ -13,10 +13,13 @@ from typing import Any, ClassVar
 
 from llvmlite import ir
 from numba import types
-from numba.core.typing.templates import ConcreteTemplate, infer_global, signature
+from numba.core.typing import templates
+from numba.core.typing.templates import ConcreteTemplate, signature
 from numba.extending import lower_builtin, models, register_model
 
 from .compiling import OPTIONS, declared, intrinsic
+
+infer_global: Any = templates.infer_global  # of which numba does not say what it is
 
 EIGHT = 8
 DOUBLE, INTEGER = ir.DoubleType(), ir.IntType(64)
