@@ -185,8 +185,8 @@ class _Study:
 def _verdict(scene: str, results: Sequence[Result]) -> Look:
     """The checks' verdict on one scene: the gravest outcome, with the causes or reasons of what is so."""
     mine = [result for result in results if result.scene == scene]
-    outcomes = {result.outcome for result in mine}
-    outcome: Outcome = next((one for one in GRAVEST if one in outcomes), GRAVEST[-1])
+    outcomes: list[Outcome] = [result.outcome for result in mine] or ["skipped"]
+    outcome = min(outcomes, key=GRAVEST.index)
     if outcome == "agrees":
         return Look(scene, "theory", "agrees", "", "", np.zeros(0))
     if outcome == "skipped":
