@@ -25,6 +25,7 @@ Rows = tuple[Point, ...]
 ZERO = Fraction(0)
 UPRIGHT: Rows = tuple(tuple(Fraction(int(i == j)) for j in range(3)) for i in range(3))
 AXES = "xyz"
+MOST_BODIES = 200  # turned by quaternions, each makes fractions 400 bits longer: a second or two; motions cost far more
 
 
 @dataclass(frozen=True)
@@ -59,9 +60,12 @@ def planar_tree(system: TreeSystem | SpatialMechanism) -> Planar:
     """The planar mechanism that this is, whose coordinates are its joints', in their order.
 
     Limits act on nothing, as everywhere. Raises InvalidInput naming the first joint that does not fit: neither hinge
-    nor slide; an axis that is not exactly the plane's; a slide that a hinge turns; dry friction.
+    nor slide; an axis that is not exactly the plane's; a slide that a hinge turns; dry friction. Also for more than
+    200 bodies.
     """
     mechanism = system.mechanism() if isinstance(system, TreeSystem) else system
+    if len(mechanism.bodies) > MOST_BODIES:
+        raise InvalidInput(f"{len(mechanism.bodies)} bodies: motions of at most {MOST_BODIES} are enclosed")
     moved, placed = _moved(mechanism.bodies)
     if not moved:
         raise InvalidInput("no joint: nothing moves")

@@ -313,12 +313,20 @@ TURN = TreeJoint("turn", axis=Y)
         ((link("a", -1, TURN), link("b", 0, TreeJoint("t", axis=Y), quaternion=(1.0, 1e-16, 0.0, 0.0))),
          "joint 't': its axis is not exactly parallel to y"),
         ((link("a", -1),), "no joint"),
+        (tuple(link(f"a{i}", i - 1, TreeJoint(f"t{i}", axis=Y)) for i in range(201)), "201 bodies"),
     ],
 )  # fmt: skip
 def test_what_does_not_fit_is_refused_with_its_joint(links, words):
     system = TreeSystem(links)
     with pytest.raises(InvalidInput, match=f"^{re.escape(words)}"):
         planar_tree(system)
+
+
+def test_a_pendulum_about_the_vertical_turns_as_without_gravity():
+    system = TreeSystem((link("a", -1, TreeJoint("t"), centre=(0.5, 0.0, 0.3)),))  # gravity is along the hinge
+    found = furiko.enclose(system, [0.25], [1.5], [0.0, 2.0])
+    assert found.theta_low[1, 0] <= 0.25 + 1.5 * 2.0 <= found.theta_high[1, 0]
+    assert found.omega_low[1, 0] <= 1.5 <= found.omega_high[1, 0]
 
 
 def test_catalogue_and_friction():
