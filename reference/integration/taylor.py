@@ -77,13 +77,16 @@ class Trajectory:
         """Estimated error at each time, shape (..., m): rad for angles, rates relative to the largest |ω|.
 
         From a second run of higher order and smaller steps, made when first asked for: twice the difference, and not
-        less than the rounding of the result. An estimate, not a bound; near 1 no digit is correct.
+        less than the rounding of the result and of the steps, ε √steps. An estimate, not a bound; near 1 no digit is
+        correct.
         """
         theta, omega = self._finer()
         fastest = np.abs(self.omega).max(axis=(-2, -1), keepdims=True)
         rates = np.abs(self.omega - omega) / np.where(fastest > 0, fastest, 1)
         apart = np.maximum(np.abs(self.theta - theta), rates).max(axis=-1)
-        rounding = np.finfo(float).eps * np.maximum(np.abs(self.theta).max(axis=-1), 1)
+        # Each step rounds what it adds, so that two runs may agree by chance to less than what they have in common.
+        steps = np.sqrt(self.steps)[..., np.newaxis]
+        rounding = np.finfo(float).eps * (np.maximum(np.abs(self.theta).max(axis=-1), 1) + steps)
         return np.where(self.times == self.times[0], 0, 2 * apart + rounding)
 
     @property

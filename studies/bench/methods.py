@@ -59,7 +59,7 @@ def methods(scene: Scene, engines: Sequence[str]) -> tuple[list[Method], list[st
     found, left_out = list(_own(scene)), []
     for name in engines:
         info = engine_info(name)
-        reason = why_not(info, scene)
+        reason = why_not(name, scene)
         if reason:
             left_out.append(f"{name}: {reason}")
             continue
@@ -70,9 +70,9 @@ def methods(scene: Scene, engines: Sequence[str]) -> tuple[list[Method], list[st
     return found, left_out
 
 
-def why_not(info: EngineInfo, scene: Scene) -> str:
+def why_not(name: str, scene: Scene) -> str:
     """The reason why an engine is left out; empty where it is not."""
-    return why_missing(info.name) or cannot(info, scene.system) or ""
+    return why_missing(name) or cannot(engine_info(name), scene.system) or ""
 
 
 def start(scene: Scene) -> tuple[Array, Array]:

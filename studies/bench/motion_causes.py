@@ -25,7 +25,7 @@ def motion_causes(
     """What was found of these engines; empty where their runs follow the scene, or it has too many links to ask."""
     found: list[Difference] = []
     for name in engines:
-        if scene.system.n <= MOST_LINKS and not why_not(engine_info(name), scene):
+        if scene.system.n <= MOST_LINKS and not why_not(name, scene):
             watch(f"{scene.name} {name}: causes")
             found += [Difference(**finding.to_json()) for finding in _causes(scene, name)]
     return found

@@ -21,6 +21,7 @@ def script(monkeypatch):
     return import_module("targets")
 
 
+@pytest.mark.slow
 def test_a_target_out_of_reach_is_not_met(script, monkeypatch):
     assert script.own_tolerance(RODS, 1e-30).startswith("no nearer than")
     monkeypatch.setattr(script, "own_tolerance", lambda scene, error: "no nearer than 1e-3")

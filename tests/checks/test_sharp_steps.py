@@ -82,6 +82,7 @@ def test_engines_that_are_right_are_not_loose(quotients, make_cell, engine):
         assert "sharp line" in result.details, (scene, result)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("iterated", "factor"), [(False, sharp.ACCELERATIONS), (True, sharp.ITERATED)])
 def test_no_factor_is_ten_times_too_wide_or_too_narrow(quotients, make_cell, iterated, factor):
     found = [

@@ -41,6 +41,8 @@ def ended(command, number, imports, folder):
     return subprocess.run(
         [sys.executable, "-c", START, str(int(number)), str(imports), *COMMANDS[command]],
         cwd=folder, capture_output=True, check=False, timeout=120, env=os.environ,
+        # a shell's background job, and what it starts, ignore Ctrl-C
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )  # fmt: skip
 
 
@@ -52,6 +54,7 @@ def test_bench_is_ended_at_every_early_moment(imports, tmp_path):
     assert done.stderr.strip() == b"" or done.stderr.lstrip().startswith(ENDED), done.stderr.decode()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 @pytest.mark.parametrize("command", sorted(COMMANDS))
 def test_each_command_is_ended_by_each_signal(command, number, tmp_path):

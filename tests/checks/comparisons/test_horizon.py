@@ -19,6 +19,7 @@ def integrator(cell, name):
     return next(one for one in cell.info.integrators if one.name == name)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("scene", "engine", "name", "step", "parts"),
     [

@@ -66,6 +66,7 @@ def test_an_order_that_can_be_told_is_not_below_its_own_by_more_than_a_quarter(o
         assert not told or found.orders()[1] > order - 0.25
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", ["exudyn-tree", "exudyn-redundant"])
 @pytest.mark.parametrize("system", ["slow and small", "at rest afloat", "stretched out", "unequal"])
 def test_sound_motions_that_only_their_numbers_make_unusual(make_cell, engine, system):

@@ -59,10 +59,9 @@ def test_simulates_error_is_about_as_large_as_its_estimate_at_most(name):
         for i, estimate in enumerate(run.error[1:]):
             angles = [abs(ball - x).upper() for ball, x in zip(proof.theta[i], run.theta[i + 1].tolist(), strict=True)]
             rates = [abs(ball - x).upper() for ball, x in zip(proof.omega[i], run.omega[i + 1].tolist(), strict=True)]
-            # An estimate, not a bound: where two runs agree to the last bit they may share a rounding. It is too small
-            # in 2 of 69 states, two-legs after 2 s by 2.3 times, a few roundings; else it is larger than the error.
-            assert float(max(angles)) <= 3 * estimate
-            assert float(max(rates)) <= 3 * estimate * fastest
+            # An estimate, not a bound: two runs may agree by chance. The worst of 69 states seen: a tenth too small.
+            assert float(max(angles)) <= 1.5 * estimate
+            assert float(max(rates)) <= 1.5 * estimate * fastest
 
 
 @pytest.mark.parametrize(

@@ -192,6 +192,7 @@ def start(folder):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("times", [3, pytest.param(20, marks=pytest.mark.slow)])
 def test_killed_again_and_again_the_table_is_the_same(times, tmp_path):
     whole = kill_and_resume(tmp_path / "whole", 0, random.Random(0))

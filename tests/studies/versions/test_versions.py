@@ -74,6 +74,7 @@ def planted(tmp_path, monkeypatch):
     return plant
 
 
+@pytest.mark.slow
 def test_the_release_that_lost_the_rotation_is_named(planted):
     planted("5.3")
     found = versions("mujoco", scenes=["rods-1"])
@@ -92,6 +93,7 @@ def test_the_release_that_lost_the_rotation_is_named(planted):
     assert "mujoco: 5.3 changed an answer" in page
 
 
+@pytest.mark.slow
 def test_one_that_cannot_be_installed_is_told_and_passed_over(planted, tmp_path, capsys, monkeypatch):
     planted("5.2", missing=["5.1"])
     monkeypatch.setattr("furiko.engines.places.environments.near", lambda package, version: ["5.0", "5.2"])
