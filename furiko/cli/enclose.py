@@ -34,7 +34,7 @@ LINES = 8  # times in the table where none are asked for
     "--radius",
     type=click.FloatRange(0, 1),
     default=0.0,
-    help="Start from all states this near [rad, rad/s] to the scene's, and enclose all their motions.",
+    help="Start from all states this near [rad, m, and per s] to the scene's, and enclose all their motions.",
 )
 @click.option("--seconds", type=click.FloatRange(0.1), help="Stop after so long, with what is proved by then.")
 @json_option
