@@ -136,7 +136,7 @@ def spread_series(form: Form, cloud: Cloud, order: int) -> Spread:
         [Tangent(a, parts) for a, parts in zip(x, cloud.frame[: form.n], strict=True)],
         [Tangent(a, parts) for a, parts in zip(v, cloud.frame[form.n :], strict=True)],
         order,
-        solver,
+        lambda rows: solver(rows, size),
         convolve(size),
     )
     slopes = [[[derivatives(c, size)[j] for c in one] for j in range(size)] for one in (*moving.x, *moving.v)]

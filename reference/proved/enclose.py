@@ -13,13 +13,18 @@ from numpy.typing import NDArray
 
 from ...models.errors import InvalidInput
 from ...models.mechanism import Mechanism
+from ...models.spatial_mechanism import SpatialMechanism
 from ...models.systems import System
 from ...models.tree import PlanarTree
+from ...models.trees.system import TreeSystem
 from ..integration.taylor import checked_times
 from ..limits import checked_state
 from .clouds import Cloud, box
 from .follow import Limits, Progress, follow
 from .form import Planar, planar
+from .joints import in_joints
+from .joints import start as start_in_joints
+from .trees import planar_tree
 
 Floats = NDArray[np.float64]
 Balls = NDArray[Any]  # of python-flint's arb
@@ -41,10 +46,11 @@ class Enclosed:
 
     ``times``, shape (m,): those of the times asked for, in their order, up to where the motion is proved.
     ``theta`` [rad], ``omega`` [rad/s]: balls (python-flint's ``arb``: ``mid()`` and ``rad()`` are exact), shape (m, n);
-    of what slides [m], [m/s]. ``theta_low``, ``theta_high``, ``omega_low``, ``omega_high``: the same as doubles,
-    rounded outwards. ``proved_until``: the last time [s] up to which every interval is proved and as narrow as asked;
-    it is the last time asked for if :attr:`complete`, else ``why`` says what ended it. ``bits``: of the steps' own
-    errors; ``steps``: how many; ``seconds``: what it took.
+    of an open mechanism in space its joints' coordinates and rates, of what slides [m], [m/s]. ``theta_low``,
+    ``theta_high``, ``omega_low``, ``omega_high``: the same as doubles, rounded outwards. ``proved_until``: the last
+    time [s] up to which every interval is proved and as narrow as asked; it is the last time asked for if
+    :attr:`complete`, else ``why`` says what ended it. ``bits``: of the steps' own errors; ``steps``: how many;
+    ``seconds``: what it took.
     """
 
     times: Floats
@@ -81,7 +87,7 @@ class Enclosed:
 
 
 def enclose(
-    system: System | PlanarTree | Mechanism | Planar,
+    system: System | PlanarTree | Mechanism | TreeSystem | SpatialMechanism,
     theta: Any,
     omega: Any,
     times: Any,
@@ -93,7 +99,10 @@ def enclose(
 ) -> Enclosed:
     """Proved intervals of the motion of ``system`` from ``theta`` [rad], ``omega`` [rad/s] at ``times[0]``.
 
-    ``system``: a document's system, a planar tree, or a mechanism with dampers and springs (friction is refused).
+    ``system``: a document's system, a planar tree, or a mechanism with dampers and springs (friction is refused); or an
+    open mechanism in space (``furiko.models.find_scene("cart-pole").system``) whose joints keep it in a plane: hinges
+    about x, y or z of the world, slides across it before any hinge of their branch. Its ``theta`` and ``omega``, and
+    those of the answer, are its joints' own coordinates q and rates v, in their order; limits act on nothing.
     ``theta``, ``omega``: shape (n,), doubles taken as exact; ``radius``: how much wider the start is, every angle and
     rate by the same, or a pair [rad], [rad/s]: the intervals then hold the motions of all those states. ``times`` [s]:
     shape (m,), rising or falling. ``digits``: a radius of at most 10^-digits is wanted, of the angles and the rates;
@@ -107,7 +116,7 @@ def enclose(
     from flint import arb
 
     began = clock.monotonic()
-    mechanism = planar(system)
+    mechanism = planar_tree(system) if isinstance(system, TreeSystem | SpatialMechanism) else planar(system)
     angles, rates = _state(mechanism, theta, omega)
     moments = [float(t) for t in checked_times(times)]
     if isinstance(digits, bool) or not isinstance(digits, int | np.integer) or not 1 <= digits <= MOST_DIGITS:
@@ -115,18 +124,19 @@ def enclose(
     x_radius, v_radius = _radii(radius)
     wide = x_radius > 0 or v_radius > 0
     deadline = math.inf if seconds is None else began + _positive_seconds(seconds)
-    start = box(
-        [arb(a, x_radius) for a in angles],
-        [arb(a, v_radius) for a in rates],
-        directions=wide,
-    )
+    if mechanism.joints:
+        start = start_in_joints(mechanism, angles, rates, (x_radius, v_radius))
+    else:
+        start = box([arb(a, x_radius) for a in angles], [arb(a, v_radius) for a in rates], directions=wide)
     goal = WIDEST if wide else -math.log2(10.0) * int(digits) - 1e-9
+    if mechanism.joints and not wide:
+        goal -= 1  # a joint's coordinate is a difference of two absolute angles
     if wide:
         bits = max(53, 24 - math.floor(math.log2(max(x_radius, v_radius))))
         progress = follow(mechanism, start, moments, bits, Limits(goal, deadline, watch))
     else:
         bits, progress = _with_enough_bits(mechanism, start, moments, Limits(goal, deadline, watch))
-    return _enclosed(progress, moments, bits, goal, wide, clock.monotonic() - began)
+    return _enclosed(mechanism, progress, moments, bits, wide, clock.monotonic() - began)
 
 
 def _with_enough_bits(p: Planar, start: Cloud, times: list[float], limits: Limits) -> tuple[int, Progress]:
@@ -153,10 +163,10 @@ def _further(a: Progress, b: Progress, start: float) -> bool:
     return abs(a.time - start) > abs(b.time - start)
 
 
-def _enclosed(progress: Progress, times: list[float], bits: int, goal: float, wide: bool, seconds: float) -> Enclosed:
+def _enclosed(p: Planar, progress: Progress, times: list[float], bits: int, wide: bool, seconds: float) -> Enclosed:
     rows = progress.rows
     complete = len(rows) == len(times)
-    values = _values(rows, bits)
+    values = _values(p, rows, bits)
     n = len(rows[0].x)
     theta = np.empty((len(rows), n), dtype=object)
     omega = np.empty((len(rows), n), dtype=object)
@@ -174,11 +184,11 @@ def _enclosed(progress: Progress, times: list[float], bits: int, goal: float, wi
     return Enclosed(np.array(times[: len(rows)]), theta, omega, until, complete, why, bits, progress.steps, seconds)
 
 
-def _values(rows: Sequence[Cloud], bits: int) -> list[tuple[list[Any], list[Any]]]:
+def _values(p: Planar, rows: Sequence[Cloud], bits: int) -> list[tuple[list[Any], list[Any]]]:
     import flint
 
     with flint.ctx.workprec(bits + 64):
-        return [row.values() for row in rows]
+        return [(in_joints(p, row) if p.joints else row).values() for row in rows]
 
 
 def outward(balls: Balls) -> tuple[Floats, Floats]:
@@ -199,7 +209,7 @@ def above(ball: Any) -> float:
 
 
 def _state(p: Planar, theta: Any, omega: Any) -> tuple[list[float], list[float]]:
-    angles, rates = checked_state(p.mechanism, theta, omega)
+    angles, rates = checked_state(p, theta, omega)
     if angles.ndim != 1:
         raise InvalidInput(f"theta: one state is enclosed at a time, shape ({p.n},), got shape {angles.shape}")
     return angles.tolist(), rates.tolist()

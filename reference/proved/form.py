@@ -7,64 +7,109 @@ displacement [m] along a direction that stays as it is: everything before a slid
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 from ...models.errors import InvalidInput
 from ...models.mechanism import Hinge, Mechanism
 from ...models.systems import RodChain, System
-from ...models.tree import SUPPORT, PlanarTree
+from ...models.tree import SUPPORT, Link, PlanarTree
 
-Pair = tuple[float, float]
+Number = float | Fraction  # exact: a double is the binary fraction that it is
+Pair = tuple[Number, Number]
 
 
 @dataclass(frozen=True)
-class Carriage:
-    """What a link slides along: a unit vector (along gravity, across it), exact."""
+class PlanarLink:
+    """A link and the joint that moves it, in exact numbers.
 
-    along: float
-    across: float
+    ``parent``, ``hinge``, ``com``, ``mass``, ``inertia``: as :class:`~furiko.models.tree.Link` has them; ``armature``,
+    ``damping``, ``stiffness``, ``rest``: as :class:`~furiko.models.mechanism.Hinge` has them, of a slide in kg, N s/m,
+    N/m and m. ``slide``: None, or what it slides along, (along, across), of any length but zero; all links before it
+    slide too.
+    """
+
+    parent: int
+    hinge: Pair
+    com: Pair
+    mass: Number
+    inertia: Number
+    armature: Number = 0.0
+    damping: Number = 0.0
+    stiffness: Number = 0.0
+    rest: Number = 0.0
+    slide: Pair | None = None
+
+
+@dataclass(frozen=True)
+class JointCoordinate:
+    """A joint's own coordinate: ``sense`` (1, -1) times (the link's coordinate less its parent's angle), + ``zero``."""
+
+    sense: int = 1
+    zero: float = 0.0
 
 
 @dataclass(frozen=True)
 class Planar:
     """A mechanism as exact numbers: what the series are of.
 
-    ``mechanism``: its links and hinges (friction is refused, limits are not reached); ``slides``: for each link None,
-    or the direction that it slides in. ``rods``: the chain whose masses ρ l and inertias ρ l³/12 are not rounded.
+    ``gravity``: (along, across) [m/s²]. ``rods``: the chain whose masses ρ l and inertias ρ l³/12 are not rounded.
+    ``joints``: how the coordinates of states are read, one a link; empty where they are the links' own.
     """
 
-    mechanism: Mechanism
-    slides: tuple[Carriage | None, ...]
+    links: tuple[PlanarLink, ...]
+    gravity: Pair
     rods: RodChain | None = None
+    joints: tuple[JointCoordinate, ...] = ()
 
     @property
     def n(self) -> int:
         """Number of coordinates."""
-        return self.mechanism.n
+        return len(self.links)
+
+    @cached_property
+    def turning_parents(self) -> tuple[int, ...]:
+        """For each link the parent whose angle its joint's is counted from; SUPPORT where that does not turn."""
+        fixed = [SUPPORT if link.parent == SUPPORT else self.links[link.parent].slide for link in self.links]
+        return tuple(link.parent if slide is None else SUPPORT for link, slide in zip(self.links, fixed, strict=True))
 
 
-def planar(system: System | PlanarTree | Mechanism | Planar) -> Planar:
+def planar(system: System | PlanarTree | Mechanism) -> Planar:
     """The mechanism of a document's system or of a planar tree.
 
-    Raises InvalidInput where a hinge rubs (friction jumps with the sign of the rate: there is no Taylor series), or
-    where links without mass could move at no cost.
+    Raises InvalidInput where a hinge rubs: friction jumps with the sign of the rate, and there is no Taylor series.
     """
-    if isinstance(system, Planar):
-        return system
     if isinstance(system, Mechanism):
-        mechanism, rods = system, None
-    else:
-        tree = system if isinstance(system, PlanarTree) else system.tree()
-        hinges = tuple(Hinge(name=name) for name in tree.names("hinge"))
-        mechanism = Mechanism(tree.links, hinges, (tree.gravity, 0.0), tree.names("link"))
-        rods = system if isinstance(system, RodChain) else None
-    for hinge, name in zip(mechanism.hinges, mechanism.link_names, strict=True):
-        if hinge.friction:
-            raise InvalidInput(
-                f"{name}: friction {hinge.friction:g} N m jumps with the sign of the rate, and such a motion has no "
-                "Taylor series: set it to 0, or use damping"
-            )
-    return Planar(mechanism, (None,) * mechanism.n, rods)
+        links = zip(system.links, system.hinges, system.link_names, strict=True)
+        return Planar(tuple(_link(*one) for one in links), system.gravity)
+    tree = system if isinstance(system, PlanarTree) else system.tree()
+    rods = system if isinstance(system, RodChain) else None
+    return Planar(tuple(_link(link, Hinge(), "") for link in tree.links), (tree.gravity, 0.0), rods)
+
+
+def _link(link: Link, hinge: Hinge, name: str) -> PlanarLink:
+    refuse_friction(name, hinge.friction, "N m")
+    return PlanarLink(
+        parent=link.parent,
+        hinge=link.hinge,
+        com=link.com,
+        mass=link.mass,
+        inertia=link.inertia,
+        armature=hinge.armature,
+        damping=hinge.damping,
+        stiffness=hinge.stiffness,
+        rest=hinge.rest,
+    )
+
+
+def refuse_friction(name: str, friction: float, unit: str) -> None:
+    """Raise InvalidInput where a joint rubs."""
+    if friction:
+        raise InvalidInput(
+            f"{name}: friction {friction:g} {unit} jumps with the sign of the rate, and such a motion has no "
+            "Taylor series: set it to 0, or use damping"
+        )
 
 
 @dataclass(frozen=True)
@@ -95,33 +140,42 @@ def form_of(p: Planar) -> Form:
     """The numbers at the precision of ``flint.ctx``."""
     from flint import arb
 
-    mechanism = p.mechanism
-    links, hinges, parents = mechanism.links, mechanism.hinges, mechanism.parents
-    mass = [arb(link.mass) for link in links]
-    inertia = [arb(link.inertia) for link in links]
+    links = p.links
+    mass = [_ball(link.mass) for link in links]
+    inertia = [_ball(link.inertia) for link in links]
     if p.rods is not None:
         mass = [arb(p.rods.density) * l for l in p.rods.lengths]
         inertia = [m * arb(l) * l / 12 for m, l in zip(mass, p.rods.lengths, strict=True)]
-    slides = p.slides
     return Form(
         n=p.n,
-        parents=parents,
-        turning_parent=tuple(SUPPORT if q == SUPPORT or slides[q] else q for q in parents),
-        gravity=(arb(mechanism.gravity[0]), arb(mechanism.gravity[1])),
+        parents=tuple(link.parent for link in links),
+        turning_parent=p.turning_parents,
+        gravity=(_ball(p.gravity[0]), _ball(p.gravity[1])),
         mass=mass,
         inertia=inertia,
         com=[_pair(link.com) for link in links],
         hinge=[_pair(link.hinge) for link in links],
-        slide=[None if s is None else (arb(s.along), arb(s.across)) for s in slides],
-        armature=[arb(hinge.armature) if hinge.armature else None for hinge in hinges],
-        damping=[arb(hinge.damping) for hinge in hinges],
-        stiffness=[arb(hinge.stiffness) for hinge in hinges],
-        preload=[arb(hinge.stiffness) * hinge.rest for hinge in hinges],
-        own=tuple(i for i, hinge in enumerate(hinges) if hinge.damping or hinge.stiffness),
+        slide=[None if link.slide is None else _direction(link.slide) for link in links],
+        armature=[_ball(link.armature) if link.armature else None for link in links],
+        damping=[_ball(link.damping) for link in links],
+        stiffness=[_ball(link.stiffness) for link in links],
+        preload=[_ball(link.stiffness) * _ball(link.rest) for link in links],
+        own=tuple(i for i, link in enumerate(links) if link.damping or link.stiffness),
     )
 
 
-def _pair(point: Pair) -> tuple[Any, Any]:
-    from flint import arb
+def _ball(number: Number) -> Any:
+    from flint import arb, fmpq
 
-    return arb(point[0]), arb(point[1]) if point[1] else None
+    return arb(fmpq(number.numerator, number.denominator)) if isinstance(number, Fraction) else arb(number)
+
+
+def _pair(point: Pair) -> tuple[Any, Any]:
+    return _ball(point[0]), _ball(point[1]) if point[1] else None
+
+
+def _direction(way: Pair) -> tuple[Any, Any]:
+    """The unit vector along ``way``; exact where that is along an axis."""
+    along, across = _ball(way[0]), _ball(way[1])
+    length = (along * along + across * across).sqrt()
+    return along / length, across / length

@@ -92,13 +92,12 @@ def convolve(size: int) -> Callable[[Sequence[Any], Sequence[Any]], Tangent]:
     return product
 
 
-def solver(rows: list[list[Any]]) -> Callable[[list[Any]], list[Any]]:
-    """Solutions with their derivatives: M a = r, M ∂a = ∂r - ∂M a. Raises ZeroDivisionError as for balls."""
+def solver(rows: list[list[Any]], size: int) -> Callable[[list[Any]], list[Any]]:
+    """Solutions with their ``size`` derivatives: M a = r, M ∂a = ∂r - ∂M a. Raises ZeroDivisionError as for balls."""
     from flint import arb_mat
 
     n = len(rows)
     inverse = arb_mat(n, n, [e.value if isinstance(e, Tangent) else e for line in rows for e in line]).inv()
-    size = next(len(e.parts) for line in rows for e in line if isinstance(e, Tangent) and e.parts is not None)
     moved = arb_mat(n * size, n, [e for line in rows for e in _columns(line, size)])
 
     def solve(right: list[Any]) -> list[Tangent]:

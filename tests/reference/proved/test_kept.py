@@ -69,13 +69,14 @@ def test_simulates_error_is_about_as_large_as_its_estimate_at_most(name):
 )
 def test_a_new_proof_meets_the_kept_one(name):
     scene, proof = of(name)
-    # fewer digits, other steps and orders: the wider balls must hold the kept midpoints, to the kept radius
+    # fewer digits, other steps and orders; early balls may be the narrower ones all the same. Both hold the motion, and
+    # so they overlap: the one, wider by the other's diameter, holds it.
     found = furiko.enclose(scene.system, scene.theta, scene.omega, [0.0, *proof.times], digits=12)
     assert found.complete
     with precision(kept.READ_BITS):
         for new, old in ((found.theta, proof.theta), (found.omega, proof.omega)):
             for a, b in zip(new[1:].flat, old.flat, strict=True):
-                assert (a + arb(0, b.rad())).contains(b)
+                assert (a + arb(0, 2 * b.rad())).contains(b)
                 assert a.overlaps(b)
 
 
