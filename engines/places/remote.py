@@ -81,16 +81,10 @@ class _Planar:
         return _array(answer, "theta"), _array(answer, "omega")
 
 
-class _Tree:
-    """An open mechanism in the engine (:class:`~furiko.engines.protocol.TreeEngine`)."""
+class _Terms:
+    """The terms of an open mechanism's equations of motion, asked of a model in the engine."""
 
-    connection: Connection
-
-    def __init__(self, mechanism: SpatialMechanism) -> None:
-        self._model = self.connection.model(spatial(mechanism))
-
-    def accelerations(self, q: Array, v: Array) -> Array:
-        return _spatial(self._model, "accelerations", q, v)
+    _model: Model
 
     def mass_matrix(self, q: Array) -> Array:
         return _spatial(self._model, "mass_matrix", q)
@@ -100,6 +94,18 @@ class _Tree:
 
     def passive(self, q: Array, v: Array) -> Array:
         return _spatial(self._model, "passive", q, v)
+
+
+class _Tree(_Terms):
+    """An open mechanism in the engine (:class:`~furiko.engines.protocol.TreeEngine`)."""
+
+    connection: Connection
+
+    def __init__(self, mechanism: SpatialMechanism) -> None:
+        self._model = self.connection.model(spatial(mechanism))
+
+    def accelerations(self, q: Array, v: Array) -> Array:
+        return _spatial(self._model, "accelerations", q, v)
 
     def energy(self, q: Array, v: Array) -> Array:
         return _spatial(self._model, "energy", q, v)
@@ -136,20 +142,11 @@ class RemoteRobot:
         return _BoundRobot(model)
 
 
-class _BoundRobot:
+class _BoundRobot(_Terms):
     """The same, asked in a mechanism's coordinates."""
 
     def __init__(self, model: Model) -> None:
         self._model = model
-
-    def mass_matrix(self, q: Array) -> Array:
-        return _spatial(self._model, "mass_matrix", q)
-
-    def bias(self, q: Array, v: Array) -> Array:
-        return _spatial(self._model, "bias", q, v)
-
-    def passive(self, q: Array, v: Array) -> Array:
-        return _spatial(self._model, "passive", q, v)
 
     def accelerations(self, q: Array, v: Array, torque: Array) -> Array:
         return _spatial(self._model, "driven_accelerations", q, v, torque)
