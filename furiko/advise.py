@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from . import __version__
-from .bench import engines_to_measure
+from .bench import engines_to_measure, with_own_motions
 from .models import InvalidInput, TreeScene, find_scene
 from .records import provenance
 from .records.advice import Advice
@@ -33,7 +33,6 @@ def advise(
     :class:`EngineMissing`.
     """
     from .studies.bench.advice import advise as study
-    from .studies.bench.methods import ENGINES
 
     begun = time.monotonic()
     found = find_scene(scene)
@@ -48,7 +47,7 @@ def advise(
         raise InvalidInput(f"scene {scene!r}: it has no [state] with a duration, so there is no motion: {what}")
     named = replace(found, duration=duration)
     names = engines_to_measure(engines)
-    moving = names if engines is not None else [name for name in names if name in ENGINES]
+    moving = names if engines is not None else with_own_motions(names)
     advised, missed, left_out, truth = study(named, moving, error, budget, watch)
     return Advice(
         furiko=__version__,

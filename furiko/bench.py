@@ -107,12 +107,11 @@ def bench(
         skipped = list(measure_skips(list(scenes or SKIP_SCENES), names, say))
     else:
         from .studies.bench.acceleration_speed import SIZES
-        from .studies.bench.methods import ENGINES
 
         given = [_scene(name) for name in (BENCHMARKS if scenes is None else scenes)]
         chosen = [scene for scene in given if not isinstance(scene, TreeScene)]
         trees = [scene for scene in given if isinstance(scene, TreeScene)]
-        moving = names if engines is not None else [name for name in names if name in ENGINES]
+        moving = names if engines is not None else with_own_motions(names)
         both = scenes is None  # the rest of the budget goes into making models and reference solutions
         part = budget / len(given)
         weights = [scene.system.n**0.3 for scene in chosen]  # more links, longer runs
@@ -188,6 +187,13 @@ def engines_to_measure(given: Sequence[str] | None) -> list[str]:
         if why := why_missing(name):
             raise EngineMissing(f"{name}: {why}")
     return names
+
+
+def with_own_motions(names: Sequence[str]) -> list[str]:
+    """Of these engines those whose motions are run where none is named: the others integrate as one of them does."""
+    from .studies.bench.methods import ENGINES
+
+    return [name for name in names if name in ENGINES]
 
 
 def _processors() -> int:
