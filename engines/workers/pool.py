@@ -107,14 +107,17 @@ class Pool:
 
     def stop(self, worker: Worker) -> None:
         """End a worker with whatever it is doing, and start a fresh one in its place."""
-        worker.process.end()
+        self.source.end(worker.process)
         worker.job = None
         self.workers[self.workers.index(worker)] = Worker(self.source.worker())
 
     def close(self) -> None:
-        """End all workers."""
+        """End all workers; those without a job go back to a source that keeps them for the next pool."""
         for worker in self.workers:
-            worker.process.end()
+            if self.source.keeps and worker.job is None:
+                self.source.take_back(worker.process)
+            else:
+                self.source.end(worker.process)
         self.workers = []
 
     def _listen(self, worker: Worker) -> Iterator[Event]:

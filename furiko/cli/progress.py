@@ -42,15 +42,17 @@ def check_progress() -> Iterator[Callable[[Plan, Result], None] | None]:
         task = bar.add_task("checking", total=None, left="")
         seen: set[tuple[str, str, str]] = set()
         cells: list[Cells] = []
+        total = 0
         looked = [begun]
 
         def watch(plan: Plan, result: Result) -> None:
-            settled = {(r.scene, r.engine, r.check) for r in plan.settled}
+            nonlocal total
             # An engine has one trajectory result for each integrator: they count as the one check that was planned.
             seen.add((result.scene, result.engine, result.comparison))
-            total = sum(len(t.checks) for t in plan.tasks) + len(settled)
             now = one_line(f"{result.scene} {result.engine}", 80)
-            if not cells:
+            if not cells:  # the plan stays as it is: counting it again at each result would be quadratic
+                settled = {(r.scene, r.engine, r.check) for r in plan.settled}
+                total = sum(len(t.checks) for t in plan.tasks) + len(settled)
                 cells.append(Cells(_planned(plan)))
             cells[0].took((result.scene, result.engine, result.comparison), result.seconds)
             bar.update(task, completed=min(len(seen), total), total=total, description=now)
