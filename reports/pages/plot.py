@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from .axes import Axis, Tick, fits, linear_axis, log_axis, path
@@ -13,6 +13,7 @@ LINEAR_TICKS = 6  # at most, on a linear axis
 MOST_POINTS = 400  # of a line without marks; more cannot be told apart
 
 Point = tuple[float, float, str]
+Points = Sequence[tuple[float, float]]  # without words
 
 
 @dataclass(frozen=True)
@@ -131,3 +132,17 @@ def _stairs(points: Sequence[tuple[float, float]], across: Axis, up: Axis) -> li
             stairs.append((stairs[-1][0], up.at(y)))
         stairs.append((across.at(x), up.at(y)))
     return stairs
+
+
+def to_series(lines: Mapping[str, Points], *, marked: bool = False, order: Sequence[str] = ()) -> list[Series]:
+    """A series for each line; its colour, and its mark if ``marked``, by its place in ``order``, else in ``lines``."""
+    places = {name: i % KINDS for i, name in enumerate(order or lines)}
+    return [
+        Series(
+            name,
+            [(x, y, f"{name}: {x:.4g}, {y:.3g}" if marked else "") for x, y in points],
+            places[name],
+            places[name] if marked else None,
+        )
+        for name, points in lines.items()
+    ]
