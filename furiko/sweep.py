@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import hashlib
 import os
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack
+from collections.abc import Callable, Generator
+from contextlib import ExitStack, closing
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import msgspec
 
@@ -76,19 +77,22 @@ def sweep(
     for name in found.engines:
         if why := why_missing(name):
             raise EngineMissing(f"{name}: {why}")
-    folder = begin(Path(out), make_manifest(found, Path(path), text), fresh=fresh)
+    manifest = make_manifest(found, Path(path), text)
     lost = ""
-    try:
-        _run(found, folder, jobs, dask, watch)
-    except ClusterLost as error:
-        lost = str(error)
+    with ExitStack() as open_until_done:
+        client = None if dask is None else open_until_done.enter_context(cluster(dask))
+        folder = begin(Path(out), manifest, fresh=fresh)
+        try:
+            _run(found, folder, jobs, client, watch)
+        except ClusterLost as error:
+            lost = str(error)
     summary = report(folder.path)
     if lost:
         raise SweepCutOff(f"{lost}; what was done is kept, and the same command goes on", summary)
     return summary
 
 
-def _run(found: Sweep, folder: SweepFolder, jobs: int | None, dask: str | None, watch: Callable[[Doing], None]) -> None:
+def _run(found: Sweep, folder: SweepFolder, jobs: int | None, client: Any, watch: Callable[[Doing], None]) -> None:
     digest = folder.manifest.digest
     left = list(folder.left())
     there = found.cells - sum(len(work.engines) * len(found.numbers(work.chunk)) for work in left)
@@ -96,12 +100,12 @@ def _run(found: Sweep, folder: SweepFolder, jobs: int | None, dask: str | None, 
     if not left:
         return
     watch(doing)
-    with ExitStack() as open_until_done:
-        parts: Iterator[tuple[Part, ...]]
-        if dask is None:
-            parts = run_here(found, digest, left, min(jobs or os.cpu_count() or 1, len(left)))
-        else:
-            parts = run_on_cluster(found, digest, left, open_until_done.enter_context(cluster(dask)))
+    parts: Generator[tuple[Part, ...], None, None]
+    if client is None:
+        parts = run_here(found, digest, left, min(jobs or os.cpu_count() or 1, len(left)))
+    else:
+        parts = run_on_cluster(found, digest, left, client)
+    with closing(parts):
         for several in parts:
             for part in several:
                 folder.keep(part)

@@ -1,7 +1,7 @@
 """Engines that misbehave in cells of their own choosing: by the length of the first rod, which a sweep can set.
 
-A rod of the length FAULTS[name] m makes the engine do that; with any other it is right. All are engines for sweeps of
-``rods-2`` whose parameter ``l1`` has these values among others.
+A rod of FAULTS[name] m, or up to 0.9 mm more, makes the engine do that; with any other it is right. They are for sweeps
+of ``rods-2`` whose parameter ``l1`` has these values among others.
 """
 
 import os
@@ -15,6 +15,25 @@ from furiko.engines.workers.frames import HEADER, MAGIC
 
 FAULTS = {"crash": 0.501, "hang": 0.502, "flood": 0.503, "hog": 0.504, "raise": 0.505, "rubbish": 0.506, "kill": 0.507}
 BLOCK = 1 << 28  # bytes that the hog takes at a time
+
+
+def faulty_lengths(scenes, planted):
+    """Lengths of the first rod for so many scenes, all different; evenly among them so many faults, of all kinds."""
+    kinds = list(FAULTS)
+    lengths = [round(0.6 + 1e-6 * k, 6) for k in range(scenes)]
+    for k in range(planted):
+        lengths[k * scenes // planted] = _faulty(kinds[k % len(kinds)], k // len(kinds))
+    return lengths
+
+
+def _faulty(kind, number):
+    """The number-th length that means this fault."""
+    return round(FAULTS[kind] + 1e-6 * number, 6)
+
+
+def fault_of(length):
+    """The fault that a length means; None for none."""
+    return next((kind for kind, least in FAULTS.items() if least <= length < least + 9e-4), None)
 
 
 def about_this(name):
@@ -35,7 +54,7 @@ def misbehave(fault):
     if fault == "hog":
         taken = []
         while True:
-            taken.append(np.ones(BLOCK // 8))
+            taken.append(np.empty(BLOCK // 8))
     if fault == "raise":
         raise RuntimeError("the time step is too large")
     if fault == "rubbish":
@@ -51,9 +70,7 @@ class Faulty(Right):
     info = about_this("Faulty")
 
     def accelerations(self, theta, omega):
-        for fault, length in FAULTS.items():
-            if self.system.lengths[0] == length:
-                misbehave(fault)
+        misbehave(fault_of(self.system.lengths[0]))
         return super().accelerations(theta, omega)
 
 

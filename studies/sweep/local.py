@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable, Iterator
 from queue import Empty, SimpleQueue
 
 from .chunk import Lane, Part, Stopped, Work, do
@@ -13,7 +13,7 @@ LOOK_UP = 0.5  # [s] between two looks at whether a thread is left
 ENDS_WITHIN = 10.0  # [s]: a thread whose workers were ended
 
 
-def run_here(sweep: Sweep, digest: str, works: Iterable[Work], jobs: int) -> Iterator[tuple[Part, ...]]:
+def run_here(sweep: Sweep, digest: str, works: Iterable[Work], jobs: int) -> Generator[tuple[Part, ...], None, None]:
     """The parts of each chunk, in the order in which they are done; ``jobs``: how many are under way at once.
 
     ``works`` is gone through as chunks are done, so that few are held at a time. Closed early, it ends its workers.

@@ -3,7 +3,6 @@
 import json
 import os
 import signal
-import subprocess
 import sys
 import time
 from collections import Counter
@@ -12,35 +11,13 @@ from pathlib import Path
 import jsonschema
 import pytest
 from fake_engines_sweep import FAULTS
+from swept import children, rows_of, started, until, write
 
 from furiko.cli.main import run
 from furiko.records.schema import FOLDER
 from furiko.sweep import sweep
 
 parquet = pytest.importorskip("pyarrow.parquet")
-FAKES = str(Path(__file__).parents[2] / "fake_engines_sweep.py")
-VOLATILE = ("seconds", "in_engine")  # what a clock says
-
-
-def write(path, *, engines=("Sound",), lengths=(0.6, 0.7, 1.1, 1.2), chunk=2, seconds=20.0, memory=4.0, seeds=1):
-    names = [f"{FAKES}:{name}" for name in engines]
-    path.write_text(
-        f"engines = {json.dumps(names)}\nseeds = {seeds}\nstates = 2\nnamed = []\nchunk = {chunk}\n"
-        f"[limits]\nseconds = {seconds}\nmemory = {memory}\n"
-        f'[[scenes]]\nscenes = ["rods-2"]\n[scenes.parameters]\nl1 = {list(lengths)}\n'
-    )
-    return path
-
-
-def rows_of(folder):
-    """All rows, in the order of the cells, without what a clock says."""
-    found = []
-    for path in sorted(Path(folder).glob("results/*/*.parquet")):
-        found += parquet.read_table(path, partitioning=None).to_pylist()
-    for row in found:
-        for name in VOLATILE:
-            del row[name]
-    return sorted(found, key=lambda row: (row["cell"], row["check"]))
 
 
 def test_a_sweep_from_its_file_to_its_tables(tmp_path, capsys, monkeypatch):
@@ -79,7 +56,7 @@ def test_a_sweep_from_its_file_to_its_tables(tmp_path, capsys, monkeypatch):
 @pytest.mark.slow
 def test_crashes_hangs_floods_and_hogs_are_errors_of_their_own_cells_alone(tmp_path):
     lengths = [0.6, *FAULTS.values(), 0.7]
-    file = write(tmp_path / "s.toml", engines=("Faulty", "Sound"), lengths=lengths, seconds=3.0, memory=2.0, chunk=5)
+    file = write(tmp_path / "s.toml", engines=("Faulty", "Sound"), lengths=lengths, seconds=5.0, memory=1.0, chunk=5)
     found = sweep(file, out=tmp_path / "out", jobs=2)
     assert found.complete
     rows = rows_of(tmp_path / "out")
@@ -150,20 +127,6 @@ def test_a_missing_library_is_one_line_with_the_extra(package, tmp_path, monkeyp
     assert not (tmp_path / "out").exists()
 
 
-def started(file, out, *words):
-    return subprocess.Popen(
-        [sys.executable, "-m", "furiko", "sweep", str(file), "--out", str(out), *words],
-        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-    )  # fmt: skip
-
-
-def until(condition, within=60.0):
-    end = time.monotonic() + within
-    while not condition():
-        assert time.monotonic() < end, "it did not come so far"
-        time.sleep(0.02)
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(("sign", "status"), [(signal.SIGKILL, -9), (signal.SIGTERM, 143), (signal.SIGINT, 130)])
 def test_a_run_that_is_ended_in_the_middle_goes_on_to_the_same_table(tmp_path, sign, status):
@@ -184,18 +147,6 @@ def test_a_run_that_is_ended_in_the_middle_goes_on_to_the_same_table(tmp_path, s
     assert run(["sweep", "report", str(tmp_path / "out")]) == 3
     assert sweep(file, out=tmp_path / "out", jobs=2).complete
     assert rows_of(tmp_path / "out") == rows_of(tmp_path / "whole")
-
-
-def children(pid):
-    found = []
-    for path in Path("/proc").glob("[0-9]*/stat"):
-        try:
-            fields = path.read_text().rpartition(")")[2].split()
-        except OSError:
-            continue
-        if int(fields[1]) == pid:
-            found.append(int(path.parent.name))
-    return found
 
 
 def alive(pid):
