@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Self
 
 from ...checks.cache import Cache
@@ -118,7 +119,7 @@ def _part(
     info: EngineInfo,
     results: Sequence[Result],
 ) -> Part:
-    version = engine_version(info.name)
+    version = _version(info.name)
     found = [_row(sweep, *places[result.scene], version, result) for result in results if result.engine == info.name]
     # In the order of the cells, and of the checks in each: the same whatever came first.
     order = {name: k for k, name in enumerate(sweep.checks)}
@@ -128,6 +129,9 @@ def _part(
         outcomes[row.outcome] = outcomes.get(row.outcome, 0) + 1
     mark = SweepMark(digest=digest, chunk=chunk, engine=info.name, cells=len({r.cell for r in rows}), rows=len(rows))
     return Part(mark, to_parquet(rows, mark, sweep.parameters), outcomes)
+
+
+_version = cache(engine_version)  # its package's metadata is a file
 
 
 def _row(sweep: Sweep, place: Place, n: int, version: str, result: Result) -> SweepRow:
