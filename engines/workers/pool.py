@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from multiprocessing.connection import wait
 from typing import Any
 
-from .messages import Done, Job, Step
+from .messages import Done, Job, Ready, Step
 from .processes import WorkerProcess, Workers
 
 START = Step("", engine=True)  # until the job says otherwise
@@ -30,9 +30,10 @@ class Worker:
     heard: int = 0  # messages of this job
 
     def begin(self, step: Step) -> None:
-        """The clock starts anew."""
+        """The clock starts anew. A process that is still starting is at work of furiko's own."""
         self.step = step
-        self.allowed = self.limit if step.engine else max(self.limit, OWN_LIMIT)
+        engine = step.engine and self.process.channel.ready
+        self.allowed = self.limit if engine else max(self.limit, OWN_LIMIT)
         self.deadline = time.monotonic() + self.allowed
 
 
@@ -130,6 +131,10 @@ class Pool:
             yield from self._lose(worker, f"the engine's process cannot be understood: {error}")
             return
         for message in messages:
+            if isinstance(message, Ready) and not worker.process.channel.ready:
+                worker.process.channel.ready = True
+                worker.begin(worker.step)
+                continue
             job = worker.job
             if job is None:  # it spoke without being asked: not to be trusted with another job
                 self.stop(worker)

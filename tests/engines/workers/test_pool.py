@@ -139,3 +139,17 @@ def test_a_busy_worker_is_not_kept():
         pool.close()
         assert old.process.poll() is not None
         assert source.waiting == source.taken == []
+
+
+def test_the_start_of_a_worker_is_not_on_the_engines_clock(tmp_path, monkeypatch):
+    (tmp_path / "slow_to_import.py").write_text("import time\ntime.sleep(4)\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    with worker_processes(modules=["slow_to_import"]) as source:
+        pool = Pool(source, 1)
+        # The job itself sleeps for no time; two seconds are enough for its few messages.
+        pool.give(pool.workers[0], Works(engine=True, seconds=0.0), 2.0)
+        found = []
+        while pool.busy:
+            found += pool.events()
+        pool.close()
+    assert isinstance(found[-1], Finished), found[-1]
