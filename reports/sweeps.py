@@ -46,17 +46,22 @@ def flaws(found: SweepSummary) -> list[str]:
     return said
 
 
+def short(engine: str) -> str:
+    """An engine's name; of one that is a path, the file's."""
+    return engine.rpartition("/")[2] or engine
+
+
 def tally_row(one: SweepTally) -> tuple[str, ...]:
     """One engine."""
     numbers = (one.cells, one.agrees - one.loose, one.loose, one.differs, one.errors, one.skipped)
-    return (one.engine, ", ".join(one.versions), *(f"{number:,}" for number in numbers))
+    return (short(one.engine), ", ".join(one.versions), *(f"{number:,}" for number in numbers))
 
 
 def fault_row(fault: SweepFault) -> tuple[str, ...]:
     """One kind of failure."""
     what = f"[{fault.cause}] {fault.reason}" if fault.cause else fault.reason
     glyph = f"{GLYPHS[fault.outcome]} {fault.outcome}"
-    return (fault.engine, fault.check, glyph, f"{fault.times:,}", one_line(what, LONGEST), fault.scene)
+    return (short(fault.engine), fault.check, glyph, f"{fault.times:,}", one_line(what, LONGEST), fault.scene)
 
 
 def group_heading(parameters: Sequence[str]) -> tuple[str, ...]:
@@ -74,7 +79,7 @@ def group_row(group: SweepGroup, parameters: Sequence[str]) -> tuple[str, ...]:
         group.source,
         str(group.n),
         *values,
-        group.engine,
+        short(group.engine),
         group.check,
         results + (f"  ≈ {group.loose:,}" if group.loose else ""),
         figure(group.share),

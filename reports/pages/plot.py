@@ -38,7 +38,7 @@ class Series:
     """A line through points (x, y, what a mark says when pointed at).
 
     ``colour`` and ``mark`` are numbers below :data:`KINDS`; no marks are drawn where ``mark`` is None. ``group``: what
-    it is shown and hidden with, as its engine; empty for itself alone.
+    it is shown and hidden with, as its engine; empty for itself alone. ``joined``: a line goes through the marks.
     """
 
     name: str
@@ -47,6 +47,7 @@ class Series:
     mark: int | None = None
     dashed: bool = False
     group: str = ""
+    joined: bool = True
 
 
 @dataclass(frozen=True)
@@ -120,7 +121,7 @@ def _axis(axis: Axis) -> str:
 def _line(series: Series, points: Sequence[Point], across: Axis, up: Axis) -> Line:
     placed = [(across.at(x), up.at(y), words) for x, y, words in points]
     if series.mark is not None:
-        return Line(series, path([(x, y) for x, y, _ in placed]), tuple(placed))
+        return Line(series, path([(x, y) for x, y, _ in placed]) if series.joined else "", tuple(placed))
     thinned = placed[:: max(1, len(placed) // MOST_POINTS)]
     return Line(series, path([(x, y) for x, y, _ in thinned]), ())
 

@@ -6,7 +6,19 @@ from collections.abc import Sequence
 from statistics import median
 
 from ...records.sweep import SweepGroup, SweepSummary
-from ..sweeps import FAULTS, TALLIES, fault_row, flaws, group_heading, group_row, headline, tally_row, value, varying
+from ..sweeps import (
+    FAULTS,
+    TALLIES,
+    fault_row,
+    flaws,
+    group_heading,
+    group_row,
+    headline,
+    short,
+    tally_row,
+    value,
+    varying,
+)
 from ..words import duration, figure
 from .plot import KINDS, LARGE, Plot, Series, draw
 from .rendering import render_with_plots
@@ -56,7 +68,7 @@ def _against(found: SweepSummary, check: str, name: str) -> Plot | None:
             if len(points) > 1:
                 at = _engines(found).index(engine) % KINDS
                 mark = sources.index(source) % KINDS if source is not None else at
-                label = engine if source is None else f"{engine}, {source}"
+                label = short(engine) if source is None else f"{short(engine)}, {source}"
                 said = [(x, y, f"{label}: {name} {x:.4g}: {figure(y)}") for x, y in points]
                 series.append(Series(label, said, at, mark, group=engine))
     values = [x for one in series for x, _, _ in one.points]
@@ -80,11 +92,11 @@ def _front(found: SweepSummary, check: str) -> Plot | None:
     series, points = [], []
     for k, engine in enumerate(_engines(found)):
         mine = [
-            (max(g.error, SMALLEST), g.time, f"{engine}: {g.source}{_at(g)}: {figure(g.error)} in {duration(g.time)}")
+            (max(g.error, SMALLEST), g.time, f"{short(engine)}: {_at(g)}: {figure(g.error)} in {duration(g.time)}")
             for g in found.groups
             if g.check == check and g.engine == engine and g.error is not None and g.time is not None
         ]
-        series.append(Series(engine, sorted(mine, key=lambda one: -one[1]), k % KINDS, k % KINDS, group=engine))
+        series.append(Series(short(engine), mine, k % KINDS, k % KINDS, group=engine, joined=False))
         points += [(error, seconds) for error, seconds, _ in mine]
     return draw(
         [one for one in series if one.points],
@@ -109,7 +121,7 @@ def _best(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
 
 
 def _at(group: SweepGroup) -> str:
-    return "".join(f", {name} {one:.4g}" for name, one in group.parameters.items())
+    return ", ".join([group.source, *(f"{name} {one:.4g}" for name, one in group.parameters.items())])
 
 
 def _words(name: str) -> str:

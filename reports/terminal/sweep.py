@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from typing import TextIO
 
 from ...records.sweep import SweepSummary
 from ..sweeps import TALLIES, fault_row, flaws, group_heading, group_row, headline, tally_row
@@ -13,9 +14,9 @@ MOST_FAULTS, MOST_GROUPS = 8, 24
 NARROW = 100  # columns: below, a reason stands on a line of its own
 
 
-def print_sweep(found: SweepSummary, page: Path | None) -> None:
+def print_sweep(found: SweepSummary, page: Path | None, file: TextIO | None = None) -> None:
     """Print it; as wide as the terminal, or 120 columns in a pipe. ``page``: where the page is."""
-    console = PlainConsole(sys.stdout, None)
+    console = PlainConsole(file or sys.stdout, None)
     console.line(headline(found), "bold")
     for sentence in flaws(found):
         console.line(sentence)
