@@ -38,6 +38,7 @@ COMMANDS = {
     "lesson": "Write a web page for teaching: thirty mistakes in derivations.",
     "scenes": "List the scenes of the catalogue.",
     "stress": "Find where engines, integrators and formulas break.",
+    "sweep": "Run a grid of scenes, engines and seeds; resumable, on all cores.",
     "versions": "Find which release of an engine changed what, by the theory.",
 }
 
