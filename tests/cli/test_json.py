@@ -77,3 +77,13 @@ def test_another_document_is_not(name):
     validator = jsonschema.Draft202012Validator(json.loads((FOLDER / f"{name}.json").read_text(encoding="utf-8")))
     for other in (1, {}, [{}], {"verdict": "maybe"}):
         assert not validator.is_valid(other)
+
+
+def test_a_run_prints_all_that_its_stream_has(printed, tmp_path):
+    """Skipped and differing results, diagnoses and the footer: nothing is known from JSON that is not so."""
+    document = printed("check", "rods-1", "-e", "mujoco", "-e", "pinocchio-aba", "--out", "here")
+    lines = [json.loads(line) for line in (tmp_path / "here" / "report.jsonl").read_text().splitlines()]
+    results = [line for line in lines if line["kind"] == "result"]
+    assert {line["outcome"] for line in results} == {"agrees", "skipped"}
+    assert len(document["results"]) == len(results)
+    assert document["footer"]["digest"] == lines[-1]["digest"]
