@@ -63,6 +63,35 @@ def test_any_other_input_is_another_entry(cache, task, monkeypatch):
     assert cache.results(task) is None
 
 
+def test_the_key_has_every_input(task, monkeypatch):
+    """Each changes what an answer may be; none is left to what else is looked at when an entry is read."""
+    scene = task.scene
+    numbers = ("theta", "omega", "duration", "random", "named", "tags", "name", "system")
+    values = ((1.0, 1.0), (1.0, 1.0), 3.0, 7, ("hanging",), ("other",), "other", furiko.RodChain((1.0, 0.5)))
+    others = [replace(task, scene=replace(scene, **{name: value})) for name, value in zip(numbers, values, strict=True)]
+    others += [replace(task, random_states=21), replace(task, checks=("energy",))]
+    pinocchio = [replace(task, engine=name) for name in ("pinocchio-aba", "pinocchio-crba")]  # of one package
+    keys = {module._results_key(each) for each in (task, *others, *pinocchio)}
+    assert len(keys) == 1 + len(others) + 2
+    assert len({module._facts_key(scene, count) for count in (20, 21)}) == 2
+    before = module._results_key(task)
+    monkeypatch.setattr(module, "package_foundation", lambda *_: b"another build")
+    assert module._results_key(task) != before
+    assert module._digest("a", "bc") != module._digest("ab", "c")
+
+
+def test_what_a_users_model_file_gives_is_not_kept(task, tmp_path):
+    """It may include others, and meshes."""
+    (tree,) = make_plan(["cart-pole"], ["mujoco"], "smoke").tasks
+    assert module._results_key(tree)
+    assert module._results_key(replace(tree, scene=replace(tree.scene, model="robot.xml"))) is None
+
+
+def test_a_failure_among_results_is_not_kept_either(cache, task):
+    cache.keep_results(task, [RESULT, structs.replace(RESULT, check="accelerations, other states", outcome="error")])
+    assert cache.results(task) is None
+
+
 def test_a_failure_is_not_kept(cache, task):
     cache.keep_results(task, [RESULT, replace_outcome("error")])
     assert cache.results(task) is None

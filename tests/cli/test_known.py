@@ -70,6 +70,8 @@ def test_json_has_it(check):
     assert known["state"] == "differs"
     assert known["results"] == [["rods-2", "fake_engines:SignFlipped", "accelerations"]]
     assert known["reason"] == "it is a fake"
+    (diagnosis,) = json.loads(done.stdout)["diagnoses"]
+    assert diagnosis["explains"] == ["accelerations"]
 
 
 def test_a_bad_file_is_one_line_before_anything_runs(check):
