@@ -219,6 +219,22 @@ def test_a_damaged_entry_is_computed_again(cache, task, damage):
     assert cache.facts(task.scene, 20) is None
 
 
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs pipes that have a name")
+@pytest.mark.parametrize("kind", ["pipe", "device", "folder", "itself", "sparse"])
+def test_what_is_no_entry_in_the_place_of_one_is_computed_again_at_once(cache, task, kind):
+    """A pipe would be waited for without end, a device read without end."""
+    cache.keep_results(task, [RESULT])
+    (entry,) = cache.entries()
+    entry.unlink()
+    if kind == "sparse":
+        with entry.open("wb") as file:
+            file.truncate(1 << 40)
+    else:
+        makers = {"pipe": os.mkfifo, "folder": os.mkdir, "itself": lambda path: os.symlink(path, path)}
+        makers.get(kind, lambda path: os.symlink("/dev/zero", path))(entry)
+    assert cache.results(task) is None
+
+
 def test_truth_is_found_again(cache, task):
     cache.keep_facts(task.scene, 20, b"truth")
     assert cache.facts(task.scene, 20) == b"truth"
