@@ -165,8 +165,10 @@ def main() -> int:
             hidden += bool(fault.hides) and not found
             if found == bool(fault.hides):
                 missed.append(fault.id)
-    print(f"{len(faults) - len(missed) - hidden} of {len(faults)} noticed; {hidden} known to hide; "
-          f"{len(missed)} otherwise than the table says: {', '.join(missed)}")
+    print(
+        f"{len(faults) - len(missed) - hidden} of {len(faults)} noticed; {hidden} known to hide; "
+        f"{len(missed)} otherwise than the table says: {', '.join(missed)}"
+    )
     return bool(missed)
 
 

@@ -7,6 +7,7 @@ import pytest
 
 from furiko.checks import sharp
 from furiko.checks.comparisons import energy, step_map, symmetries, trajectories
+from furiko.checks.step_rounding import disturbed
 from furiko.engines import ENGINES
 from furiko.models import NLegPendulum, RodChain, Scene
 from furiko.reference import literal_accelerations
@@ -237,3 +238,15 @@ def test_a_step_may_be_that_of_any_scheme_within_the_proven_bound(make_cell):
     # The name is what random states follow from.
     runge_kutta, *_ = step_map.compare(make_cell("exudyn-tree", Scene("absurd-102-0", system), random_states=200))
     assert (runge_kutta.outcome, runge_kutta.loose) == ("agrees", False), runge_kutta
+
+
+@pytest.mark.parametrize("engine", ["mujoco", "exudyn-tree"])
+def test_a_run_is_that_of_one_scheme_where_steps_are_not_the_same_to_rounding(make_cell, engine):
+    """Of a lively motion: the 3/8 rule, whose first step is another by 1e-9, would explain a wrong run too."""
+    cell = make_cell(engine, "double-pendulum", 5)
+    runge_kutta = next(one for one in cell.info.integrators if one.order == 4)
+    theta, omega = (values[None] for values in cell.start)
+    alpha = literal_accelerations(cell.scene.system, theta, omega)
+    by = disturbed(cell, runge_kutta, theta, omega, alpha)
+    found = trajectories.schemes_of(cell, runge_kutta, theta, omega, 0.02, by)
+    assert [candidate.scheme.name for candidate in found] == ["classical Runge-Kutta"]
