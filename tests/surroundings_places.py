@@ -100,7 +100,7 @@ ENVIRONMENTS = [
         Fault(f"{name}={value}", _set(*CHECK, **{name: value}), (0,))
         for name, value in (
             ("COLUMNS", "0"), ("COLUMNS", "-1"), ("COLUMNS", "wide"), ("COLUMNS", "1"), ("COLUMNS", "9" * 30),
-            ("LINES", "nan"), ("TERM", "\u202e"), ("TERM", "dumb"), ("NO_COLOR", ""), ("FORCE_COLOR", "0"),
+            ("LINES", "nan"), ("TERM", "\u202e"), ("TERM", "dumb"), ("NO_COLOR", ""),
             ("TZ", "../../x"),
             ("LANG", "xx_YY.UTF-99"), ("LC_ALL", "C"), ("PYTHONHASHSEED", "0"), ("PYTHONOPTIMIZE", "2"),
             ("PYTHONWARNINGS", "error"), ("PYTHONMALLOC", "debug"), ("PYTHONDONTWRITEBYTECODE", "1"),
