@@ -5,13 +5,19 @@ import subprocess
 import sys
 from collections import Counter
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 import furiko
+from furiko.checks import runner
 from furiko.checks.cache import Cache
+from furiko.checks.jobs import CellJob, Facts
+from furiko.checks.ledger import Ledger
 from furiko.checks.plan import PROFILES, make_plan
 from furiko.checks.runner import run
+from furiko.engines.workers.messages import Failed
+from furiko.engines.workers.pool import Finished, Said
 from furiko.engines.workers.processes import worker_processes
 
 CHECKS = PROFILES["quick"].checks
@@ -147,3 +153,53 @@ def test_every_planned_check_has_its_results(jobs):
     assert report.complete
     checks = {(result.scene, result.comparison) for result in report.results}
     assert len(checks) == 2 * len(CHECKS)
+
+
+def test_a_truth_is_looked_for_and_kept_in_as_many_states_as_the_run_has(monkeypatch):
+    asked, kept = [], []
+
+    class Spy(Cache):
+        def facts(self, scene, random_states):
+            asked.append((scene.name, random_states))
+
+        def keep_facts(self, scene, random_states, content):
+            kept.append((scene.name, random_states, content))
+
+    monkeypatch.setattr(runner, "Pool", lambda *_: SimpleNamespace(idle=list, busy=[]))
+    plan = make_plan(["rods-1"], ["mujoco"], "quick")
+    run = runner._Run(list(plan.tasks), Spy(None), None, 1, 60.0, Ledger(plan))
+    run.begin()
+    (job,), worker = run.truths, object()
+    run.progress[worker] = runner._Progress()
+    assert list(run._on(Said(worker, job, Facts(b"truth")))) == []
+    assert (asked, kept) == ([("rods-1", 200)], [("rods-1", 200, b"truth")])
+    assert [ready.facts for ready in run.ready] == [b"truth"]
+
+
+def test_a_truth_that_cannot_be_computed_fails_every_cell_of_its_scene(monkeypatch):
+    monkeypatch.setattr(runner, "Pool", lambda *_: SimpleNamespace(idle=list, busy=[]))
+    plan = make_plan(["rods-1"], ["mujoco", "exudyn-tree"], "smoke")
+    run = runner._Run(list(plan.tasks), Cache(None), None, 1, 60.0, Ledger(plan))
+    run.begin()
+    (job,), worker = run.truths, object()
+    run.progress[worker] = runner._Progress()
+    found = list(run._on(Said(worker, job, Failed("no digits left", ""))))
+    assert [(result.engine, result.outcome) for result in found] == [("mujoco", "error"), ("exudyn-tree", "error")]
+    assert all("the truth could not be computed: no digits left" in result.reason for result in found)
+
+
+def test_a_check_that_a_worker_never_told_of_is_an_error_and_its_cell_is_not_kept(monkeypatch):
+    kept = []
+    monkeypatch.setattr(runner, "Pool", lambda *_: SimpleNamespace(idle=list, busy=[]))
+    monkeypatch.setattr(Cache, "keep_results", lambda self, task, results, found: kept.append(results))
+    (task,) = (plan := make_plan(["rods-1"], ["mujoco"], "quick")).tasks
+    run = runner._Run([task], Cache(None), None, 1, 60.0, Ledger(plan))
+    run.begin()
+    job, worker = CellJob(task, b""), object()
+    for told, missing in ((task.checks[1:], [(task.checks[0], "error")]), (task.checks, [])):
+        run.progress[worker] = runner._Progress(compared=set(told))
+        found = list(run._on(Finished(worker, job)))
+        assert [(result.check, result.outcome) for result in found] == [(task.checks[0], "error")] * (
+            told != task.checks
+        )
+    assert kept == [[]]  # the second, of which nothing is missing
