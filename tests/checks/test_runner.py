@@ -11,7 +11,7 @@ import pytest
 
 import furiko
 from furiko.checks import runner
-from furiko.checks.cache import Cache
+from furiko.checks.cache import Cache, Kept
 from furiko.checks.jobs import CellJob, Facts
 from furiko.checks.ledger import Ledger
 from furiko.checks.plan import PROFILES, make_plan
@@ -19,6 +19,7 @@ from furiko.checks.runner import run
 from furiko.engines.workers.messages import Failed
 from furiko.engines.workers.pool import Finished, Said
 from furiko.engines.workers.processes import worker_processes
+from furiko.records.check import Diagnosis, Result
 
 CHECKS = PROFILES["quick"].checks
 
@@ -201,3 +202,18 @@ def test_a_check_that_a_worker_never_told_of_is_an_error_and_its_cell_is_not_kep
         found = list(run._on(Finished(worker, job)))
         assert [(result.check, result.outcome) for result in found] == missing
     assert kept == [[]]  # the second, of which nothing is missing
+
+
+def test_what_is_kept_comes_with_its_diagnosis_and_is_promised(monkeypatch):
+    plan = make_plan(["rods-1"], ["mujoco"], "smoke")
+    (task,) = plan.tasks
+    (check,) = task.checks
+    results = [
+        Result(scene="rods-1", engine="mujoco", check=name, comparison=check, outcome="differs") for name in ("a", "b")
+    ]
+    diagnosis = Diagnosis(scene="rods-1", engine="mujoco", explains=["a"])
+    monkeypatch.setattr(Cache, "results", lambda *_: Kept(results, [diagnosis]))
+    ledger = Ledger(plan)
+    found = list(run(plan, cache=Cache(None), source=None, ledger=ledger))
+    assert found == [*plan.settled, *results, diagnosis]
+    assert "1 of its 2 results" in ledger.missing([*plan.settled, results[0]])[0].reason

@@ -45,6 +45,25 @@ def test_of_the_accelerations(make_cell, link):
     assert outcomes(make_cell, accelerations, "accelerations", change) == {"accelerations": "differs"}
 
 
+@pytest.mark.parametrize(("part", "outcome"), [(0.5, "agrees"), (2.0, "differs")])
+def test_twice_the_proven_bound_is_beyond_it_and_half_is_not(make_cell, part, outcome):
+    """26 roundings a link, as the theory says; the residual is in proportion to the error."""
+    cell = make_cell("fake_engines:Right", SCENE, 3)
+
+    def off(size):
+        def change(answer, *_):
+            answer[:, -1] *= 1 + size
+
+        (found,) = accelerations.compare(replace(cell, engine=Moved(cell.engine, "accelerations", change)))
+        return found
+
+    coarse = off(OFF)
+    assert coarse.allowed == 26 * LINKS
+    found = off(OFF * part * coarse.allowed / coarse.measured)
+    assert found.measured == pytest.approx(part * found.allowed, rel=0.1)  # Right's own rounding is some ε of 78
+    assert found.outcome == outcome
+
+
 @pytest.mark.parametrize("joint", range(LINKS))
 @pytest.mark.parametrize("axis", [0, 1])
 def test_of_the_joint_forces(make_cell, joint, axis):
