@@ -7,6 +7,7 @@ import pytest
 
 from furiko.checks.comparisons import accelerations, energy, joint_forces, model_fields, terms, trajectories
 from furiko.engines import ModelFields
+from furiko.models import NLegPendulum, Scene
 
 SCENE, LINKS = "rods-3", 3
 OFF = 1e-9  # a part of the entry: far beyond the proven bounds of three links, which are some 1e-13
@@ -62,6 +63,15 @@ def test_twice_the_proven_bound_is_beyond_it_and_half_is_not(make_cell, part, ou
     found = off(OFF * part * coarse.allowed / coarse.measured)
     assert found.measured == pytest.approx(part * found.allowed, rel=0.1)  # Right's own rounding is some ε of 78
     assert found.outcome == outcome
+
+
+def test_states_in_which_no_digit_is_sure_are_left_out(make_cell):
+    """Two masses on one line, the upper 1e-15 of the lower: M is (1 + 1e-15, 1; 1, 1), and rounding 52 ε of each."""
+    system = NLegPendulum((1.0, 1.0), (1e-15, 1.0))
+    cell = make_cell("fake_engines:Right", Scene("light", system, named=("hanging", "horizontal")), 3)
+    (found,) = accelerations.compare(cell)
+    assert found.details["states left out"] >= 1
+    assert found.details["states"] + found.details["states left out"] == len(cell.states)
 
 
 @pytest.mark.parametrize("joint", range(LINKS))
