@@ -12,13 +12,14 @@ import pytest
 import furiko
 from furiko.checks import runner
 from furiko.checks.cache import Cache, Kept
-from furiko.checks.jobs import CellJob, Facts
+from furiko.checks.jobs import CellJob, Facts, accelerations_differ
 from furiko.checks.ledger import Ledger
 from furiko.checks.plan import PROFILES, make_plan
 from furiko.checks.runner import run
 from furiko.engines.workers.messages import Failed
 from furiko.engines.workers.pool import Finished, Said
 from furiko.engines.workers.processes import worker_processes
+from furiko.models import EngineMissing, LibraryMissing
 from furiko.records.check import Diagnosis, Result
 
 CHECKS = PROFILES["quick"].checks
@@ -217,3 +218,26 @@ def test_what_is_kept_comes_with_its_diagnosis_and_is_promised(monkeypatch):
     found = list(run(plan, cache=Cache(None), source=None, ledger=ledger))
     assert found == [*plan.settled, *results, diagnosis]
     assert "1 of its 2 results" in ledger.missing([*plan.settled, results[0]])[0].reason
+
+
+@pytest.mark.parametrize(
+    ("check", "outcome", "stops"),
+    [("accelerations", "differs", True), ("accelerations", "error", False), ("terms", "differs", False)],
+)
+def test_only_accelerations_that_differ_make_a_motion_pointless(check, outcome, stops):
+    """An engine's motion rests on its accelerations, and on none of its other answers."""
+    result = Result(scene="s", engine="e", check=check, comparison=check, outcome=outcome)
+    assert accelerations_differ(check, result) == stops
+
+
+@pytest.mark.parametrize(("missing", "outcome"), [(EngineMissing, "error"), (LibraryMissing, "skipped")])
+def test_an_engine_that_is_gone_has_failed_and_a_library_of_furikos_own_is_a_reason_to_skip(missing, outcome):
+    def compare(_cell):
+        raise missing("it is not there")
+
+    check = SimpleNamespace(name="terms", moves=False, compare=compare)
+    cell = SimpleNamespace(result=lambda name, found, **more: (name, found, more["reason"]))
+    (task,) = make_plan(["rods-1"], ["mujoco"], "smoke").tasks
+    (found,) = CellJob(task, b"")._results(check, cell, False, None)
+    assert found[:2] == ("terms", outcome)
+    assert "it is not there" in found[2]
