@@ -22,6 +22,7 @@ from . import (
     errors,
     findings,
     listings,
+    maps,
     stress,
     versions,
 )
@@ -40,6 +41,7 @@ SCHEMAS: dict[str, tuple[str, Any]] = {
     "bench": (f"furiko bench --json, and bench.json, format {bench.FORMAT}", bench.Bench),
     "stress": ("furiko stress --json", stress.StressSummary),
     "enclose": ("furiko enclose --json", enclosures.EnclosureDocument),
+    "map": ("furiko map --json", maps.MapRecord),
     "grade": ("furiko grade --json", findings.GradeDocument),
     "class": ("furiko grade --problem --json, and class.json", classroom.ClassDocument),
     "audit": ("furiko audit --json", findings.AuditDocument),

@@ -58,7 +58,7 @@ ROOMS = {
     ),
     "studies": (
         {"models", "records", "reference", "engines", "diagnosis", "checks"},
-        [(".",), ("bench", "stress", "versions")],
+        [(".",), ("bench", "maps", "stress", "versions")],
     ),
     "derivations": (
         {"models", "reference"},
