@@ -58,7 +58,7 @@ ROOMS = {
     ),
     "studies": (
         {"models", "records", "reference", "engines", "diagnosis", "checks"},
-        [(".",), ("bench", "stress", "sweep", "versions")],
+        [(".",), ("bench", "maps", "stress", "sweep", "versions")],
     ),
     "derivations": (
         {"models", "reference"},
