@@ -10,7 +10,7 @@ from . import __version__
 from .bench import engines_to_measure, with_own_motions
 from .models import InvalidInput, TreeScene, find_scene
 from .records import provenance
-from .records.advice import Advice
+from .records.bench import Advice
 
 
 def advise(

@@ -13,7 +13,6 @@ from typing import Any
 import msgspec
 
 from . import (
-    advice,
     bench,
     check,
     classroom,
@@ -37,7 +36,7 @@ SCHEMAS: dict[str, tuple[str, Any]] = {
     "engines": ("furiko engines --json", list[listings.EngineRow]),
     "engine-test": ("furiko engine-test --json", listings.EngineTest),
     "cache": ("furiko cache --json", listings.CacheContents),
-    "advise": ("furiko advise --json", advice.Advice),
+    "advise": ("furiko advise --json", bench.Advice),
     "bench": (f"furiko bench --json, and bench.json, format {bench.FORMAT}", bench.Bench),
     "stress": ("furiko stress --json", stress.StressSummary),
     "sweep": (f"furiko sweep --json, and sweep.json, format {sweep.FORMAT}", sweep.SweepSummary),

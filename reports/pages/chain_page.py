@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 from ...records.check import Header
 from ...records.stress import ChainMotion, ChainSummary, SmallSwings, StressSummary, TipConvergence
-from .chain_pictures import ChainPicture, draw_chains
-from .plot import Plot, Points, draw, to_series
+from .axes import path
+from .plot import KINDS, Plot, Points, draw, to_series
 from .rendering import render_with_plots
 
 INSTANTS = ("0.125", "0.25", "0.375", "0.5", "0.75", "1", "1.5", "2")  # [s] at which chains are pictured
@@ -16,6 +17,8 @@ FINE = 1e-12  # coarser motions only show what the integrator does
 END = 2.0  # [s] of the plots over time
 SWINGS = (1, 2, 3, 5, 7, 10)  # natural frequencies that are plotted
 MOST_SHOWN = 6  # motions in one plot
+REACH = 1.05  # m to each side of the support that a picture shows
+SIZE = 240.0
 
 
 def chain_page(summary: StressSummary, header: Header) -> str:
@@ -106,3 +109,24 @@ def _swings(swings: SmallSwings) -> Plot | None:
 
 def _against_rods(lines: Mapping[str, Points], y_label: str, title: str, x_label: str = "rods") -> Plot | None:
     return draw(to_series(lines, marked=True), x_label, y_label, title=title, log_x=True, log_y=True)
+
+
+@dataclass(frozen=True)
+class ChainPicture:
+    """Curves (path, colour's number, name) in a picture ``size`` wide; the support is at ``support``."""
+
+    title: str
+    size: float
+    curves: tuple[tuple[str, int, str], ...]
+    support: tuple[float, float]
+
+
+def draw_chains(title: str, curves: Mapping[str, Sequence[Sequence[float]]]) -> ChainPicture:
+    """Chains that hang from one support, each with its joints (x, z) [m], z upwards."""
+    scale = SIZE / (2 * REACH)
+    support = SIZE / 2, SIZE / 5
+    drawn = tuple(
+        (path([support, *((support[0] + scale * x, support[1] - scale * z) for x, z in joints)]), i % KINDS, name)
+        for i, (name, joints) in enumerate(curves.items())
+    )
+    return ChainPicture(title, SIZE, drawn, support)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,12 +19,14 @@ from ...records.stress import (
 from .chain_page import chain_page
 from .plot import Plot, draw, to_series
 from .rendering import render_with_plots
-from .stability_map import Column, StabilityMap, draw_map
 
 PAGE, CHAIN_PAGE = "stress.html", "chain.html"
 HOLDS = "holds"
 SMALLEST_ERROR = 1e-17  # errors of zero are drawn here
 ROWS = 25  # of a stability map; from one to the next the step grows by √2
+SQUARE = (30.0, 9.0)  # width and height of one square
+LEFT, TOP, BOTTOM, RIGHT = 70.0, 6.0, 34.0, 10.0
+LABELLED = 4  # every fourth row has its label
 
 
 def write_pages(folder: Path, summary: StressSummary, header: Header) -> tuple[Path, Path]:
@@ -150,3 +152,67 @@ def _drift(run: EnergyDrift) -> Plot | None:
     interval = len(run.drift) - 1
     points = [(i * run.steps / interval, value) for i, value in enumerate(run.drift)]
     return draw(to_series({"energy": points}), "steps", "ΔE / E", title=f"{run.engine} {run.integrator}")
+
+
+@dataclass(frozen=True)
+class Square:
+    """One run, or what follows from others: where, which kind of failure (0: it holds), and in words."""
+
+    x: float
+    y: float
+    kind: int
+    measured: bool
+    words: str
+
+
+@dataclass(frozen=True)
+class StabilityMap:
+    """Squares of ``size`` in columns and rows with their labels (place, words)."""
+
+    title: str
+    width: float
+    height: float
+    left: float
+    size: tuple[float, float]
+    squares: tuple[Square, ...]
+    columns: tuple[tuple[float, str], ...]
+    rows: tuple[tuple[float, str], ...]
+
+
+@dataclass(frozen=True)
+class Column:
+    """``runs``: the kind of failure (0: none) of every row that was run; ``holds``: the last row that holds."""
+
+    label: str
+    runs: Mapping[int, int]
+    holds: int
+
+
+def draw_map(title: str, columns: Sequence[Column], rows: Sequence[str], kinds: Sequence[str]) -> StabilityMap:
+    """The map, first row at the bottom; ``rows`` and ``kinds`` in words.
+
+    What was not run follows: rows up to the last that holds hold, those above fail as the next one below did.
+    """
+    bottom = TOP + len(rows) * SQUARE[1]
+    return StabilityMap(
+        title,
+        LEFT + len(columns) * SQUARE[0] + RIGHT,
+        bottom + BOTTOM,
+        LEFT,
+        SQUARE,
+        tuple(square for i, column in enumerate(columns) for square in _squares(i, column, rows, kinds)),
+        tuple((LEFT + (i + 0.5) * SQUARE[0], column.label) for i, column in enumerate(columns)),
+        tuple((bottom - (i + 0.25) * SQUARE[1], words) for i, words in enumerate(rows) if i % LABELLED == 0),
+    )
+
+
+def _squares(place: int, column: Column, rows: Sequence[str], kinds: Sequence[str]) -> list[Square]:
+    found = []
+    kind = 0
+    for i, row in enumerate(rows):
+        measured = i in column.runs
+        kind = column.runs[i] if measured else 0 if i <= column.holds else kind
+        words = f"{column.label}, step {row}: {kinds[kind]}{'' if measured else ' (follows)'}"
+        y = TOP + (len(rows) - 1 - i) * SQUARE[1]
+        found.append(Square(LEFT + place * SQUARE[0], y, kind, measured, words))
+    return found

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from typing import TextIO
 
-from ...records.advice import Advice, Advised
+from ...records.bench import Advice, Advised
 from ..words import duration, figure, link_words
 from .console import PlainConsole
 

@@ -16,7 +16,7 @@ from statistics import median
 import numpy as np
 
 from ...models import InvalidInput, Scene
-from ...records.advice import Advised, NotAdvised
+from ...records.bench import Advised, NotAdvised
 from ...reference.integration.taylor import simulate
 from .methods import FURIKO, STEP, Method, methods, start
 

@@ -1,6 +1,6 @@
 """A map shows which runs were made, and what follows from them."""
 
-from furiko.reports.pages.stability_map import Column, draw_map
+from furiko.reports.pages.stress_page import Column, draw_map
 
 
 def test_a_map_tells_what_was_run_from_what_follows():
