@@ -44,8 +44,9 @@ def rate(scenes: int, jobs: int) -> bool:
 
         before = peak()
         found = sweep(file, out=Path(folder) / "out", jobs=jobs, watch=watch)
-    begun, spent, _ = marks[0]
-    ended, used, cells = marks[-1]
+    begun, spent, first = marks[jobs]  # each worker has done a chunk: all is imported
+    ended, used, last = marks[-1]
+    cells = last - first
     own = (used - spent) / cells
     print(
         f"{jobs} workers, {cells:,} cells: {cells / (ended - begun):.0f} cells/s; the main process: "
