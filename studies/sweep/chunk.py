@@ -22,7 +22,7 @@ from ...engines.workers.processes import worker_processes
 from ...models import AnyScene, InvalidInput
 from ...records.check import Result
 from ...records.sweep import SweepMark, SweepRow
-from .plan import Place, Sweep
+from .plan import Place, RandomMechanism, Sweep
 from .table import finite, to_parquet
 
 
@@ -141,7 +141,7 @@ def _row(sweep: Sweep, place: Place, n: int, version: str, result: Result) -> Sw
         cell=sweep.cell(place.number, result.engine),
         scene=result.scene,
         source=place.source.label,
-        system=base.system.kind if hasattr(base, "system") else base.kind,
+        system=base.kind if isinstance(base, RandomMechanism) else base.system.kind,
         n=n,
         seed=place.seed,
         engine=result.engine,
