@@ -78,7 +78,7 @@ class Cache:
         compared = {result.comparison for result in entry.results}
         if entry.count != len(entry.results) or compared != set(task.checks):
             return None
-        results = [msgspec.structs.replace(result, kept=True, seconds=0.0) for result in entry.results]
+        results = [msgspec.structs.replace(result, kept=True, seconds=0.0, in_engine=0.0) for result in entry.results]
         return Kept(results, entry.diagnoses)
 
     def keep_results(self, task: Task, results: list[Result], diagnoses: Sequence[Diagnosis] = ()) -> None:
