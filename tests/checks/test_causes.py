@@ -157,3 +157,12 @@ def test_a_wrong_number_of_the_mechanism_is_the_cause_of_wrong_forces_too(cause)
         result = Result(scene="s", engine="e", check=check, comparison=check, outcome="differs")
         assert causes.named(result, CHECKS[check]).cause == cause
     assert causes.diagnosis().explains == ["accelerations", "joint forces", "energy"]
+
+
+def test_what_each_part_alone_has_stays():
+    """One cause at two places, and checks that only the first worker came to."""
+    first = Diagnosis(scene="s", engine="e", findings=[finding("mass", "link 1")], explains=["terms M"])
+    second = Diagnosis(scene="s", engine="e", findings=[finding("mass", "link 2")], explains=["trajectory"])
+    both = joined(first, second)
+    assert [found.where for found in both.findings] == ["link 1", "link 2"]
+    assert both.explains == ["terms M", "trajectory"]

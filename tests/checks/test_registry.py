@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from furiko.checks.plan import PROFILES, make_plan
 from furiko.checks.registry import CHECKS
 from furiko.engines import EngineInfo
 from furiko.models import find_scene
@@ -32,3 +33,13 @@ def test_a_check_says_why_it_is_skipped():
     assert CHECKS["step map"].skipped(scene, info) == "it has no integrator"
     assert CHECKS["accelerations"].skipped(scene, info) == ""
     assert "not tagged 'chaotic'" in CHECKS["horizon"].why_not(scene, info)
+
+
+def test_each_profile_has_the_checks_and_states_that_it_says():
+    """A quick run leaves out what takes seconds, and nothing else."""
+    every = ("model fields", "accelerations", "symmetry", "terms", "joint forces", "energy", "step map", "trajectory")
+    assert PROFILES["smoke"].checks == ("accelerations",)
+    assert set(PROFILES["quick"].checks) == set(every)
+    assert set(PROFILES["full"].checks) == {*every, "invariant", "horizon"}
+    states = {name: make_plan(["rods-1"], ["mujoco"], name).tasks[0].random_states for name in PROFILES}
+    assert states == {"smoke": 20, "quick": 200, "full": 1000}

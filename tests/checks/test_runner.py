@@ -12,7 +12,7 @@ import pytest
 import furiko
 from furiko.checks import runner
 from furiko.checks.cache import Cache, Kept
-from furiko.checks.jobs import CellJob, Facts, accelerations_differ
+from furiko.checks.jobs import Asking, CellJob, Facts, accelerations_differ
 from furiko.checks.ledger import Ledger
 from furiko.checks.plan import PROFILES, make_plan
 from furiko.checks.runner import run
@@ -175,7 +175,7 @@ def test_a_truth_is_looked_for_and_kept_in_as_many_states_as_the_run_has(monkeyp
     run.progress[worker] = runner._Progress()
     assert list(run._on(Said(worker, job, Facts(b"truth")))) == []
     assert (asked, kept) == ([("rods-1", 200)], [("rods-1", 200, b"truth")])
-    assert [ready.facts for ready in run.ready] == [b"truth"]
+    assert run.ready.take((), {}).facts == b"truth"
 
 
 def test_a_truth_that_cannot_be_computed_fails_every_cell_of_its_scene(monkeypatch):
@@ -238,6 +238,6 @@ def test_an_engine_that_is_gone_has_failed_and_a_library_of_furikos_own_is_a_rea
     check = SimpleNamespace(name="terms", moves=False, compare=compare)
     cell = SimpleNamespace(result=lambda name, found, **more: (name, found, more["reason"]))
     (task,) = make_plan(["rods-1"], ["mujoco"], "smoke").tasks
-    (found,) = CellJob(task, b"")._results(check, cell, False, None)
+    (found,) = CellJob(task, b"")._results(check, cell, False, None, Asking([].append, "terms"))
     assert found[:2] == ("terms", outcome)
     assert "it is not there" in found[2]

@@ -142,3 +142,16 @@ def test_an_entry_accounts_for_no_failure(make):
     known = known_in(run, [entry()])
     assert list(known.by_result) == [("rods-2", "mujoco", "energy")]
     assert known.exit_status_of(False, False) == 3
+
+
+@pytest.mark.parametrize(
+    ("pattern", "fits"), [("x" * 200, True), ("x" * 201, False), ("*x" * 4, True), ("*x" * 5, False)]
+)
+def test_a_pattern_is_as_long_as_it_may_be_and_no_longer(tmp_path, pattern, fits):
+    path = tmp_path / "known.toml"
+    path.write_text(ENTRY.replace("rods-*", pattern))
+    if fits:
+        assert read_known(path)[0].scene == pattern
+    else:
+        with pytest.raises(InvalidInput, match=r"known\[0\].scene: a pattern of at most 200 characters and 4"):
+            read_known(path)

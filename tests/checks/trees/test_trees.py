@@ -1,5 +1,8 @@
 """The comparisons of trees: a right engine agrees in all, each fault is found by its check and by no other."""
 
+from types import SimpleNamespace
+
+import numpy as np
 import pytest
 from fake_tree_engines import FewQuestions
 
@@ -9,9 +12,11 @@ from furiko.checks.jobs import Facts as FactsMessage
 from furiko.checks.plan import PROFILES, Task, make_plan, random_states, skip
 from furiko.checks.registry import CHECKS
 from furiko.checks.trees.facts import TreeFacts, tree_facts
+from furiko.checks.trees.verdict import judged
 from furiko.engines import engine_info
 from furiko.models import find_scene
 from furiko.models.scene import scene_from_toml
+from furiko.models.states import States
 from furiko.models.trees.states import tree_states
 from furiko.records.check import Result
 
@@ -167,3 +172,16 @@ def test_every_number_of_a_tree_is_in_its_key(scene):
     for old, new in (("0.7", "0.70001"), ("[0.1, 1.0, 0.2]", "[0.1, 1.0, 0.3]"), ("pin = -0.4", "pin = -0.5")):
         assert _scene(scene_from_toml(SMALL.replace(old, new), "small")) != _scene(scene)
     assert _scene(scene_from_toml(SMALL, "small")) == _scene(scene)
+
+
+@pytest.mark.parametrize(("part", "outcome"), [(0.5, "agrees"), (2.0, "differs")])
+def test_twice_what_rounding_explains_is_beyond_it_and_half_is_not(part, outcome):
+    """Ten roundings of a unit of 3, in the second of two states."""
+    cell = SimpleNamespace(
+        states=States(("one", "two"), np.zeros((2, 1)), np.zeros((2, 1))),
+        roundings=np.array([20.0, 10.0]),
+        result=lambda check, found, **more: (check, found, more["measured"], more["allowed"]),
+    )
+    error = np.array([[0.0], [part * 10 * 2.0**-52 * 3.0]])
+    found = judged(cell, "energy", error, np.full((2, 1), 3.0), lambda *_: "off", {})
+    assert found == ("energy", outcome, pytest.approx(part * 10), 10.0)
