@@ -1,7 +1,7 @@
 """Proved end points of the catalogue's open mechanisms that their joints keep in a plane, kept in ``reference/data/``.
 
-As :mod:`.kept` has them: at the times of :mod:`furiko.reference.truth.tree_end_points`, under the same keys, coordinates
-and rates as decimal balls. ``python -m furiko.reference.proved.kept_trees [SCENE …]`` computes them again.
+As :mod:`.kept` has them: at the times of :mod:`furiko.reference.truth.tree_end_points`, under the same keys,
+coordinates and rates as decimal balls. ``python -m furiko.reference.proved.kept_trees [SCENE …]`` computes them again.
 """
 
 from __future__ import annotations
@@ -104,7 +104,8 @@ def main(names: Sequence[str]) -> None:
         kept = json.loads(PATH.read_text(encoding="utf-8")) if PATH.exists() else {}
         kept[key(scene)] = entry(scene, found)
         write_whole(PATH, json.dumps(kept, indent=1, sort_keys=True, ensure_ascii=False) + "\n")
-        print(f"{scene.name}: proved until {found.proved_until:g} s {found.why}, {found.bits} bits, {found.seconds:.1f} s")
+        until = f"{found.proved_until:g} s {found.why}".rstrip()
+        print(f"{scene.name}: proved until {until}, {found.bits} bits, {found.seconds:.1f} s")
 
 
 if __name__ == "__main__":
