@@ -112,7 +112,7 @@ class Horizon:
     lyapunov_time: float
     truth: Array
     run: Array
-    proved: Proved
+    proved: Proved = Proved()
 
     def crossing(self, threshold: float) -> tuple[float, float]:
         """When the predicted and the measured error first exceed a threshold [s]; infinite where they do not."""

@@ -39,6 +39,7 @@ COMMANDS = {
     "map": "Draw when starts flip, how much they stretch, or how chaotic they are.",
     "scenes": "List the scenes of the catalogue.",
     "stress": "Find where engines, integrators and formulas break.",
+    "sweep": "Run a grid of scenes, engines and seeds; resumable, on all cores.",
     "versions": "Find which release of an engine changed what, by the theory.",
 }
 
