@@ -40,7 +40,7 @@ def draw(
 
 def write(folder: Path, found: Map) -> Path:
     """Write ``map.html``, ``map.png`` and ``map.csv`` into the folder; returns the page's path."""
-    from .reports.pages.map_page import map_page, picture
+    from .reports.maps.page import map_page, picture
 
     try:
         replace_file(folder / "map.png", picture(found.record, found.values))

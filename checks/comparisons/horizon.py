@@ -41,6 +41,7 @@ from ...records.check import Result
 from ...reference import literal_accelerations
 from ...reference.integration.schemes import BUTCHER_6
 from ...reference.integration.variation import Growth, growth, lyapunov_time, tangent_flow
+from ...reference.proved.kept import Proof, distance, proof
 from ...reference.rounding.bounds import EPSILON
 from ...reference.truth.quadruple import quadruple_trajectory
 from ..cell import Cell, EngineFault
@@ -60,6 +61,7 @@ MEMORIES = (4, 8, 16, 32, 64, 128)  # steps that a scheme may take to forget
 FORGOTTEN = 1e-3  # twice as many steps change the local errors by less than this part of them
 FRAMES = 150  # of a motion that is shown: the coarsest step's, which parts first
 MOST_SHOWN = 10  # links of one
+MOST_OFF = 0.1 * EPSILON  # [rad, rad/s]; a true state that is off by more shows in a scheme's local errors
 WINDOW = 16  # steps whose local errors one such run gives
 
 # The prediction neglects what an error does to its own growth: at NEAR a hundredth part for each time that the rates
@@ -81,11 +83,23 @@ class TrueMotion:
 
 
 @dataclass(frozen=True)
+class Proved:
+    """Times [s] at which the motion was held against a kept proof, and the most it is off there [rad, rad/s]: a bound.
+
+    Beyond the last of them, and where there is none, it rests on quadruple precision's estimate of its own error.
+    """
+
+    times: tuple[float, ...] = ()
+    off: float = 0.0
+
+
+@dataclass(frozen=True)
 class Horizon:
     """``predicted`` and ``measured``: largest error of an angle so far [rad] at each of ``times`` [s], (K+1,).
 
     ``local``: size of the local error [rad, rad/s] of each step that is predicted; ``from_time``: predictions begin
-    here [s]. ``truth``, ``run``: angles of the true motion and of the engine's [rad], (K+1, n), (≤ K+1, n).
+    here [s]. ``truth``, ``run``: angles of the true motion and of the engine's [rad], (K+1, n), (≤ K+1, n);
+    ``proved``: where the true motion was held against kept proofs.
     """
 
     integrator: Integrator
@@ -98,6 +112,7 @@ class Horizon:
     lyapunov_time: float
     truth: Array
     run: Array
+    proved: Proved = Proved()
 
     def crossing(self, threshold: float) -> tuple[float, float]:
         """When the predicted and the measured error first exceed a threshold [s]; infinite where they do not."""
@@ -160,7 +175,27 @@ def horizon(cell: Cell, integrator: Integrator, step: float, duration: float) ->
         lyapunov_time=truth.growth.lyapunov_time,
         truth=truth.high[:, :n],
         run=run[:, :n],
+        proved=held(truth, proof(scene.system, scene.theta, scene.omega, scene.duration)),
     )
+
+
+def held(truth: TrueMotion, kept: Proof | None) -> Proved:
+    """The true motion against a kept proof, at all of its times that are ends of steps.
+
+    Raises ArithmeticError where it is off by more than local errors are known to: then it is not the true motion.
+    """
+    found = []
+    for i, time in enumerate(kept.times if kept is not None else ()):
+        k = round(time / truth.step)
+        if k < len(truth.high) and _divides(truth.step, time):
+            assert kept is not None
+            found.append((time, distance(kept, i, truth.high[k], truth.low[k])))
+    if not found:
+        return Proved()
+    off = max(each for _, each in found)
+    if off > MOST_OFF:
+        raise ArithmeticError(f"the motion in quadruple precision is {off:.2g} beside the proved one: it is of no use")
+    return Proved(tuple(time for time, _ in found), off)
 
 
 def true_motion(
@@ -294,6 +329,7 @@ def _first(times: Array, crossed: NDArray[np.bool_]) -> float:
 def _result(cell: Cell, found: Horizon, order: float | None) -> Result:
     predicted, measured = found.crossing(APART)
     miss = found.miss()
+    needed = min(predicted, measured, float(found.times[-1]))  # up to here the verdict rests on the true motion
     # Another model's part is of order 0; a coarse step shows a little less than the scheme's.
     foreign = order is not None and order < found.integrator.order / 2
     agrees = miss <= EXPLAINED and not foreign
@@ -314,6 +350,9 @@ def _result(cell: Cell, found: Horizon, order: float | None) -> Result:
             "Lyapunov time": found.lyapunov_time,
             "order of local errors": order,
             "predicted from": found.from_time,
+            "truth": "proved" if found.proved.times and found.proved.times[-1] >= needed else "estimated",
+            "truth proved at": list(found.proved.times),
+            "truth off by at most": found.proved.off if found.proved.times else None,
             "errors over time": history(found),
             **({"motion": motion(found)} if found.step == max(STEPS) and found.truth.shape[-1] <= MOST_SHOWN else {}),
         },

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ...engines import Integrator
 from ...records.check import Result
 from ...reference.integration.richardson import amplified
+from ...reference.proved.kept_trees import proof, sure
 from ...reference.rounding.bounds import EPSILON
 from ...reference.truth.spatial import spatial_truth
 from ..comparisons.trajectories import EndPoint, Rounding, growth, settled
@@ -31,13 +32,14 @@ def compare(cell: TreeCell) -> Iterator[Result]:
     facts = cell.facts
     first = cell.start
     assert first is not None
-    points = tuple(map(EndPoint, facts.times.tolist(), facts.end_q, facts.end_error.tolist()))
+    off, proved = sure(facts.end_q, facts.end_error, proof(cell.scene))
+    points = tuple(map(EndPoint, facts.times.tolist(), facts.end_q, off.tolist(), proved))
     q, v = np.array([first[0], *facts.end_q]), np.array([first[1], *facts.end_v])
     true = np.array([spatial_truth(cell.mechanism, *state).accelerations.float for state in zip(q, v, strict=True)])
     got = cell.answer("accelerations", cell.engine.accelerations(q, v), v.shape)
-    off = 10 * float(np.abs(got - true).max()) + EPSILON * float(np.abs(true).max())
+    wrong = 10 * float(np.abs(got - true).max()) + EPSILON * float(np.abs(true).max())
     for integrator in cell.info.integrators:
-        yield _compare(cell, integrator, points, _rounding(integrator, q, v, true, off))
+        yield _compare(cell, integrator, points, _rounding(integrator, q, v, true, wrong))
 
 
 def _rounding(integrator: Integrator, q: Array, v: Array, a: Array, off: float) -> Rounding:
@@ -83,6 +85,7 @@ def _compare(cell: TreeCell, integrator: Integrator, points: tuple[EndPoint, ...
             "measured order": None if math.isnan(order) else order,
             "measured order, coarser runs": None if math.isnan(coarser) else coarser,
             "time": point.time,
+            "truth": "proved" if point.proved else "estimated",
             "steps": [ladder.step / 2**k for k in range(4)],
             "rounding": noise,
         },

@@ -14,7 +14,7 @@ from .progress import status_line
 
 if TYPE_CHECKING:
     from ..models import AnyScene
-    from ..records.enclosures import EnclosureDocument
+    from ..records.motions import EnclosureDocument
     from ..reference.proved.enclose import Enclosed
 
 LINES = 8  # times in the table where none are asked for
@@ -93,7 +93,7 @@ def _coordinates(scene: AnyScene) -> list[tuple[str, str]]:
 def _document(scene: AnyScene, found: Enclosed, digits: int, end: float) -> EnclosureDocument:
     import flint
 
-    from ..records.enclosures import EnclosureDocument, EnclosureRow
+    from ..records.motions import EnclosureDocument, EnclosureRow
 
     kept = digits + 5
     names, units = map(list, zip(*_coordinates(scene), strict=True))

@@ -70,23 +70,22 @@ def sure(truth: QuadrupleTrajectory, proof: Proof | None) -> tuple[Floats, tuple
     count = 0 if proof is None else len(proof.times)
     if proof is not None:
         for i in range(count):
-            off[i] = above(max(_distances(truth, proof, i)))
+            high, low = (np.concatenate(pair) for pair in _parts(truth, i))
+            off[i] = distance(proof, i, high, low)
     return off, tuple(i < count for i in range(len(off)))
 
 
-def _distances(truth: QuadrupleTrajectory, proof: Proof, i: int) -> list[Any]:
-    """Upper ends of how far each angle and rate is off at time ``i``."""
+def distance(proof: Proof, i: int, high: Floats, low: Floats) -> float:
+    """How far the state ``high + low`` (2n,), angles and then rates, is at most from the motion at the time ``i``."""
     import flint
 
+    balls = (*proof.theta[i], *proof.omega[i])
     with flint.ctx.workprec(READ_BITS):
-        return [
-            abs(ball - high - low).upper()
-            for balls, highs, lows in (
-                (proof.theta[i], truth.theta[i], truth.theta_low[i]),
-                (proof.omega[i], truth.omega[i], truth.omega_low[i]),
-            )
-            for ball, high, low in zip(balls, highs.tolist(), lows.tolist(), strict=True)
-        ]
+        return max(above(abs(b - h - l).upper()) for b, h, l in zip(balls, high.tolist(), low.tolist(), strict=True))
+
+
+def _parts(truth: QuadrupleTrajectory, i: int) -> tuple[tuple[Floats, Floats], tuple[Floats, Floats]]:
+    return (truth.theta[i], truth.omega[i]), (truth.theta_low[i], truth.omega_low[i])
 
 
 def proved(scene: Scene, digits: int = DIGITS, seconds: float | None = None) -> Enclosed:

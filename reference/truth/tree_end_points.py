@@ -33,7 +33,7 @@ def moves(scene: TreeScene) -> bool:
 
 def end_points(scene: TreeScene) -> TreeMotion:
     """The motion at :func:`times`, as it is kept, or computed. Raises ArithmeticError as :func:`tree_motion` does."""
-    kept = _kept().get(_key(scene))
+    kept = _kept().get(key(scene))
     if kept is not None:
         return TreeMotion(*(np.array(kept[name]) for name in ("q", "v", "error")))
     assert scene.q is not None
@@ -47,7 +47,7 @@ def _kept() -> dict[str, Any]:
     return found
 
 
-def _key(scene: TreeScene) -> str:
+def key(scene: TreeScene) -> str:
     """A digest of all that the motion depends on."""
     return hashlib.sha256(repr((scene.system, scene.q, scene.v, scene.duration)).encode()).hexdigest()
 
@@ -61,7 +61,7 @@ def main() -> None:
             assert scene.v is not None
             motion = tree_motion(scene.system.mechanism(), np.array(scene.q), np.array(scene.v), times(scene))
             numbers = {name: getattr(motion, name).tolist() for name in ("q", "v", "error")}
-            found[_key(scene)] = {"scene": scene.name} | numbers
+            found[key(scene)] = {"scene": scene.name} | numbers
     write_whole(PATH, json.dumps(found, indent=1) + "\n")
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...models import InvalidInput, Scene
-from ...records.maps import Kind, MapRecord
+from ...records.motions import Kind, MapRecord
 from ...reference.integration.flips import flip_times
 from ...reference.integration.tangents import lyapunov, stretching
 

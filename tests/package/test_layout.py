@@ -77,7 +77,7 @@ ROOMS = {
             ("audit", "lesson", "classroom"),
         ],
     ),
-    "reports": ({"models", "records"}, [(".",), ("pages", "terminal", "ci"), ("history",)]),
+    "reports": ({"models", "records"}, [(".",), ("pages", "terminal", "ci"), ("history", "maps")]),
     "furiko": ({"*"}, [(".",), ("ci", "cli")]),
 }
 # Where a file of a room must import from a folder above it: what the room's front door (its __init__) names, and

@@ -11,6 +11,7 @@ from furiko.checks.comparisons import horizon
 from furiko.engines import Integrator
 from furiko.models import RodChain, find_scene
 from furiko.models.scene import Scene
+from furiko.reference.proved.kept import proof
 
 FIVE_RODS = Scene("five", RodChain([1.0, 0.8, 0.6, 0.9, 0.7]), (2.0, 2.5, 1.5, 2.8, 0.7), (0.0,) * 5)
 
@@ -77,6 +78,24 @@ def test_another_model_is_told_from_a_scheme(make_cell, monkeypatch):
     _, second = horizon.compare(make_cell(Damped, "double-pendulum"))
     assert second.outcome == "differs"
     assert "another model" in second.reason
+
+
+def test_the_true_motion_is_held_against_the_kept_proof():
+    pytest.importorskip("heyoka")
+    scene = find_scene("double-pendulum")
+    kept = proof(scene.system, scene.theta, scene.omega, scene.duration)
+    truth = horizon.true_motion(scene.system, scene.theta, scene.omega, 1e-2, 2.0)
+    found = horizon.held(truth, kept)
+    assert found.times == (0.25, 0.5, 1.0, 2.0)
+    assert found.off < 1e-25  # quadruple precision, and what two seconds make of its rounding
+    truth.low[100, 0] += 1e-20
+    assert horizon.held(truth, kept).off == pytest.approx(1e-20, rel=1e-3)
+    truth.high[100, 0] += 1e-9
+    with pytest.raises(ArithmeticError, match="beside the proved one"):
+        horizon.held(truth, kept)
+    short = horizon.true_motion(scene.system, scene.theta, scene.omega, 1e-2, 0.4)
+    assert horizon.held(short, kept).times == (0.25,)
+    assert horizon.held(short, None).times == ()
 
 
 @pytest.mark.parametrize(("later", "agrees"), [(0.0, True), (0.1, True), (-1.0, False), (1.0, False)])

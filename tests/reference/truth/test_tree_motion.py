@@ -31,7 +31,7 @@ def test_kept_end_points_are_those_of_the_catalogue():
     moving = [scene for scene in find_scenes(None) if isinstance(scene, TreeScene) and tree_end_points.moves(scene)]
     assert {scene.name for scene in moving} == {"cart-pole", "acrobot", "hopper"}
     again = "the scene has changed: python -m furiko.reference.truth.tree_end_points"
-    assert {tree_end_points._key(scene): scene.name for scene in moving} == {
+    assert {tree_end_points.key(scene): scene.name for scene in moving} == {
         key: entry["scene"] for key, entry in kept.items()
     }, again
 

@@ -6,9 +6,9 @@ import zlib
 import numpy as np
 import pytest
 
-from furiko.records.maps import MapRecord
-from furiko.reports.pages.map_page import map_page, picture
-from furiko.reports.pages.raster import NOTHING, SHADES, palette, png, shade_numbers
+from furiko.records.motions import MapRecord
+from furiko.reports.maps.page import map_page, picture
+from furiko.reports.maps.raster import NOTHING, SHADES, palette, png, shade_numbers
 
 
 def read(content):

@@ -1,8 +1,12 @@
-"""The document of ``furiko enclose --json``."""
+"""The documents of commands on a scene's motions: ``furiko enclose --json`` and ``furiko map --json``."""
 
 from __future__ import annotations
 
+from typing import Literal
+
 import msgspec
+
+Kind = Literal["flips", "stretching", "lyapunov"]
 
 
 class EnclosureRow(msgspec.Struct, frozen=True, kw_only=True):
@@ -33,3 +37,21 @@ class EnclosureDocument(msgspec.Struct, frozen=True, kw_only=True):
     steps: int
     seconds: float  # that it took
     rows: list[EnclosureRow]  # of the times that were reached
+
+
+class MapRecord(msgspec.Struct, frozen=True, kw_only=True):
+    """One quantity for a square of starts; ``furiko map --json`` prints it. The values are in the picture's numbers."""
+
+    scene: str
+    kind: Kind
+    unit: str  # s or 1/s
+    until: float  # how long each motion is followed [s]
+    points: int  # a side of the square
+    across: int  # number of the link whose angle varies across, from 1
+    up: int  # and of the one whose angle varies upwards
+    least: float | None  # of the values; None where there is none
+    median: float | None
+    most: float | None
+    none: int  # starts without a value: those that do not flip by then
+    tolerance: float
+    seconds: float

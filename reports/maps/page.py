@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ...records.maps import MapRecord
-from .axes import Tick, linear_axis, log_axis
+from ...records.motions import MapRecord
+from ..pages.axes import Tick, linear_axis, log_axis
+from ..pages.rendering import render
 from .raster import MOST, as_link, png, shade_numbers
-from .rendering import render
 
 SIDE, LEFT, TOP = 560, 64, 10  # the square, in the drawing's units
 SCALE_LEFT, SCALE_WIDTH = LEFT + SIDE + 26, 18
