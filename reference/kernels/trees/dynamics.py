@@ -8,6 +8,7 @@ state's result does not depend on the other states of the call; one may differ f
 
 from __future__ import annotations
 
+import sys
 from functools import cache
 from importlib.util import find_spec
 from typing import Any
@@ -31,6 +32,7 @@ WORTH = 3000  # pieces of plain numpy, some 0.5 s of a processor: what compiling
 FREEDOMS_A_THREAD = 8_000  # about 0.25 ms of work
 SIZES = 1e-100, 1e100  # of quaternions: beyond, squares leave the range of doubles
 
+_COMPILED = f"{__package__}.machine"
 _tables: WeakKeyDictionary[SpatialMechanism, Table] = WeakKeyDictionary()
 _spent = 0.0
 
@@ -56,11 +58,11 @@ def tree_accelerations(
     Raises :class:`InvalidInput` for shapes that do not fit, numbers that are not finite or too large, a quaternion or
     axis of length zero, and where a pivot of the mass matrix is not positive: something moves that weighs nothing.
     """
-    q, v, torque, out = _shaped(mechanism, q, v, torque, out)
+    known = _table(mechanism)
+    q, v, torque, out = _shaped(known, q, v, torque, out)
     if not out.size:
         return out
-    known = _table(mechanism)
-    rows = q.reshape(-1, mechanism.nq), v.reshape(-1, mechanism.nv), out.reshape(-1, mechanism.nv)
+    rows = q.reshape(-1, known.nq), v.reshape(-1, known.nv), out.reshape(-1, known.nv)
     forces = None if torque is None else torque.reshape(rows[1].shape)
     positions = _sized(mechanism, rows[0])
     forces = _sprung(mechanism, positions, forces)
@@ -69,20 +71,18 @@ def tree_accelerations(
     return out
 
 
-def _shaped(
-    mechanism: SpatialMechanism, q: Any, v: Any, torque: Any, out: Array | None
-) -> tuple[Array, Array, Array | None, Array]:
+def _shaped(known: Table, q: Any, v: Any, torque: Any, out: Array | None) -> tuple[Array, Array, Array | None, Array]:
     """All as contiguous arrays of shapes that fit."""
     q, v = numbers("q", q), numbers("v", v)
-    for name, values, size in (("q", q, mechanism.nq), ("v", v, mechanism.nv)):
+    for name, values, size in (("q", q, known.nq), ("v", v, known.nv)):
         if values.ndim == 0 or values.shape[-1] != size:
             raise InvalidInput(f"{name}: the last axis must hold {size} numbers, (..., {size}), got {values.shape}")
     if q.shape[:-1] != v.shape[:-1]:
-        raise InvalidInput(f"v: one row for each of q is needed, {(*q.shape[:-1], mechanism.nv)}, got {v.shape}")
+        raise InvalidInput(f"v: one row for each of q is needed, {(*q.shape[:-1], known.nv)}, got {v.shape}")
     if torque is not None:
         torque = numbers("torque", torque)
-        if torque.shape not in (v.shape, (mechanism.nv,)):
-            raise InvalidInput(f"torque: v's shape {v.shape} or ({mechanism.nv},) is needed, got {torque.shape}")
+        if torque.shape not in (v.shape, (known.nv,)):
+            raise InvalidInput(f"torque: v's shape {v.shape} or ({known.nv},) is needed, got {torque.shape}")
         torque = np.ascontiguousarray(np.broadcast_to(torque, v.shape))
     if out is not None and not (out.shape == v.shape and out.dtype == FLOAT64 and out.flags.carray):
         raise InvalidInput(f"out: a contiguous float64 array of shape {v.shape} is needed")
@@ -90,9 +90,10 @@ def _shaped(
 
 
 def _table(mechanism: SpatialMechanism) -> Table:
-    if mechanism not in _tables:
-        _tables[mechanism] = table(mechanism)
-    return _tables[mechanism]
+    found = _tables.get(mechanism)
+    if found is None:
+        found = _tables[mechanism] = table(mechanism)
+    return found
 
 
 def _sized(mechanism: SpatialMechanism, q: Array) -> Array:
@@ -147,7 +148,7 @@ def _worth_compiling(known: Table, states: int) -> bool:
     global _spent  # noqa: PLW0603  # what this process has asked for is a fact of the process
     if _spent <= WORTH:
         _spent += len(known.program) * (1 + states / STATES_ALIKE)
-    return _spent > WORTH
+    return _spent > WORTH or _COMPILED in sys.modules
 
 
 @cache

@@ -24,10 +24,10 @@ from __future__ import annotations
 
 from typing import Any
 
-# What belongs to a degree of freedom, from its row of memory on. After its elimination the share w (6) and k stand in
+# What belongs to a degree of freedom, from its row of memory on. After its elimination k and the share w (6) stand in
 # place of the rotation R (9), and when its acceleration is known α and a (6) stand there.
 ROTATION, OMEGA, AXIS, ARM, TURN, SHIFT, FORCE, ROW = 0, 9, 12, 15, 18, 21, 24, 25
-SHARE, ROOM, MOTION = 0, 6, 0
+SHARE, MOTION = 0, 0
 # What belongs to an inertia: A (6: xx xy xz yy yz zz), B (9, by rows), M (6), n₀, f₀
 INERTIA = 27
 # What all states share, of a degree of freedom: the joint's frame in its parent's (rotation 9, place 3), the body's
@@ -60,9 +60,23 @@ def cross(a: Any, b: Any) -> list[Any]:
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
+def plus_cross(start: Any, a: Any, b: Any) -> list[Any]:
+    """start + a × b, added up number by number: each term is then one instruction."""
+    return [
+        start[0] + a[1] * b[2] - a[2] * b[1],
+        start[1] + a[2] * b[0] - a[0] * b[2],
+        start[2] + a[0] * b[1] - a[1] * b[0],
+    ]
+
+
 def times(matrix: Any, a: Any) -> list[Any]:
     """matrix · a, the matrix by rows (9)."""
     return [dot(matrix[0:3], a), dot(matrix[3:6], a), dot(matrix[6:9], a)]
+
+
+def plus_times(start: Any, matrix: Any, a: Any) -> list[Any]:
+    """start + matrix · a, added up number by number."""
+    return [start[i] + matrix[3 * i] * a[0] + matrix[3 * i + 1] * a[1] + matrix[3 * i + 2] * a[2] for i in range(3)]
 
 
 def transposed(matrix: Any) -> list[Any]:
@@ -216,25 +230,22 @@ def turn_about_axes(
     observe(memory, signs, *q)
 
 
-def body(memory: Any, numbers: Any, own: Any, constants: Any) -> tuple[Any, ...]:
-    """A body's A, first moment, mass, n₀ and f₀."""
+def carried(memory: Any, numbers: Any, own: Any, constants: Any) -> tuple[Any, ...]:
+    """A body's rotation, angular velocity, tensor in its own axes, first moment in the world's, and mass."""
     rotation = memory.read(own, ROTATION, 9)
-    omega = memory.read(own, OMEGA, 3)
-    turned = product(rotation, full(numbers.read(constants, TENSOR, 6)))
-    tensor = [dot(turned[3 * i : 3 * i + 3], rotation[3 * k : 3 * k + 3]) for i in range(3) for k in range(i, 3)]
     moment = times(rotation, numbers.read(constants, MOMENT, 3))
-    (mass,) = numbers.read(constants, MASS, 1)
-    turning = cross(omega, times(full(tensor), omega))
-    return tensor, moment, mass, turning, cross(omega, cross(omega, moment))
+    return (
+        rotation,
+        memory.read(own, OMEGA, 3),
+        numbers.read(constants, TENSOR, 6),
+        moment,
+        numbers.read(constants, MASS, 1),
+    )
 
 
 def begin(memory: Any, numbers: Any, inertia: Any, own: Any, constants: Any) -> None:
     """The inertia of a body alone."""
-    tensor, (x, y, z), m, turning, force = body(memory, numbers, own, constants)
-    memory.write(inertia, 0, tensor)
-    memory.write(inertia, 6, [0.0, -z, y, z, 0.0, -x, -y, x, 0.0])
-    memory.write(inertia, 15, [m, 0.0, 0.0, m, 0.0, m])
-    memory.write(inertia, 21, [*turning, *force])
+    memory.write(inertia, 0, with_body(memory, numbers, [0.0] * INERTIA, own, constants))
 
 
 def eliminated(
@@ -247,7 +258,7 @@ def eliminated(
     share = scaled(inverse, u[0]), scaled(inverse, u[1])
     k = (force - dot(axis, bias)) * inverse
     (least,) = memory.read(signs, PIVOT, 1)
-    memory.write(own, SHARE, [*share[0], *share[1], k])
+    memory.write(own, SHARE, [k, *share[0], *share[1]])
     memory.write(signs, PIVOT, [memory.larger(-pivot, least)])
     return (*share, k)
 
@@ -291,47 +302,38 @@ def reduced(before: tuple[Any, ...], u: tuple[Any, Any], w: tuple[Any, Any, Any]
 def moved(memory: Any, own: Any, inertia: tuple[Any, ...]) -> list[Any]:
     """The same of the parent's motion, at its point: a = a_p + α_p × r + δ, α = α_p + γ. As 27 numbers."""
     A, B, M, n, f = inertia
-    x, y, z = memory.read(own, ARM, 3)
+    arm = memory.read(own, ARM, 3)
     turn, shift = memory.read(own, TURN, 3), memory.read(own, SHIFT, 3)
-    n = add(n, add(times(full(A), turn), times(B, shift)))
-    f = add(f, add(times(transposed(B), turn), times(full(M), shift)))
+    n = plus_times(plus_times(n, full(A), turn), B, shift)
+    f = plus_times(plus_times(f, transposed(B), turn), full(M), shift)
     # B_p = B + [r] M;  A_p = A − B [r] + [r] B_pᵀ, where [r] a = r × a
     m = full(M)
-    raised = [b + c for b, c in zip(B, crossed_rows((x, y, z), m), strict=True)]
-    left = [crossed_row(B[3 * i : 3 * i + 3], (x, y, z)) for i in range(3)]  # rows of −B [r], r × row
-    right = crossed_rows((x, y, z), transposed(raised))
-    A = [
-        a + left[i][j] + right[3 * i + j]
-        for a, (i, j) in zip(A, [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)], strict=True)
-    ]
-    return [*A, *raised, *M, *add(n, cross((x, y, z), f)), *f]
+    raised = [number for column in range(3) for number in plus_cross(B[column::3], arm, m[column::3])]
+    raised = transposed(raised)
+    both = [plus_cross(A_row, arm, B[3 * i : 3 * i + 3]) for i, A_row in enumerate(rows(full(A)))]
+    both = [plus_cross([both[i][j] for i in range(3)], arm, raised[3 * j : 3 * j + 3]) for j in range(3)]
+    A = [both[j][i] for i in range(3) for j in range(i, 3)]
+    return [*A, *raised, *M, *plus_cross(n, arm, f), *f]
 
 
-def crossed_rows(r: Any, matrix: Any) -> list[Any]:
-    """[r] · matrix, by rows (9)."""
-    x, y, z = r
-    a, b, c = matrix[0:3], matrix[3:6], matrix[6:9]
-    return [
-        *[y * t - z * s for s, t in zip(b, c, strict=True)],
-        *[z * s - x * t for s, t in zip(a, c, strict=True)],
-        *[x * t - y * s for s, t in zip(a, b, strict=True)],
-    ]
-
-
-def crossed_row(row: Any, r: Any) -> list[Any]:
-    """A row of −B [r]: with [r] = (0 −z y; z 0 −x; −y x 0), it is r × row."""
-    return cross(r, row)
+def rows(matrix: Any) -> list[Any]:
+    """The rows of a matrix (9)."""
+    return [matrix[0:3], matrix[3:6], matrix[6:9]]
 
 
 def with_body(memory: Any, numbers: Any, total: Any, parent: Any, of_parent: Any) -> list[Any]:
     """The parent body's own numbers added."""
-    tensor, (x, y, z), m, turning, force = body(memory, numbers, parent, of_parent)
-    A = add(total[:6], tensor)
-    b = total[6:15]
+    rotation, omega, tensor, moment, (mass,) = carried(memory, numbers, parent, of_parent)
+    turned = product(rotation, full(tensor))
+    pairs = [(i, k) for i in range(3) for k in range(i, 3)]
+    own = [dot(turned[3 * i : 3 * i + 3], rotation[3 * k : 3 * k + 3]) for i, k in pairs]
+    x, y, z = moment
+    b, c = total[6:15], total[15:21]
     B = [b[0], b[1] - z, b[2] + y, b[3] + z, b[4], b[5] - x, b[6] - y, b[7] + x, b[8]]
-    c = total[15:21]
-    M = [c[0] + m, c[1], c[2], c[3] + m, c[4], c[5] + m]
-    return [*A, *B, *M, *add(total[21:24], turning), *add(total[24:], force)]
+    M = [c[0] + mass, c[1], c[2], c[3] + mass, c[4], c[5] + mass]
+    n = plus_cross(total[21:24], omega, times(full(own), omega))
+    f = plus_cross(total[24:], omega, cross(omega, moment))
+    return [*add(total[:6], own), *B, *M, *n, *f]
 
 
 def hinge_first(
@@ -395,9 +397,11 @@ def arrive(memory: Any, own: Any, parent: Any) -> tuple[Any, Any, Any]:
     motion = memory.read(parent, MOTION, 6)
     arm, turn, shift = (memory.read(own, place, 3) for place in (ARM, TURN, SHIFT))
     turning = add(motion[:3], turn)
-    moving = add(add(motion[3:], shift), cross(motion[:3], arm))
-    share = memory.read(own, SHARE, 7)
-    return turning, moving, share[6] - dot(share[:3], turning) - dot(share[3:6], moving)
+    moving = plus_cross(add(motion[3:], shift), motion[:3], arm)
+    found, *share = memory.read(own, SHARE, 7)
+    for number, part in zip(share, [*turning, *moving], strict=True):
+        found = found - number * part
+    return turning, moving, found
 
 
 def turn(memory: Any, numbers: Any, own: Any, parent: Any, result: Any, signs: Any) -> None:

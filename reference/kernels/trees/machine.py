@@ -11,6 +11,7 @@ import ctypes
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -80,6 +81,7 @@ def machine(lanes: int | None = None) -> Machine:
         return _made[lanes]
 
 
+@cache
 def usual_lanes() -> int:
     """Eight where vectors have 512 bits; where they have 256, four: eight would take twice the memory, which counts."""
     return 8 if binding.get_host_cpu_features().get("avx512f") else 4
@@ -127,7 +129,9 @@ def _piece(module: Any, formulas: Callable[..., None], lanes: int) -> Any:
     builder = ir.IRBuilder(function.append_basic_block())
     memory, numbers, program = function.args
     places = [builder.load(builder.gep(program, [INDEX(i)])) for i in range(formulas.__code__.co_argcount - 2)]
-    formulas(Memory(builder, memory, lanes), Numbers(builder, numbers, lanes), *places)
+    states = Memory(builder, memory, lanes)
+    formulas(states, Numbers(builder, numbers, lanes), *places)
+    states.finish()
     builder.ret_void()
     return function
 

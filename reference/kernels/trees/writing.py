@@ -65,17 +65,29 @@ class Memory:
         self._builder, self.vector = builder, ir.VectorType(DOUBLE, lanes)
         self._data = builder.bitcast(data, self.vector.as_pointer())
         self._align = BYTES * lanes
+        self._written: dict[tuple[Any, int], Lane] = {}  # by place and what is added to it
 
-    def read(self, place: Any, first: int, count: int) -> list[Lane]:
-        """``count`` numbers from ``place + first`` on."""
-        places = [self.at(place, first + i) for i in range(count)]
-        return [Lane(self._builder, self._builder.load(at, align=self._align)) for at in places]
+    def read(self, place: Any, first: int, count: int) -> list[Any]:
+        """``count`` numbers from ``place + first`` on, as they are before the piece or as it has written them."""
+        return [self._written.get((place, first + i)) or self._load(place, first + i) for i in range(count)]
 
     def write(self, place: Any, first: int, values: Sequence[Any]) -> None:
-        """The numbers from ``place + first`` on."""
+        """The numbers from ``place + first`` on, when the piece is at its end.
+
+        A number that is written earlier would have all later ones be read before it, lest they be the same, and stand
+        on the stack meanwhile.
+        """
         for i, value in enumerate(values):
-            stored = value.value if isinstance(value, Lane) else constant(self.vector, value)
-            self._builder.store(stored, self.at(place, first + i), align=self._align)
+            found = value if isinstance(value, Lane) else Lane(self._builder, constant(self.vector, value))
+            self._written[place, first + i] = found
+
+    def finish(self) -> None:
+        """Store what was written."""
+        for (place, offset), value in self._written.items():
+            self._builder.store(value.value, self.at(place, offset), align=self._align)
+
+    def _load(self, place: Any, offset: int) -> Lane:
+        return Lane(self._builder, self._builder.load(self.at(place, offset), align=self._align))
 
     def at(self, place: Any, offset: int = 0) -> Any:
         """Where the numbers stand."""
