@@ -1,6 +1,6 @@
 """Accelerations of robots: furiko beside Pinocchio's compiled ABA and MuJoCo's batch, a state, on one thread.
 
-    python benchmarks/trees.py FOLDER … [--states 512] [--runs 101] [--robots NAME …] [--json FILE]
+    python benchmarks/trees.py FOLDER … [--states 2048] [--runs 61] [--robots NAME …] [--json FILE]
 
 FOLDERs hold the published sample of model files (``robot_files.py`` says from which wheels), unpacked. Each robot is
 the mechanism that Pinocchio holds after reading the file, so that both have the same, dampers apart; MuJoCo reads the
@@ -80,8 +80,8 @@ def main() -> int:
     """Print the table; 1 where what is asked for is missed."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", nargs="+", type=Path)
-    parser.add_argument("--states", type=int, default=512)
-    parser.add_argument("--runs", type=int, default=101)
+    parser.add_argument("--states", type=int, default=2048)
+    parser.add_argument("--runs", type=int, default=61)
     parser.add_argument("--robots", nargs="*", default=list(ROBOTS), help="those whose path has one of these words")
     parser.add_argument("--json", type=Path, help="write the numbers there")
     chosen = parser.parse_args()

@@ -67,9 +67,10 @@ class Machine:
             torque = memory[:0]  # not read from where there are none
         arrays = (q, v, torque, out, table.numbers, memory, table.program)
         sizes = len(table.program), states, table.nq, table.nv, table.at_q, table.at_v, table.at_torque, table.signs
-        addresses = [array.ctypes.data if array.size else None for array in arrays]
+        addresses = [array.__array_interface__["data"][0] if array.size else None for array in arrays]
         self._run(*addresses, *sizes)  # other threads of Python run meanwhile
-        return float(signs[0].sum()), float(signs[1].max()), float(signs[2].max())
+        finite, largest, pivot = signs.tolist()
+        return sum(finite), max(largest), max(pivot)
 
 
 def machine(lanes: int | None = None) -> Machine:
