@@ -249,34 +249,42 @@ def begin(memory: Any, numbers: Any, inertia: Any, own: Any, constants: Any) -> 
 
 
 def eliminated(
-    memory: Any, numbers: Any, own: Any, constants: Any, signs: Any, u: tuple[Any, Any], along: Any, bias: Any
+    memory: Any, numbers: Any, places: tuple[Any, ...], k: int, u: tuple[Any, Any], along: Any, bias: Any
 ) -> tuple[Any, Any, Any]:
-    """The share w and k of a freedom, which are kept."""
-    axis, (force,) = memory.read(own, AXIS, 3), memory.read(own, FORCE, 1)
-    pivot = dot(axis, along) + numbers.read(constants, ARMATURE, 1)[0]
+    """w and k of a joint's k-th freedom, which are kept; ``along``: s·u, ``bias``: s·n₀ or s·f₀."""
+    own, constants, signs = places
+    (force,) = memory.read(own, k * ROW + FORCE, 1)
+    pivot = along + numbers.read(constants, k * NUMBERS + ARMATURE, 1)[0]
     inverse = 1.0 / pivot
     share = scaled(inverse, u[0]), scaled(inverse, u[1])
-    k = (force - dot(axis, bias)) * inverse
+    found = (force - bias) * inverse
     (least,) = memory.read(signs, PIVOT, 1)
-    memory.write(own, SHARE, [k, *share[0], *share[1]])
+    memory.write(own, k * ROW + SHARE, [found, *share[0], *share[1]])
     memory.write(signs, PIVOT, [memory.larger(-pivot, least)])
-    return (*share, k)
+    return (*share, found)
 
 
-def turned_out(memory: Any, numbers: Any, inertia: Any, own: Any, constants: Any, signs: Any) -> tuple[Any, ...]:
-    """What is left of A, B, M, n₀, f₀ when a freedom to turn is eliminated, and u, w, k."""
-    A, B, M, n, f = parts(memory, inertia)
-    axis = memory.read(own, AXIS, 3)
+def turned_out(memory: Any, numbers: Any, before: tuple[Any, ...], places: tuple[Any, ...], k: int = 0) -> Any:
+    """A, B, M, n₀, f₀ before a freedom to turn is eliminated, u, and w with k: what :func:`reduced` takes."""
+    A, B, _, n, _ = before
+    axis = memory.read(places[0], k * ROW + AXIS, 3)
     u = times(full(A), axis), times(transposed(B), axis)
-    return (A, B, M, n, f), u, eliminated(memory, numbers, own, constants, signs, u, u[0], n)
+    return before, u, eliminated(memory, numbers, places, k, u, dot(axis, u[0]), dot(axis, n))
 
 
-def slid_out(memory: Any, numbers: Any, inertia: Any, own: Any, constants: Any, signs: Any) -> tuple[Any, ...]:
+def slid_out(memory: Any, numbers: Any, before: tuple[Any, ...], places: tuple[Any, ...]) -> Any:
     """The same of a freedom to slide."""
-    A, B, M, n, f = parts(memory, inertia)
-    axis = memory.read(own, AXIS, 3)
+    _, B, M, _, f = before
+    axis = memory.read(places[0], AXIS, 3)
     u = times(B, axis), times(full(M), axis)
-    return (A, B, M, n, f), u, eliminated(memory, numbers, own, constants, signs, u, u[1], f)
+    return before, u, eliminated(memory, numbers, places, 0, u, dot(axis, u[1]), dot(axis, f))
+
+
+def slid_along(memory: Any, numbers: Any, before: tuple[Any, ...], places: tuple[Any, ...], k: int) -> Any:
+    """The same of a freedom to slide along the world's k-th axis, a free joint's."""
+    _, B, M, _, f = before
+    u = B[k::3], full(M)[k::3]
+    return before, u, eliminated(memory, numbers, places, k, u, u[1][k], f[k])
 
 
 def parts(memory: Any, inertia: Any) -> tuple[Any, ...]:
@@ -348,25 +356,25 @@ def hinge_first(
     of_parent: Any,
 ) -> None:
     """Eliminate a hinge and begin its parent's inertia with what it leaves and the parent's body."""
-    total = moved(memory, own, reduced(*turned_out(memory, numbers, inertia, own, constants, signs)))
+    total = moved(memory, own, reduced(*turned_out(memory, numbers, parts(memory, inertia), (own, constants, signs))))
     memory.write(target, 0, with_body(memory, numbers, total, parent, of_parent))
 
 
 def hinge_next(memory: Any, numbers: Any, inertia: Any, own: Any, constants: Any, signs: Any, target: Any) -> None:
     """Eliminate a hinge and add what it leaves to its parent's inertia."""
-    total = moved(memory, own, reduced(*turned_out(memory, numbers, inertia, own, constants, signs)))
+    total = moved(memory, own, reduced(*turned_out(memory, numbers, parts(memory, inertia), (own, constants, signs))))
     memory.write(target, 0, add(memory.read(target, 0, INERTIA), total))
 
 
 def turn_within(memory: Any, numbers: Any, inertia: Any, own: Any, constants: Any, signs: Any) -> None:
     """Eliminate a freedom to turn; the inertia stays at its point."""
-    left = reduced(*turned_out(memory, numbers, inertia, own, constants, signs))
+    left = reduced(*turned_out(memory, numbers, parts(memory, inertia), (own, constants, signs)))
     memory.write(inertia, 0, [number for part in left for number in part])
 
 
 def slide_within(memory: Any, numbers: Any, inertia: Any, own: Any, constants: Any, signs: Any) -> None:
     """Eliminate a freedom to slide; the inertia stays at its point."""
-    left = reduced(*slid_out(memory, numbers, inertia, own, constants, signs))
+    left = reduced(*slid_out(memory, numbers, parts(memory, inertia), (own, constants, signs)))
     memory.write(inertia, 0, [number for part in left for number in part])
 
 
@@ -384,12 +392,22 @@ def hand_next(memory: Any, numbers: Any, inertia: Any, own: Any, target: Any) ->
 
 def turn_last(memory: Any, numbers: Any, inertia: Any, own: Any, constants: Any, signs: Any) -> None:
     """Eliminate a freedom to turn that hangs in the world."""
-    turned_out(memory, numbers, inertia, own, constants, signs)
+    turned_out(memory, numbers, parts(memory, inertia), (own, constants, signs))
 
 
 def slide_last(memory: Any, numbers: Any, inertia: Any, own: Any, constants: Any, signs: Any) -> None:
     """Eliminate a freedom to slide that hangs in the world."""
-    slid_out(memory, numbers, inertia, own, constants, signs)
+    slid_out(memory, numbers, parts(memory, inertia), (own, constants, signs))
+
+
+def free_last(memory: Any, numbers: Any, inertia: Any, own: Any, constants: Any, signs: Any) -> None:
+    """Eliminate the six freedoms of a free body: its turns, then what it does along the world's axes."""
+    places, left = (own, constants, signs), parts(memory, inertia)
+    for k in (5, 4, 3):
+        left = reduced(*turned_out(memory, numbers, left, places, k))
+    for k in (2, 1):
+        left = reduced(*slid_along(memory, numbers, left, places, k))
+    slid_along(memory, numbers, left, places, 0)
 
 
 def arrive(memory: Any, own: Any, parent: Any) -> tuple[Any, Any, Any]:

@@ -40,6 +40,7 @@ PIECES: tuple[Callable[..., None], ...] = (
     formulas.slide_within,
     formulas.hand_first,
     formulas.hand_next,
+    formulas.free_last,
 )
 NUMBER = {piece.__name__: number for number, piece in enumerate(PIECES)}
 
@@ -141,6 +142,10 @@ class Program:
             self._of[node.row] = self._taken()
             self.emit("begin", self._of[node.row], node.last * ROW, node.last * NUMBERS)
         inertia = self._of.pop(node.row)
+        if node.placed.joint.kind == "free":
+            self.emit("free_last", inertia, node.row * ROW, node.row * NUMBERS, self.signs)
+            self._free.append(inertia)
+            return
         at = [(inertia, (node.row + k) * ROW, (node.row + k) * NUMBERS, self.signs) for k in range(len(kinds))]
         for k in reversed(range(1, len(kinds))):
             self.emit(f"{kinds[k]}_within", *at[k])
