@@ -34,7 +34,7 @@ def checked_state(system: HasAngles, theta: Any, omega: Any) -> tuple[Array, Arr
 
 def shaped_state(system: HasAngles, theta: Any, omega: Any) -> tuple[Array, Array]:
     """:func:`checked_state` without the check of the range."""
-    angles, rates = _numbers("theta", theta), _numbers("omega", omega)
+    angles, rates = numbers("theta", theta), numbers("omega", omega)
     for name, values in (("theta", angles), ("omega", rates)):
         if values.ndim == 0 or values.shape[-1] != system.n:
             raise InvalidInput(
@@ -60,7 +60,8 @@ def refuse_outside(theta: Array, omega: Array) -> None:
             )
 
 
-def _numbers(name: str, values: Any) -> Array:
+def numbers(name: str, values: Any) -> Array:
+    """``values`` as a contiguous float64 array. Raises InvalidInput where they are no numbers."""
     if values.__class__ is np.ndarray and values.dtype is FLOAT64 and values.flags.c_contiguous:
         return values  # what most callers give, in a tenth of the time
     try:

@@ -11,6 +11,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ..models.spatial_mechanism import WORLD, Array, Joint, SpatialMechanism
+from .kernels.trees.springs import stretches
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +77,7 @@ def energy(mechanism: SpatialMechanism, q: Array, v: Array) -> Array:
         potential -= body.inertial.mass * ((moved.position[:, index] + arm) @ mechanism.gravity)
     for one in mechanism.joints:
         if one.joint.stiffness:
-            stretch = stretches(mechanism, one.body, one.joint, q[:, one.columns_q])
+            stretch = stretches(mechanism, one, q)
             potential += one.joint.stiffness * (stretch * stretch).sum(-1) / 2
     return np.stack([kinetic, potential], axis=-1)
 
@@ -87,16 +88,6 @@ def carried(mechanism: SpatialMechanism) -> list[bool]:
     for body in mechanism.bodies:
         found.append(bool(body.joints) or (body.parent != WORLD and found[body.parent]))
     return found
-
-
-def stretches(mechanism: SpatialMechanism, body: int, joint: Joint, q: Array) -> Array:
-    """How far a joint's spring is from rest at coordinates (B, …), for each degree of freedom (B, …) [m or rad]."""
-    if joint.kind in ("hinge", "slide"):
-        return q - joint.springref
-    if joint.kind == "ball":
-        return _rotation_vectors(np.array([1.0, 0.0, 0.0, 0.0]), q)
-    rest = mechanism.bodies[body]
-    return np.concatenate([q[:, :3] - rest.position, _rotation_vectors(rest.quaternion, q[:, 3:])], axis=-1)
 
 
 def rotations(q: Array) -> Array:
@@ -166,13 +157,3 @@ def _on_parent(found: Motion, parent: int, batch: int) -> _State:
     return _State(
         found.rotation[:, parent], found.position[:, parent], found.angular[:, parent], found.linear[:, parent]
     )
-
-
-def _rotation_vectors(rest: Array, here: Array) -> Array:
-    """The shorter rotation from one quaternion's direction to others' (B, 4), in the turned axes (B, 3) [rad]."""
-    a, r = rest[0], rest[1:]
-    w = a * here[:, 0] + here[:, 1:] @ r
-    vector = a * here[:, 1:] - here[:, :1] * r - np.cross(r, here[:, 1:])
-    length = np.linalg.norm(vector, axis=-1)
-    angle = 2 * np.arctan2(length, np.abs(w)) * np.where(w < 0, -1, 1)
-    return np.asarray(vector * (angle / np.where(length > 0, length, 1))[:, None])

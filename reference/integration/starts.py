@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from ...models.errors import InvalidInput
 from ...models.systems import System
-from ..kernels.forward_dynamics import link_masses, processors, thread_pool
+from ..kernels.forward_dynamics import link_masses
+from ..kernels.threads import processors, thread_pool
 from ..limits import checked_state
 
 Array = NDArray[np.float64]

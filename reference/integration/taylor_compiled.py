@@ -14,7 +14,8 @@ import numpy as np
 
 from ..kernels import elimination
 from ..kernels.compiling import aligned, bits, called, compiled, inlined, wide_vectors
-from ..kernels.sincos import ROUNDER, sincos
+from ..kernels.sincos import sincos
+from ..kernels.sine import ROUNDER
 from ..kernels.vector import EIGHT, fma, load, store
 from .convolution import COSINE, FP, FQ, OMEGA, SERIES, SINE, WP, WQ, R, convolve_eight
 

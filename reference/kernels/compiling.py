@@ -24,21 +24,23 @@ except ImportError as error:  # whatever else needs numba imports this module fi
     raise missing("numba", error) from error
 
 from .announcing import announce  # needs numba as well
+from .instructions import FAST
 
 announce()
 LINE = 8  # numbers in a line of the cache
 F = TypeVar("F", bound=Callable[..., Any])
 
 # error_model: Python's check for division by zero would keep every loop with a division from being vectorised.
-# fastmath: fused multiply-add and reciprocals of constants, but no reassociation: compensated sums stay exact.
-OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract", "nsz", "arcp"}}
+OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": set(FAST)}
 SOURCES = (
     "kernels/elimination.py",
     "kernels/compiling.py",
+    "kernels/instructions.py",
     "kernels/lanes.py",
     "kernels/vector.py",
     "limits.py",
     "kernels/sincos.py",
+    "kernels/sine.py",
     "integration/convolution.py",
     "kernels/forward_dynamics_compiled.py",
     "integration/taylor_compiled.py",
@@ -105,11 +107,6 @@ def aligned(count: int) -> Any:
     numbers = np.empty(count + LINE)
     start = (-(numbers.ctypes.data // 8)) % LINE
     return numbers[start : start + count]
-
-
-def declared(builder: Any, name: str, kind: Any) -> Any:
-    """One of LLVM's own functions."""
-    return builder.module.globals.get(name) or ir.Function(builder.module, kind, name)
 
 
 @intrinsic

@@ -10,11 +10,9 @@ it may differ by rounding, 1e-15 of the largest acceleration.
 
 from __future__ import annotations
 
-import os
 import sys
 import weakref
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from importlib.util import find_spec
 from typing import Any
@@ -23,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...models.errors import InvalidInput
+from ...models.spatial_mechanism import SpatialMechanism
 from ...models.systems import System
 from ..limits import checked_state, refuse_outside, shaped_state
 from .elimination import (
@@ -38,6 +37,7 @@ from .elimination import (
     turn_down,
     turn_up,
 )
+from .threads import processors, thread_pool
 
 Array = NDArray[np.float64]
 FloatArray = NDArray[np.floating[Any]]
@@ -55,7 +55,13 @@ _calls = 0
 
 
 def accelerations(
-    system: System, theta: Any, omega: Any, *, out: Array | None = None, threads: int | None = None
+    system: System | SpatialMechanism,
+    theta: Any,
+    omega: Any,
+    torque: Any = None,
+    *,
+    out: Array | None = None,
+    threads: int | None = None,
 ) -> Array:
     """Angular accelerations θ'' [rad/s²] of ``system`` in one state or many.
 
@@ -67,6 +73,11 @@ def accelerations(
     smallest normal number, 2e-308 (all of them only where g = 0 and all rates are below 1e-153), are exact to 5e-324
     only.
     Raises :class:`InvalidInput` for shapes that do not fit and numbers that are not finite or too large.
+
+    An open mechanism in space (:class:`~furiko.models.spatial_mechanism.SpatialMechanism`, such as
+    ``furiko.models.readers.model_file.read_model("robot.xml").spatial``) is a ``system`` too. ``theta`` is then q
+    (..., nq), ``omega`` v (..., nv), ``torque`` generalised forces [N m or N], (..., nv) or (nv,), none if None, in
+    MuJoCo's coordinates; returns (..., nv): see :func:`.trees.dynamics.tree_accelerations`.
     """
     kernel = _kernels.get(id(system))
     if (  # one state as a plain array: written out, because a call from Python costs as much as five rods
@@ -78,11 +89,18 @@ def accelerations(
         and theta.dtype is _FLOAT64
         and omega.dtype is _FLOAT64
         and out is None
+        and torque is None
     ):
         out = _empty(kernel.n)
         if kernel.single(theta, omega, out, kernel.table):
-            checked_state(system, theta, omega)
+            checked_state(kernel, theta, omega)
         return out
+    if isinstance(system, SpatialMechanism):
+        from .trees.dynamics import tree_accelerations  # what most callers never need
+
+        return tree_accelerations(system, theta, omega, torque, out=out, threads=threads)
+    if torque is not None:
+        raise InvalidInput("torque: the documents' mechanisms are not driven; None is needed")
     angles, rates = shaped_state(system, theta, omega)
     if out is not None and not (out.shape == angles.shape and out.dtype == _FLOAT64 and out.flags.carray):
         raise InvalidInput(f"out: a contiguous float64 array of shape {angles.shape} is needed")
@@ -211,29 +229,6 @@ def _worth_compiling(angles: int) -> bool:
 def _can_compile() -> bool:
     """Whether numba is installed: without it plain numpy answers all calls, to the same accuracy."""
     return find_spec("numba") is not None
-
-
-def processors(threads: int | None) -> int:
-    """The number of threads that may run: at most those asked for and the processors of this process.
-
-    Raises InvalidInput below one thread.
-    """
-    if threads is not None and threads < 1:
-        raise InvalidInput(f"threads: at least 1 is needed, got {threads}")
-    if threads == 1:
-        return 1
-    available = len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count() or 1
-    return min(threads or available, available)
-
-
-@cache
-def thread_pool() -> ThreadPoolExecutor:
-    """The threads that compiled code runs on; started once."""
-    return ThreadPoolExecutor(processors(None), thread_name_prefix="furiko")
-
-
-if sys.platform != "win32":
-    os.register_at_fork(after_in_child=thread_pool.cache_clear)  # a child has the pool, but none of its threads
 
 
 def _parts(angles: int, threads: int | None) -> int:

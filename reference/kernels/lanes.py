@@ -17,7 +17,8 @@ from llvmlite import ir
 from numba import types
 
 from ..limits import LARGEST_ANGLE, LARGEST_RATE
-from .compiling import LINE, declared, inlined, intrinsic, prefetch_near, prefetch_next, prefetch_own
+from .compiling import LINE, inlined, intrinsic, prefetch_near, prefetch_next, prefetch_own
+from .instructions import declared
 
 INT, DOUBLE = ir.IntType(32), ir.DoubleType()
 EVEN, ODD = [0, 2, 4, 6, 8, 10, 12, 14], [1, 3, 5, 7, 9, 11, 13, 15]  # of two vectors one after the other

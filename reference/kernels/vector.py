@@ -17,14 +17,14 @@ from numba.core.typing import templates
 from numba.core.typing.templates import ConcreteTemplate, signature
 from numba.extending import lower_builtin, models, register_model
 
-from .compiling import OPTIONS, declared, intrinsic
+from .compiling import intrinsic
+from .instructions import FAST, declared, in_quadrants
 
 infer_global: Any = templates.infer_global  # of which numba does not say what it is
 
 EIGHT = 8
 DOUBLE, INTEGER = ir.DoubleType(), ir.IntType(64)
 VECTOR = ir.VectorType(DOUBLE, EIGHT)
-FAST = tuple(sorted(OPTIONS["fastmath"]))
 
 
 class VectorType(types.Type):  # type: ignore[misc]  # numba has no types of its own
@@ -146,25 +146,7 @@ def in_quadrant(_context: Any, rounded: Any, _sine: Any, _cosine: Any) -> Any:
     kind = vector if rounded == vector else types.float64
 
     def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        rounded, sine, cosine = args
-        numbers = rounded.type
-        word = ir.IntType(64)
-        words = ir.VectorType(word, numbers.count) if isinstance(numbers, ir.VectorType) else word
-
-        def constant(value: int) -> Any:
-            return ir.Constant(words, [value] * numbers.count if words is not word else value)
-
-        def flipped(x: Any, quadrant: Any) -> Any:
-            sign = builder.shl(builder.and_(quadrant, constant(2)), constant(62))
-            return builder.bitcast(builder.xor(builder.bitcast(x, words), sign), numbers)
-
-        quadrant = builder.bitcast(rounded, words)
-        swap = builder.icmp_signed("!=", builder.and_(quadrant, constant(1)), constant(0))
-        found = (
-            flipped(builder.select(swap, cosine, sine), quadrant),
-            flipped(builder.select(swap, sine, cosine), builder.add(quadrant, constant(1))),
-        )
-        return context.make_tuple(builder, signature.return_type, found)
+        return context.make_tuple(builder, signature.return_type, in_quadrants(builder, *args))
 
     return types.UniTuple(kind, 2)(kind, kind, kind), generate
 

@@ -36,6 +36,8 @@ ROOMS = {
         [
             ("arithmetic", "limits"),
             ("documents",),
+            ("kernels.sine", "kernels.instructions", "kernels.threads"),
+            ("kernels.trees",),
             ("kernels",),
             ("integration",),
             (".",),

@@ -1,0 +1,1 @@
+"""Accelerations of any open mechanism in space, in O(n). May import kernels and models."""
