@@ -131,6 +131,15 @@ class Mujoco:
             forces[row] = -data.cfrc_int[self._bodies][:, [3, 5]]
         return forces
 
+    def inverse_mass(self, theta: Array) -> Array:
+        model, data, n = self._model, self._data, theta.shape[-1]
+        found, units = np.empty((*theta.shape, n)), np.eye(n)
+        for row, (q,) in enumerate(self._coordinates.rows(theta)):
+            data.qpos[:] = q
+            mujoco.mj_fwdPosition(model, data)
+            mujoco.mj_solveM(model, data, found[row], units)  # a row of units is a force, a row found its acceleration
+        return self._coordinates.absolute_inverse_mass(found.swapaxes(1, 2))
+
     def energy(self, theta: Array, omega: Array) -> Array:
         model, data = self._model, self._data
         energies = np.empty((len(theta), 2))

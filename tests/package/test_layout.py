@@ -46,7 +46,7 @@ ROOMS = {
     ),
     "engines": (
         {"models", "records"},
-        [("workers",), ("info", "protocol", "releases"), ("places",), (".",), ("model_files",), ("trees",)],
+        [("workers",), ("info", "protocol", "releases"), ("known",), ("places",), (".",), ("model_files",), ("trees",)],
     ),
     "diagnosis": (
         {"models", "records", "reference", "engines"},

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from .info import EngineInfo
+from ..info import EngineInfo
 
 _NO_RUNS = {"trajectory": "its adapter asks for dynamics alone, not for time steps"}
+_NO_INVERSE: Any = {"inverse_mass": "it forms the mass matrix, and an inverse of it would be NumPy's"}
 _DRAKE: dict[str, Any] = {
     "module": "pydrake",
     "package": "drake",
@@ -28,6 +29,7 @@ _SYMPY: dict[str, Any] = {
     "tested": ("1.14.0",),
     "homepage": "https://www.sympy.org",
     "coordinates": "absolute",
+    "lacks": _NO_INVERSE | {"derivatives": "its formulas are compiled for accelerations alone"},
     "algorithm": "other",
     "largest_n": 5,
     "largest_n_reason": "deriving the equations takes 2 s for five links and 40 s for ten",
@@ -52,6 +54,8 @@ ON_REQUEST: dict[str, EngineInfo] = {
             coordinates="relative",
             algorithm="other",
             inverse="rnea",
+            offers=("inverse_mass",),
+            lacks={"derivatives": "DART differentiates no accelerations"},
             missing=_NO_RUNS,
             largest_n=200,
             largest_n_reason="longer chains were not tried",
@@ -60,11 +64,14 @@ ON_REQUEST: dict[str, EngineInfo] = {
             name="drake-aba",
             formulation="articulated-body algorithm; model from URDF",
             adapter="furiko.engines.drake:DrakeAba",
+            offers=("derivatives",),
+            lacks=_NO_INVERSE,
             algorithm="other",  # articulated bodies in the world's axes, with rotations in three dimensions
             **_DRAKE,
         ),
         EngineInfo(
             name="drake-crba",
+            lacks=_NO_INVERSE | {"derivatives": "those of Drake's accelerations are asked of drake-aba"},
             formulation="mass matrix, bias and gravity, then numpy's solution; model from URDF",
             adapter="furiko.engines.drake:DrakeCrba",
             interchanges=True,
@@ -72,6 +79,7 @@ ON_REQUEST: dict[str, EngineInfo] = {
         ),
         EngineInfo(
             name="pybullet",
+            lacks=_NO_INVERSE | {"derivatives": "PyBullet differentiates no accelerations"},
             formulation="mass matrix and bias, then numpy's solution; model from URDF",
             adapter="furiko.engines.pybullet:PyBullet",
             module="pybullet",
