@@ -77,8 +77,9 @@ class EngineInfo:
       not offer, a sentence that says why.
     * ``tree``: what it does with open mechanisms; None: it takes the documents' alone.
 
-    Limits: ``largest_n`` links, ``least_mass`` [kg] and ``least_inertia`` [kg m²] about the hinge for each link. The
-    reasons for them are half sentences that follow "takes at most … links:" and "takes masses from …:".
+    Limits: ``largest_n`` links, ``least_mass`` [kg] and ``least_inertia`` [kg m²] about the hinge for each link;
+    ``no_point_masses``: why a link without inertia about its own centre cannot be taken, empty where it can. The
+    reasons for the others are half sentences that follow "takes at most … links:" and "takes masses from …:".
 
     How it computes, from which bounds on its rounding errors are derived:
 
@@ -113,6 +114,7 @@ class EngineInfo:
     least_mass: float = 0.0
     least_inertia: float = 0.0
     least_reason: str = ""
+    no_point_masses: str = ""
     accuracy: float = 2.0**-52
     accuracy_reason: str = ""
     moments: Literal["hinge", "tree"] = "hinge"

@@ -254,6 +254,8 @@ def cannot(info: EngineInfo, system: System | TreeSystem) -> str | None:
         ):
             if value < least:
                 return f"{info.name} takes {what.format(least)}, not {value:.2g} (link {number}): {info.least_reason}"
+        if info.no_point_masses and not link.inertia:
+            return f"{info.name} takes no point masses (link {number}): {info.no_point_masses}"
     return None
 
 

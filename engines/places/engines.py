@@ -191,6 +191,7 @@ def _info(name: str, hello: Mapping[str, Any]) -> EngineInfo:
         },
         largest_n=largest,
         largest_n_reason=_text(hello, "largest_n_reason") or "the program takes no more",
+        no_point_masses=_text(hello, "no_point_masses"),
         interchanges=bool(hello.get("interchanges", False)),
         **choices,
     )
