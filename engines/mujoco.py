@@ -76,6 +76,16 @@ class Mujoco:
         self._moving = quiet_data(self._model)
         self._coordinates = RelativeCoordinates(tree.parents, self._model.jnt_dofadr[self._hinges])
 
+    @property
+    def model(self) -> Any:
+        """The compiled model."""
+        return self._model
+
+    @property
+    def coordinates(self) -> RelativeCoordinates:
+        """From absolute angles to the model's, and back."""
+        return self._coordinates
+
     def fields(self) -> ModelFields:
         model, bodies, hinges = self._model, self._bodies, self._hinges
         link_of_body = {0: -1} | {int(body): link for link, body in enumerate(bodies)}

@@ -39,6 +39,27 @@ _SYMPY: dict[str, Any] = {
         "joint_forces": "neither method forms the forces in the joints",
     },
 }
+_MJX: dict[str, Any] = {
+    "module": "mujoco.mjx",
+    "package": "mujoco-mjx",
+    "tested": ("3.17.0",),
+    "homepage": "https://mujoco.readthedocs.io/en/stable/mjx.html",
+    "coordinates": "relative",
+    "inverse": "crba",
+    "moments": "tree",
+    "algorithm": "other",  # as MuJoCo, in an order that a compiler chooses anew
+    "missing": _NO_RUNS
+    | {
+        "fields": "its model is the one that MuJoCo compiles, whose fields are compared there",
+        "joint_forces": "it forms no forces in hinges without sensors",
+        "energy": "its energies are computed in steps alone",
+    },
+    "largest_n": 5,
+    "largest_n_reason": "compiling one question takes seconds for five links and minutes beyond ten",
+    "least_mass": 1e-15,
+    "least_inertia": 1e-15,
+    "least_reason": "MuJoCo's compiler, which makes its model, puts 1e-15 in the place of anything less",
+}
 
 ON_REQUEST: dict[str, EngineInfo] = {
     info.name: info
@@ -76,6 +97,25 @@ ON_REQUEST: dict[str, EngineInfo] = {
             adapter="furiko.engines.drake:DrakeCrba",
             interchanges=True,
             **_DRAKE,
+        ),
+        EngineInfo(
+            name="mjx",
+            formulation="MuJoCo's equations in JAX, in batches, double precision; model from MJCF",
+            adapter="furiko.engines.mjx:Mjx",
+            offers=("derivatives",),
+            lacks={
+                "inverse_mass": "it has a function for M⁻¹ times a vector, which derivatives and accelerations test"
+            },
+            **_MJX,
+        ),
+        EngineInfo(
+            name="mjx-float32",
+            formulation="MuJoCo's equations in JAX, in batches, single precision; model from MJCF",
+            adapter="furiko.engines.mjx:MjxSingle",
+            accuracy=2.0**-23,
+            accuracy_reason="single precision, JAX's own: held to 2⁻²³ for one operation",
+            lacks=dict.fromkeys(("derivatives", "inverse_mass"), "asked of mjx, in double precision"),
+            **_MJX,
         ),
         EngineInfo(
             name="pybullet",

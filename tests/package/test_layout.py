@@ -100,7 +100,7 @@ LAZY = {
     "models.trees.system": "arrays are made where they are asked for",
     "checks.jobs": "what trees need is imported where a tree is",
 }
-ENGINES = {"mujoco", "pinocchio", "exudyn", "pydrake", "dartpy", "pybullet"}
+ENGINES = {"mujoco", "pinocchio", "exudyn", "pydrake", "dartpy", "pybullet", "jax"}
 
 
 def place(module):
