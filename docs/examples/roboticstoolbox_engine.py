@@ -3,8 +3,9 @@
     pip install roboticstoolbox-python==1.5.0 furiko
     furiko check -e roboticstoolbox_engine.py double-pendulum rods-3
 
-furiko's hinges turn about (0, −1, 0). There ``rne`` gives Coriolis and gravity terms with the opposite sign and the mass
-matrix as it is; so both checks of terms differ, and accelerations, with their causes.
+furiko's hinges turn about (0, −1, 0). There ``rne`` gives Coriolis and gravity terms with the opposite sign, and the
+mass matrix as it is; so both differ, and accelerations. The cause is named as angles of the opposite sign, which is
+the same: M is even in the angles, and both other terms are odd.
 """
 
 import tempfile
@@ -21,6 +22,8 @@ OTHERS = ("fields", "joint_forces", "energy", "trajectory")
 
 
 class RoboticsToolbox:
+    """Accelerations by the library's own mass matrix and bias forces."""
+
     info = EngineInfo(
         name="roboticstoolbox",
         formulation="recursive Newton-Euler, and the mass matrix from it; model from URDF",
@@ -43,7 +46,7 @@ class RoboticsToolbox:
             self._robot = roboticstoolbox.Robot.URDF(str(path))
         names = [link.name for link in self._robot.links if link.isjoint]
         tree = system.tree()
-        self._gravity = np.array([0.0, 0.0, system.gravity])
+        self._gravity = system.gravity * np.sign(self._robot.gravity)  # along z, counted as the library counts it
         self._coordinates = RelativeCoordinates(tree.parents, [names.index(name) for name in tree.names("link")])
 
     def accelerations(self, theta, omega):
