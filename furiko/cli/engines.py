@@ -81,7 +81,8 @@ def _table(runs: tuple[str, ...], out: str | None, pythons: tuple[str, ...]) -> 
 
     if not runs or out is None:
         raise InvalidInput("engines: --table DIR and --out FILE go together, and --probe with them")
-    command = " ".join(["furiko engines", *(f"--table {Path(run).name}" for run in runs), f"--out {out}"])
+    parts = [*(f"--table {Path(run).name}" for run in runs), *("--probe PYTHON" for _ in pythons), f"--out {out}"]
+    command = " ".join(["furiko engines", *parts])
     replace_file(Path(out), table_of_runs(runs, command, pythons).encode())
     print_text(f"Page: {out}")
     return AGREES
