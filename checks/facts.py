@@ -13,12 +13,13 @@ from ..models import Scene
 from ..models.states import States
 from ..reference import literal_accelerations
 from ..reference.rounding.bounds import EPSILON, SMALLEST, amplitudes, condition
+from ..reference.truth import enclosures, newton_euler
 from ..reference.truth.derivatives import Derivatives, enclosed_derivatives
-from ..reference.truth.enclosures import enclosed_accelerations, enclosed_joint_forces
 
 Array = NDArray[np.float64]
 
 
+LITERAL = 8  # angles, up to which the dense matrix of the literal equations is as fast as O(n)
 FORCE_STATES = 20  # joint forces are compared in the last so many states: a proven sum costs more than the engine's
 SLOPE_STATES = 10  # the same for derivatives, at most,
 SLOPE_ENTRIES = 10_000  # and of each matrix so many entries in all, a few tenths of a second of proofs
@@ -73,9 +74,14 @@ class SceneFacts:
 
 
 def scene_facts(scene: Scene, states: States, *, slopes: bool = True) -> SceneFacts:
-    """Compute them, from the literal equations in ball arithmetic; ``slopes``: the derivatives too."""
+    """Compute them in ball arithmetic: of short mechanisms from the document's last equation, solved as it stands.
+
+    Long ones take Newton's and Euler's, from which the document derives it: the same numbers, proved as well (the tests
+    hold both against each other), at a tenth of the time for a hundred rods. ``slopes``: the derivatives too.
+    """
     system, theta, omega = scene.system, states.theta, states.omega
-    truth = enclosed_accelerations(system, theta, omega)
+    proofs = enclosures if system.n <= LITERAL else newton_euler
+    truth = proofs.enclosed_accelerations(system, theta, omega)
     last = len(theta) - (slope_states(system.n) if slopes else 0)
     high, low = stacked(enclosed_derivatives(system, theta[max(last, 0) :], omega[max(last, 0) :]))
     return SceneFacts(
@@ -83,7 +89,7 @@ def scene_facts(scene: Scene, states: States, *, slopes: bool = True) -> SceneFa
         low=truth.low,
         radius=truth.radius,
         literal=literal_accelerations(system, theta, omega),
-        forces=enclosed_joint_forces(system, theta[-FORCE_STATES:], omega[-FORCE_STATES:]).high,
+        forces=proofs.enclosed_joint_forces(system, theta[-FORCE_STATES:], omega[-FORCE_STATES:]).high,
         cond_absolute=condition(system, theta, amplitudes(system, "absolute"), truth.high, omega),
         cond_relative=condition(system, theta, amplitudes(system, "relative"), truth.high, omega),
         slopes=high,

@@ -7,7 +7,7 @@ import numpy as np
 from ...diagnosis.slopes import Mistake, conventions, mistakes
 from ...models.coordinates import absolute_from_relative
 from ...models.systems import DocumentSystem
-from ...records.conformance import ConformanceStep
+from ...records.listings import ConformanceStep
 from ...reference import mass_matrix
 from ...reference.truth.derivatives import enclosed_derivatives
 from ..facts import stacked
