@@ -4,7 +4,7 @@ VENV ?= .venv
 BIN := $(VENV)/bin
 JOBS ?= 2
 
-.PHONY: check test test-slow test-all lint docs notebooks models architecture clean
+.PHONY: check test test-slow test-all lint docs engines notebooks models architecture clean
 
 check: $(VENV)/.check  ## run the catalogue against every engine; writes furiko-report/
 	$(BIN)/furiko check
@@ -29,6 +29,12 @@ docs: $(VENV)/.docs  ## build the documentation into build/docs/; a warning fail
 
 notebooks: $(VENV)/.check  ## run the notebooks in docs/notebooks/, and keep what they print
 	$(BIN)/python docs/notebooks.py
+
+ENGINES ?= mujoco pin exudyn dart drake pybullet sympy
+
+engines:  ## measure all engines on the whole catalogue, and write docs/engines.md; PROBE=PYTHON looks there for defects
+	-$(BIN)/furiko check --profile quick --no-cache $(addprefix -e ,$(ENGINES)) --out build/engines
+	$(BIN)/furiko engines --table build/engines $(addprefix --probe ,$(PROBE)) --out docs/engines.md
 
 models:  ## write the catalogue's model files and the JSON schemas again
 	$(BIN)/python -m furiko.models.writers.catalogue_files

@@ -169,3 +169,31 @@ def quotient(error: Array, scale: Array) -> Array:
     """|error| / scale, where 0/0 is 0 (nothing was expected and nothing came) and x/0 is infinite."""
     size = np.abs(error)
     return np.divide(size, scale, out=np.where(size > 0, np.inf, 0.0), where=scale > 0)
+
+
+@dataclass(frozen=True)
+class Judged:
+    """The worst entry of a residual: its quotient with what its state allows (1: as much as that), and where it is."""
+
+    worst: Worst
+    allowed: float
+
+    @property
+    def agrees(self) -> bool:
+        return self.worst.value <= 1
+
+    def fields(self) -> dict[str, Any]:
+        """``measured``, ``allowed``, ``unit`` of a result."""
+        return {"measured": self.worst.value * self.allowed, "allowed": self.allowed, "unit": "ε"}
+
+
+def judge(residual: Array, unit: Array, epsilons: Array) -> Judged:
+    """``residual`` over ``unit`` (K, n, n), against ``epsilons`` (K,): roundings allowed × ε, in absolute numbers."""
+    found = worst(quotient(residual, epsilons[:, None, None] * unit))
+    return Judged(found, float(epsilons[found.index[0]] / 2.0**-52))
+
+
+def relative_error(error: Array, true: Array) -> float:
+    """The largest error of a state's matrix over its largest entry; (K, n, n)."""
+    size, off = np.abs(true).max(axis=(1, 2), initial=0.0), np.abs(error).max(axis=(1, 2), initial=0.0)
+    return float(np.divide(off, size, out=np.where(off > 0, np.inf, 0.0), where=size > 0).max(initial=0.0))

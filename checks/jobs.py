@@ -42,10 +42,11 @@ class Compared:
 
 @dataclass(frozen=True)
 class TruthJob:
-    """Compute a scene's truth in the states that its cells look at."""
+    """Compute a scene's truth in the states that its cells look at; ``slopes``: derivatives are compared, too."""
 
     scene: AnyScene
     random_states: int
+    slopes: bool = True
 
     def run(self, send: Send) -> None:
         send(Step("truth"))
@@ -56,11 +57,11 @@ class TruthJob:
             from ..models.trees.states import tree_states
             from .trees.facts import tree_facts
 
-            return tree_facts(self.scene, tree_states(self.scene, self.random_states)).to_bytes()
+            return tree_facts(self.scene, tree_states(self.scene, self.random_states), slopes=self.slopes).to_bytes()
         from ..models.states import states
         from .facts import scene_facts
 
-        return scene_facts(self.scene, states(self.scene, self.random_states)).to_bytes()
+        return scene_facts(self.scene, states(self.scene, self.random_states), slopes=self.slopes).to_bytes()
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,8 @@ from ..engines import EngineInfo
 from ..models import AnyScene, TreeScene
 from .check import Check, OfTrees
 
+NOT_OFFERED = "the engine's adapter offers neither derivatives of its accelerations nor an inverse mass matrix"
+
 
 def _no_duration(scene: AnyScene, _info: EngineInfo) -> str:
     return "" if scene.duration else "the scene has no duration: nothing moves in it"
@@ -28,6 +30,17 @@ def _no_motion(scene: AnyScene, info: EngineInfo) -> str:
         if not scene.starts:
             return "the scene has no state for a trajectory to start from"
     return _no_duration(scene, info)
+
+
+def _no_derivatives(scene: AnyScene, info: EngineInfo) -> str:
+    if not isinstance(scene, TreeScene):
+        return "" if info.offers else "; ".join(dict.fromkeys(info.lacks.values())) or NOT_OFFERED
+    if {"ball", "free"} & scene.system.features:
+        return "derivatives are compared of trees of hinges and slides alone"
+    if info.tree is None or not info.tree.offers:
+        lacks = info.tree.lacks.values() if info.tree else ()
+        return "; ".join(dict.fromkeys(lacks)) or NOT_OFFERED
+    return ""
 
 
 def _not_chaotic(scene: AnyScene, _info: EngineInfo) -> str:
@@ -74,6 +87,15 @@ CHECKS = {
             bound="rounding of the magnitudes that make up each entry",
             trees=OfTrees("terms", "mass_matrix"),
             explained=True,
+        ),
+        Check(
+            name="derivatives",
+            needs="accelerations",
+            module="derivatives",
+            meaning="The engine's ∂a/∂q, ∂a/∂v and M⁻¹ are the exact derivatives of the equations of motion.",
+            bound="rounding of the magnitudes that make up each entry, through the solution with the mass matrix",
+            trees=OfTrees("derivatives", "accelerations"),
+            why_not=_no_derivatives,
         ),
         Check(
             name="joint forces",

@@ -129,7 +129,10 @@ class _Run:
         most_hangs: int | None = HANGS,
     ) -> None:
         self.cache, self.source, self.timeout, self.ledger = cache, source, timeout, ledger
-        scenes = {task.scene.name: TruthJob(task.scene, task.random_states) for task in tasks}
+        sloping = {task.scene.name for task in tasks if "derivatives" in task.checks}
+        scenes = {
+            task.scene.name: TruthJob(task.scene, task.random_states, task.scene.name in sloping) for task in tasks
+        }
         # The largest truths first: they take longest, and cells wait for them.
         self.truths = deque(sorted(scenes.values(), key=lambda job: -job.scene.system.n))
         self.waiting: dict[str, list[Task]] = {name: [] for name in scenes}
@@ -147,7 +150,7 @@ class _Run:
 
     def begin(self) -> None:
         for job in list(self.truths):
-            content = self.cache.facts(job.scene, job.random_states)
+            content = self.cache.facts(job.scene, job.random_states, job.slopes)
             if content is not None:
                 self.truths.remove(job)
                 self._release(job, content)
@@ -201,7 +204,7 @@ class _Run:
             progress.compared.add(event.message.check)
             self.ledger.promise(job.task.scene.name, job.task.engine, event.message.check, event.message.results)
         elif isinstance(event.message, Facts) and isinstance(job, TruthJob):
-            self.cache.keep_facts(job.scene, job.random_states, event.message.content)
+            self.cache.keep_facts(job.scene, job.random_states, event.message.content, job.slopes)
             self._release(job, event.message.content)
         elif isinstance(event.message, Failed):
             yield from self._failed(job, event.message.reason, {"traceback": event.message.trace}, progress)

@@ -9,9 +9,9 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from .info import EngineInfo, Integrator, Quantity, TreeInfo, TreeQuantity
+from .info import EngineInfo, Integrator, Offer, Quantity, TreeInfo, TreeQuantity
+from .known.usual import ENGINES
 from .registry import (
-    ENGINES,
     OWN_EQUATIONS,
     all_of,
     cannot,
@@ -55,6 +55,7 @@ __all__ = [
     "Integrator",
     "ModelFields",
     "Native",
+    "Offer",
     "Quantity",
     "TreeEngine",
     "TreeInfo",

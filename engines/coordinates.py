@@ -41,6 +41,26 @@ class RelativeCoordinates:
         """θ = S q."""
         return to_absolute(self._parents, relative[:, self._columns])
 
+    def absolute_matrix(self, relative: Array) -> Array:
+        """S D S⁻¹, (B, n, n), of derivatives D of relative accelerations by relative angles or rates."""
+        columns = self._by_forces(relative)  # row i of D S⁻¹ is S⁻ᵀ times row i of D
+        return self._of_accelerations(columns)
+
+    def absolute_inverse_mass(self, relative: Array) -> Array:
+        """S X Sᵀ, (B, n, n), of the inverse X of the mass matrix of relative angles."""
+        rows = self._of_accelerations(relative.swapaxes(1, 2))
+        return self._of_accelerations(rows.swapaxes(1, 2))
+
+    def _of_accelerations(self, matrix: Array) -> Array:
+        """S times a matrix (B, n, m) whose rows are in the engine's order."""
+        count, n, wide = matrix.shape
+        columns = matrix.swapaxes(1, 2).reshape(-1, n)
+        return self.absolute(columns).reshape(count, wide, n).swapaxes(1, 2)
+
+    def _by_forces(self, matrix: Array) -> Array:
+        """A matrix (B, m, n) whose columns are in the engine's order, times S⁻¹."""
+        return self.absolute_forces(matrix.reshape(-1, matrix.shape[-1])).reshape(matrix.shape)
+
     def absolute_forces(self, relative: Array) -> Array:
         """τ_abs = S⁻ᵀ τ_rel."""
         return forces_to_absolute(self._parents, relative[:, self._columns])

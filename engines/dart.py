@@ -52,6 +52,13 @@ class Dart:
             damping=np.array([joint.getDampingCoefficient(0) for joint in self._joints]),
         )
 
+    def inverse_mass(self, theta: Array) -> Array:
+        found = np.empty((*theta.shape, theta.shape[-1]))
+        for row, (q,) in enumerate(self._coordinates.rows(theta)):
+            self._set(q, np.zeros_like(q))
+            found[row] = self._skeleton.getInvMassMatrix()
+        return self._coordinates.absolute_inverse_mass(found)
+
     def accelerations(self, theta: Array, omega: Array) -> Array:
         found = np.empty_like(theta)
         for row, (q, v) in enumerate(self._coordinates.rows(theta, omega)):

@@ -7,6 +7,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from importlib import import_module
 from typing import Any
 
@@ -19,6 +20,7 @@ from .quiet import silenced
 
 # Drake is a C++ extension: Any, here and nowhere else. Its module "all" would import matplotlib.
 plants: Any = import_module("pydrake.multibody.plant")
+autodiff: Any = import_module("pydrake.autodiffutils")
 parsing: Any = import_module("pydrake.multibody.parsing")
 trees: Any = import_module("pydrake.multibody.tree")
 
@@ -73,6 +75,21 @@ class DrakeAba:
                 self._plant.CalcForceElementsContribution(self._context, forces)
             found[row] = self._plant.CalcInverseDynamics(self._context, a, forces)
         return self._coordinates.absolute_forces(found)
+
+    def derivatives(self, theta: Array, omega: Array) -> tuple[Array, Array]:
+        """By the same algorithm on numbers that carry their derivatives (``AutoDiffXd``)."""
+        plant, n = self._differentiating, theta.shape[-1]
+        context, first = plant.CreateDefaultContext(), plant.num_positions()
+        found = np.empty((2, *theta.shape, n))
+        for row, (q, v) in enumerate(self._coordinates.rows(theta, omega)):
+            plant.SetPositionsAndVelocities(context, autodiff.InitializeAutoDiff(np.concatenate([q, v])))
+            slopes = autodiff.ExtractGradient(plant.EvalTimeDerivatives(context).CopyToVector()[first:])
+            found[0, row], found[1, row] = slopes[:, :n], slopes[:, n:]
+        return self._coordinates.absolute_matrix(found[0]), self._coordinates.absolute_matrix(found[1])
+
+    @cached_property
+    def _differentiating(self) -> Any:
+        return self._plant.ToAutoDiffXd()
 
     def energy(self, theta: Array, omega: Array) -> Array:
         found = np.empty((len(theta), 2))

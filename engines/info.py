@@ -8,6 +8,8 @@ from typing import Literal
 
 Quantity = Literal["fields", "accelerations", "inverse_dynamics", "joint_forces", "energy", "trajectory"]
 TreeQuantity = Literal["accelerations", "mass_matrix", "bias", "passive", "energy", "trajectory"]
+# Asked of engines whose ``offers`` names them, of the documents' mechanisms and of trees.
+Offer = Literal["derivatives", "inverse_mass"]
 # What a tree may have that an engine cannot hold. "several joints": of one link; "spring of a ball": or of a free one;
 # "massless link": that moves, and nothing with mass is fixed to it; "ball before a rotation": on one link;
 # "free beside others": a link with a free joint is not the only one on the world.
@@ -50,12 +52,16 @@ class TreeInfo:
 
     ``adapter``: the class for them, ``module:Class`` (:class:`~furiko.engines.protocol.TreeEngine`); ``missing``: by
     name of each quantity that it cannot give, and ``cannot_hold``: by name of each feature that it cannot have, a
-    sentence that says why. The largest system, the integrators and how it computes are the engine's.
+    sentence that says why. ``offers``, ``lacks``: as the engine's; ``cannot_differentiate``: as ``cannot_hold``, for
+    the derivatives alone. The largest system, the integrators and how it computes are the engine's.
     """
 
     adapter: str
     missing: Mapping[TreeQuantity, str] = field(default_factory=dict)
     cannot_hold: Mapping[TreeFeature, str] = field(default_factory=dict)
+    offers: tuple[Offer, ...] = ()
+    lacks: Mapping[Offer, str] = field(default_factory=dict)
+    cannot_differentiate: Mapping[TreeFeature, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -67,10 +73,13 @@ class EngineInfo:
     * ``tested``: versions of the package that furiko was tested with, the latest last; empty: nothing is known of any.
     * ``integrators``: with a fixed step; ``adaptive``: names of schemes that choose their steps from a tolerance.
     * ``missing``: by name of each quantity that it cannot give, a sentence that says why.
+    * ``offers``: which of ``derivatives`` and ``inverse_mass`` it can be asked; ``lacks``: by name of one that it does
+      not offer, a sentence that says why.
     * ``tree``: what it does with open mechanisms; None: it takes the documents' alone.
 
-    Limits: ``largest_n`` links, ``least_mass`` [kg] and ``least_inertia`` [kg m²] about the hinge for each link. The
-    reasons for them are half sentences that follow "takes at most … links:" and "takes masses from …:".
+    Limits: ``largest_n`` links, ``least_mass`` [kg] and ``least_inertia`` [kg m²] about the hinge for each link;
+    ``no_point_masses``: why a link without inertia about its own centre cannot be taken, empty where it can. The
+    reasons for the others are half sentences that follow "takes at most … links:" and "takes masses from …:".
 
     How it computes, from which bounds on its rounding errors are derived:
 
@@ -105,6 +114,7 @@ class EngineInfo:
     least_mass: float = 0.0
     least_inertia: float = 0.0
     least_reason: str = ""
+    no_point_masses: str = ""
     accuracy: float = 2.0**-52
     accuracy_reason: str = ""
     moments: Literal["hinge", "tree"] = "hinge"
@@ -115,3 +125,5 @@ class EngineInfo:
     inverse: Literal["rnea", "crba", "matrix"] = "matrix"
     tree: TreeInfo | None = None
     tested: tuple[str, ...] = ()
+    offers: tuple[Offer, ...] = ()
+    lacks: Mapping[Offer, str] = field(default_factory=dict)

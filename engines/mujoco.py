@@ -76,6 +76,16 @@ class Mujoco:
         self._moving = quiet_data(self._model)
         self._coordinates = RelativeCoordinates(tree.parents, self._model.jnt_dofadr[self._hinges])
 
+    @property
+    def model(self) -> Any:
+        """The compiled model."""
+        return self._model
+
+    @property
+    def coordinates(self) -> RelativeCoordinates:
+        """From absolute angles to the model's, and back."""
+        return self._coordinates
+
     def fields(self) -> ModelFields:
         model, bodies, hinges = self._model, self._bodies, self._hinges
         link_of_body = {0: -1} | {int(body): link for link, body in enumerate(bodies)}
@@ -130,6 +140,15 @@ class Mujoco:
             # Rows are torque, then force, in the world's axes, of the parent on the child.
             forces[row] = -data.cfrc_int[self._bodies][:, [3, 5]]
         return forces
+
+    def inverse_mass(self, theta: Array) -> Array:
+        model, data, n = self._model, self._data, theta.shape[-1]
+        found, units = np.empty((*theta.shape, n)), np.eye(n)
+        for row, (q,) in enumerate(self._coordinates.rows(theta)):
+            data.qpos[:] = q
+            mujoco.mj_fwdPosition(model, data)
+            mujoco.mj_solveM(model, data, found[row], units)  # a row of units is a force, a row found its acceleration
+        return self._coordinates.absolute_inverse_mass(found.swapaxes(1, 2))
 
     def energy(self, theta: Array, omega: Array) -> Array:
         model, data = self._model, self._data

@@ -104,6 +104,15 @@ class _Pinocchio:
         ]
         return np.array(energies).reshape(-1, 2)
 
+    def inverse_mass(self, theta: Array) -> Array:
+        found = np.empty((*theta.shape, theta.shape[-1]))
+        for row, (q,) in enumerate(self._coordinates.rows(theta)):
+            found[row] = self._inverse_mass(q)
+        return self._coordinates.absolute_inverse_mass(found)
+
+    def _inverse_mass(self, q: Array) -> Array:
+        raise NotImplementedError
+
     def native(self) -> Native:
         return Native(self._solver(), self._coordinates.relative, self._coordinates.absolute)
 
@@ -114,6 +123,17 @@ class PinocchioAba(_Pinocchio):
     def _solver(self) -> Callable[[Array, Array], Array]:
         model, data, aba, torques = self._model, self._data, pinocchio.aba, np.zeros(self._model.nv)
         return lambda q, v: aba(model, data, q, v, torques)
+
+    def derivatives(self, theta: Array, omega: Array) -> tuple[Array, Array]:
+        model, data, torques = self._model, self._data, np.zeros(self._model.nv)
+        found = np.empty((2, *theta.shape, theta.shape[-1]))
+        for row, (q, v) in enumerate(self._coordinates.rows(theta, omega)):
+            pinocchio.computeABADerivatives(model, data, q, v, torques)
+            found[0, row], found[1, row] = data.ddq_dq, data.ddq_dv
+        return self._coordinates.absolute_matrix(found[0]), self._coordinates.absolute_matrix(found[1])
+
+    def _inverse_mass(self, q: Array) -> Array:
+        return both_triangles(pinocchio.computeMinverse(self._model, self._data, q))
 
     def bare_calls(self, theta: Array, omega: Array, threads: int) -> dict[str, BareCall]:
         """``aba`` on the first state; ``threads`` has no use: there are no batches."""
@@ -148,3 +168,13 @@ class PinocchioCrba(_Pinocchio):
             return np.asarray(pinocchio.cholesky.solve(model, data, -bias))
 
         return solve
+
+    def _inverse_mass(self, q: Array) -> Array:
+        pinocchio.crba(self._model, self._data, q)
+        pinocchio.cholesky.decompose(self._model, self._data)
+        return np.asarray(pinocchio.cholesky.computeMinv(self._model, self._data))
+
+
+def both_triangles(upper: Array) -> Array:
+    """A symmetric matrix from its upper triangle, which is all that some of Pinocchio's algorithms fill."""
+    return np.asarray(np.triu(upper) + np.triu(upper, 1).T)

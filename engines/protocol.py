@@ -25,8 +25,9 @@ Conventions, the same for all questions:
 The class attribute ``info``, an :class:`~furiko.engines.info.EngineInfo`, says what furiko must know before it
 imports the engine: its integrators, its largest system, how it solves. **What may be left out:** a question that the
 engine cannot answer goes into ``info.missing`` with the sentence that the report shows as the reason, and its method
-may then be left out. ``path``, ``bare_calls``, ``native``, ``lighter`` and ``gap`` are optional: leave the method
-out, nothing else. ``adaptive`` is needed only where ``info.adaptive`` names schemes.
+may then be left out. ``derivatives`` and ``inverse_mass`` are asked where ``info.offers`` names them. ``path``,
+``bare_calls``, ``native``, ``lighter`` and ``gap`` are optional: leave the method out, nothing else. ``adaptive`` is
+needed only where ``info.adaptive`` names schemes.
 
 **Open mechanisms** (scenes of ``kind = "tree"``) are asked of a second class, a :class:`TreeEngine`, which
 ``info.tree`` names. It is made for a :class:`~furiko.models.spatial_mechanism.SpatialMechanism` and answers in that
@@ -158,6 +159,21 @@ class Engine(Protocol):
         """
         ...
 
+    def derivatives(self, theta: Array, omega: Array) -> tuple[Array, Array]:
+        """∂θ̈/∂θ [1/s²] and ∂θ̈/∂θ̇ [1/s] of the engine's own accelerations, shape (B, n, n) each.
+
+        Row i is that of θ̈_i, column k that of θ_k or of θ̇_k, all others held; all of them absolute. Not by differences
+        of accelerations: they are held to rounding. Optional: for engines whose ``info.offers`` names it.
+        """
+        ...
+
+    def inverse_mass(self, theta: Array) -> Array:
+        """M⁻¹ [1/(kg m²)], shape (B, n, n): column k has the accelerations by a unit force on the absolute angle θ_k.
+
+        Optional: for engines whose ``info.offers`` names it.
+        """
+        ...
+
     def energy(self, theta: Array, omega: Array) -> Array:
         """Kinetic and potential energy [J], shape (B, 2); the potential energy is zero at the height of the support."""
         ...
@@ -250,6 +266,17 @@ class TreeEngine(Protocol):
 
     def passive(self, q: Array, v: Array) -> Array:
         """Generalised forces of dampers and springs, (B, nv)."""
+        ...
+
+    def derivatives(self, q: Array, v: Array) -> tuple[Array, Array]:
+        """∂a/∂q and ∂a/∂v, (B, nv, nv) each, of mechanisms of hinges and slides; springs and dampers included.
+
+        As :meth:`Engine.derivatives`. Optional: where ``info.tree.offers`` names it.
+        """
+        ...
+
+    def inverse_mass(self, q: Array) -> Array:
+        """M⁻¹, (B, nv, nv), both triangles. Optional: where ``info.tree.offers`` names it."""
         ...
 
     def energy(self, q: Array, v: Array) -> Array:

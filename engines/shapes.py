@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..models import InvalidInput, System
 from ..models.errors import nearest
-from .info import EngineInfo, Quantity
+from .info import EngineInfo, Offer, Quantity
 from .protocol import Array, BareCall, Engine, ModelFields, Native
 
 
@@ -55,6 +55,21 @@ class AnyShape:
         """Force (x, z) [N] of each link on its parent or the support, shape (..., n, 2)."""
         self._refuse_missing("joint_forces")
         return self._batched(self._engine.joint_forces, (self._n, 2), theta=theta, omega=omega, alpha=alpha)
+
+    def derivatives(self, theta: ArrayLike, omega: ArrayLike) -> tuple[Array, Array]:
+        """∂θ̈/∂θ [1/s²] and ∂θ̈/∂θ̇ [1/s], shape (..., n, n) each."""
+        self._refuse_unless_offered("derivatives")
+
+        def both(*rows: Array) -> Array:
+            return np.stack(self._engine.derivatives(*rows), axis=1)
+
+        found = self._batched(both, (2, self._n, self._n), theta=theta, omega=omega)
+        return found[..., 0, :, :], found[..., 1, :, :]
+
+    def inverse_mass(self, theta: ArrayLike) -> Array:
+        """M⁻¹ [1/(kg m²)] of absolute angles, shape (..., n, n)."""
+        self._refuse_unless_offered("inverse_mass")
+        return self._batched(self._engine.inverse_mass, (self._n, self._n), theta=theta)
 
     def energy(self, theta: ArrayLike, omega: ArrayLike) -> Array:
         """Kinetic and potential energy [J], shape (..., 2)."""
@@ -137,6 +152,11 @@ class AnyShape:
     def _refuse_missing(self, quantity: Quantity) -> None:
         if quantity in self.info.missing:
             raise InvalidInput(f"{self.info.name}: no {quantity.replace('_', ' ')}: {self.info.missing[quantity]}")
+
+    def _refuse_unless_offered(self, quantity: Offer) -> None:
+        if quantity not in self.info.offers:
+            why = self.info.lacks.get(quantity, "its adapter does not offer it")
+            raise InvalidInput(f"{self.info.name}: no {quantity.replace('_', ' ')}: {why}")
 
     def _batched(self, ask: Callable[..., Any], tail: tuple[int, ...], **given: ArrayLike) -> Array:
         """Ask with rows (B, n) made from every given (..., n); the answer, (B, *tail), as (..., *tail)."""

@@ -261,6 +261,32 @@ class AlwaysGravity(Right):
         return super().inverse_dynamics(theta, omega, alpha)
 
 
+@broken("derivatives", "relative angles")
+class RelativeDerivatives(Right):
+    """Hands on derivatives as its engine has them, of relative angles."""
+
+    def derivatives(self, theta, omega):
+        turned = absolute_from_relative(self.system.tree().parents)
+        return tuple(np.linalg.inv(turned) @ found @ turned for found in super().derivatives(theta, omega))
+
+
+@broken("derivatives", "two matrices")
+class OneArrayOfDerivatives(Right):
+    """Puts both derivatives side by side, as some engines do."""
+
+    def derivatives(self, theta, omega):
+        return np.concatenate(super().derivatives(theta, omega), axis=-1)
+
+
+@broken("inverse mass matrix", "columns alone")
+class HalfConvertedInverse(Right):
+    """Converts the columns of its inverse, and not the rows."""
+
+    def inverse_mass(self, theta):
+        turned = absolute_from_relative(self.system.tree().parents)
+        return np.linalg.inv(turned) @ super().inverse_mass(theta)
+
+
 @broken("joint forces", "opposite sign")
 class Reactions(Right):
     """Gives the force on the link, not on its parent."""

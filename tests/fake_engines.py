@@ -9,6 +9,7 @@ import time
 import numpy as np
 
 from furiko.engines import EngineInfo, Integrator, ModelFields
+from furiko.models.coordinates import absolute_from_relative
 from furiko.reference import (
     centrifugal_matrix,
     energies,
@@ -28,6 +29,7 @@ def about(name, **changes):
         "homepage": "",
         "coordinates": "absolute",
         "integrators": (Integrator("RK4", 4),),
+        "offers": ("derivatives", "inverse_mass"),
     }
     return EngineInfo(name=name, **(fields | changes))
 
@@ -61,6 +63,20 @@ class Right:
         mass, centrifugal = mass_matrix(self.system, theta), centrifugal_matrix(self.system, theta)
         torque = (mass @ alpha[..., None] + centrifugal @ (omega**2)[..., None])[..., 0]
         return torque + gravity_vector(self.system, theta) if gravity else torque
+
+    def derivatives(self, theta, omega):
+        """By complex steps: the imaginary part of an answer over a step so small that nothing of it is seen beside."""
+        n, step = self.system.n, 1e-40
+        found = np.empty((2, *theta.shape, n))
+        for k in range(n):
+            for which in range(2):
+                state = [theta.astype(complex), omega.astype(complex)]
+                state[which][:, k] += 1j * step
+                found[which, :, :, k] = literal_accelerations(self.system, *state).imag / step
+        return found[0], found[1]
+
+    def inverse_mass(self, theta):
+        return np.linalg.inv(mass_matrix(self.system, theta))
 
     def joint_forces(self, theta, omega, alpha):
         return joint_forces(self.system, theta, omega, alpha)
@@ -306,3 +322,77 @@ class Littering(Right):
         with open("LITTER.TXT", "w") as file:
             file.write("litter")
         return super().accelerations(theta, omega)
+
+
+class TransposedDerivatives(Right):
+    """Exchanges rows and columns of its derivatives."""
+
+    info = about("TransposedDerivatives")
+
+    def derivatives(self, theta, omega):
+        return tuple(found.swapaxes(1, 2) for found in super().derivatives(theta, omega))
+
+
+class NegatedDerivatives(Right):
+    """Gives derivatives of minus the accelerations."""
+
+    info = about("NegatedDerivatives")
+
+    def derivatives(self, theta, omega):
+        return tuple(-found for found in super().derivatives(theta, omega))
+
+
+class HalfDerivativeByRates(Right):
+    """Forgets the factor 2 of the derivative of a square."""
+
+    info = about("HalfDerivativeByRates")
+
+    def derivatives(self, theta, omega):
+        of_positions, of_rates = super().derivatives(theta, omega)
+        return of_positions, of_rates / 2
+
+
+class RelativeDerivatives(Right):
+    """Gives derivatives, and an inverse, of relative angles."""
+
+    info = about("RelativeDerivatives")
+
+    def derivatives(self, theta, omega):
+        turned = absolute_from_relative(self.system.tree().parents)
+        return tuple(np.linalg.inv(turned) @ found @ turned for found in super().derivatives(theta, omega))
+
+    def inverse_mass(self, theta):
+        back = np.linalg.inv(absolute_from_relative(self.system.tree().parents))
+        return back @ super().inverse_mass(theta) @ back.T
+
+
+class ForcesForDerivatives(Right):
+    """Gives the derivatives of the forces, and M in the place of its inverse."""
+
+    info = about("ForcesForDerivatives")
+
+    def derivatives(self, theta, omega):
+        return tuple(-mass_matrix(self.system, theta) @ found for found in super().derivatives(theta, omega))
+
+    def inverse_mass(self, theta):
+        return mass_matrix(self.system, theta)
+
+
+class DerivativesWithoutGravity(Right):
+    """Leaves gravity out of its derivatives alone."""
+
+    info = about("DerivativesWithoutGravity")
+
+    def derivatives(self, theta, omega):
+        of_positions, of_rates = super().derivatives(theta, omega)
+        slope = gravity_vector(self.system, theta + np.pi / 2)[:, :, None] * np.eye(self.system.n)
+        return of_positions + np.linalg.solve(mass_matrix(self.system, theta), slope), of_rates
+
+
+class DerivativesOfOtherRates(Right):
+    """Differentiates at rates that are a hundredth too large."""
+
+    info = about("DerivativesOfOtherRates")
+
+    def derivatives(self, theta, omega):
+        return super().derivatives(theta, 1.01 * omega)

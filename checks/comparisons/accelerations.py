@@ -20,6 +20,7 @@ from ..facts import forward_error
 Array = NDArray[np.float64]
 
 NAME = "accelerations"
+SINGLE = 2.0**-23
 SINGULAR = "the mass matrix is singular but for rounding: no digit of an acceleration is sure"
 
 
@@ -62,7 +63,7 @@ def compare(cell: Cell) -> Iterator[Result]:
     line = sharp_line(cell, got, error)
     yield cell.result(
         NAME,
-        **sharp.verdict(found.value <= bound, line, _reason(found, bound, details)),
+        **sharp.verdict(found.value <= bound, line, _reason(found, bound, details) + _floor(cell)),
         measured=found.value,
         allowed=bound,
         unit="ε",
@@ -123,6 +124,11 @@ def inexact_side(engine: Array, literal: Array) -> str:
 def finite_max(values: Array, chosen: NDArray[np.bool_]) -> float:
     """The largest of the chosen values, 0 where there is none."""
     return float(np.max(values[chosen])) if chosen.any() else 0.0
+
+
+def _floor(cell: Cell) -> str:
+    """That an engine is held to less than double precision, where it is."""
+    return f"; {cell.info.accuracy_reason}" if cell.info.accuracy >= SINGLE else ""
 
 
 def _reason(found: Worst, bound: float, details: dict[str, Any]) -> str:

@@ -14,7 +14,7 @@ from ...engines.workers.pool import Lost, Pool, Said
 from ...engines.workers.processes import worker_processes
 from ...models import EngineMissing, InvalidInput
 from ...records.listings import ConformanceStep, EngineTest
-from . import conventions, handling, runs
+from . import conventions, handling, runs, slopes
 from .subject import Subject, Wrong
 
 Look = Callable[[Subject], ConformanceStep]
@@ -42,6 +42,8 @@ PARTS = (
     Part("precision", conventions.precision),
     Part("fields", conventions.fields, "fields"),
     Part("inverse dynamics", conventions.inverse_dynamics, "inverse_dynamics"),
+    Part("derivatives", slopes.derivatives, "derivatives"),
+    Part("inverse mass matrix", slopes.inverse_mass, "inverse_mass"),
     Part("joint forces", conventions.forces, "joint_forces"),
     Part("energy", conventions.energy, "energy"),
     Part("trajectories", runs.trajectories, "trajectory"),
@@ -71,7 +73,10 @@ def steps(name: str) -> Iterator[ConformanceStep]:
 
 
 def _why_missing(subject: Subject, quantity: str) -> str:
-    return subject.info.missing.get(quantity) or f"the adapter has no method {quantity}, and need not have one"
+    reasons: dict[str, str] = {
+        str(name): why for name, why in (*subject.info.missing.items(), *subject.info.lacks.items())
+    }
+    return reasons.get(quantity) or f"the adapter has no method {quantity}, and need not have one"
 
 
 def _look(part: Part, subject: Subject) -> ConformanceStep:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...engines import EngineInfo, cannot
+from ...engines import EngineInfo, Offer, cannot
 from ...models import NLegPendulum, RodChain
 from ...models.systems import DocumentSystem
 from ...records.listings import ConformanceStep, StepOutcome
@@ -22,6 +22,7 @@ LEGS = NLegPendulum((0.7, 0.45, 0.6, 0.9), (0.4, 0.25, 0.6, 0.35), gravity=9.81)
 ONE = RodChain((0.75,), density=0.9, gravity=9.81)
 MECHANISMS: dict[str, DocumentSystem] = {"a chain of three rods": CHAIN, "a rod with three legs": LEGS, "one rod": ONE}
 STATES = 5
+OFFERS = get_args(Offer)  # asked where its ``info`` says that they are offered
 GROSS = 1e-6  # of the largest answer: single precision passes, a convention that is mixed up does not
 
 
@@ -53,6 +54,8 @@ class Subject:
 
     def has(self, quantity: str) -> bool:
         """Whether the adapter offers to answer this question."""
+        if quantity in OFFERS:
+            return quantity in self.info.offers
         return hasattr(self.adapter, quantity) and quantity not in self.info.missing
 
 

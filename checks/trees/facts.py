@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 from ...models import TreeScene
 from ...models.trees.states import TreeStates
 from ...reference.truth.spatial import energy, spatial_truth
+from ...reference.truth.spatial_derivatives import spatial_derivatives
 from ...reference.truth.tree_end_points import end_points, moves, times
+from ..facts import PARTS, slope_states
 
 Array = NDArray[np.float64]
 
@@ -22,7 +24,8 @@ class TreeFacts:
 
     The nearest doubles of the proven ``mass_matrix`` (B, nv, nv), ``bias``, ``gravity``, ``passive`` (B, nv) and
     ``energy`` (B, 2): kinetic and potential. ``times`` (T,) [s], ``end_q`` and ``end_v`` (T, nv), ``end_error`` (T,):
-    the scene's motion and how sure it is, T = 0 where it has none.
+    the scene's motion and how sure it is, T = 0 where it has none. ``slopes``, ``slopes_low``: ∂a/∂q, ∂a/∂v and M⁻¹ in
+    the last states, (K, 3, nv, nv), K = 0 where no engine is asked, or the mechanism has balls or free joints.
     """
 
     high: Array
@@ -36,6 +39,8 @@ class TreeFacts:
     end_q: Array
     end_v: Array
     end_error: Array
+    slopes: Array
+    slopes_low: Array
 
     def to_bytes(self) -> bytes:
         """The arrays as one npz file, which is read without running anything."""
@@ -54,14 +59,15 @@ class TreeFacts:
         return (accelerations - self.high) - self.low
 
 
-def tree_facts(scene: TreeScene, states: TreeStates, *, motion: bool = True) -> TreeFacts:
-    """Compute them in ball arithmetic, the ``motion`` too if asked for.
+def tree_facts(scene: TreeScene, states: TreeStates, *, motion: bool = True, slopes: bool = True) -> TreeFacts:
+    """Compute them in ball arithmetic, the ``motion`` and the derivatives (``slopes``) too if asked for.
 
     Raises ArithmeticError where a state has no accelerations, or the motion no end.
     """
     mechanism = scene.system.mechanism()
     truths = [spatial_truth(mechanism, q, v) for q, v in zip(states.q, states.v, strict=True)]
     nv = mechanism.nv
+    high, low = _slopes(scene, states, slope_states(nv) if slopes and differentiable(scene) else 0)
     accelerations = [truth.accelerations.enclosure for truth in truths]
     return TreeFacts(
         high=np.array([each.high for each in accelerations]).reshape(-1, nv),
@@ -73,8 +79,28 @@ def tree_facts(scene: TreeScene, states: TreeStates, *, motion: bool = True) -> 
         energy=np.array(
             [energy(mechanism, q, v).float for q, v in zip(states.q, states.v, strict=True)],
         ).reshape(-1, 2),
+        slopes=high,
+        slopes_low=low,
         **_motion(scene if motion and moves(scene) else None),
     )
+
+
+def differentiable(scene: TreeScene) -> bool:
+    """Whether derivatives by positions are the same in every convention: hinges and slides alone."""
+    return not {"ball", "free"} & scene.system.features
+
+
+def _slopes(scene: TreeScene, states: TreeStates, count: int) -> tuple[Array, Array]:
+    """High and low parts of the three matrices in the last ``count`` states, (count, 3, nv, nv) each."""
+    mechanism = scene.system.mechanism()
+    first = max(0, len(states.q) - count)
+    each = [spatial_derivatives(mechanism, q, v) for q, v in zip(states.q[first:], states.v[first:], strict=True)]
+    shape = (-1, 3, mechanism.nv, mechanism.nv)
+    high, low = (
+        np.array([[getattr(getattr(found, part), side) for part in PARTS] for found in each]).reshape(shape)
+        for side in ("high", "low")
+    )
+    return high, low
 
 
 def _motion(scene: TreeScene | None) -> dict[str, Array]:

@@ -158,6 +158,16 @@ class BoundMujoco:
             found[row] = state.our_matrix(matrix)
         return found
 
+    def inverse_mass(self, q: Array) -> Array:
+        """M⁻¹, (B, nv, nv), by the factors of M that the engine has."""
+        found, units = np.empty((len(q), self._model.nv, self._model.nv)), np.eye(self._model.nv)
+        columns = np.empty_like(units)
+        for row, state in enumerate(self._states(q, np.zeros((len(q), self._model.nv)))):
+            mujoco.mj_fwdPosition(self._model, self._data)
+            mujoco.mj_solveM(self._model, self._data, columns, units)  # each row is a force, and its acceleration
+            found[row] = state.our_matrix(columns.T)
+        return found
+
     def bias(self, q: Array, v: Array) -> Array:
         return self._velocity_terms(q, v, self._data.qfrc_bias)
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, get_args
 
 from ...models.errors import EngineMissing, InvalidInput
-from ..info import EngineInfo, Integrator, Quantity
+from ..info import EngineInfo, Integrator, Offer, Quantity
 from ..releases import ALSO_AS
 from .connection import Connection
 from .environments import Kept, ensure, kept, kept_name
@@ -183,8 +183,15 @@ def _info(name: str, hello: Mapping[str, Any]) -> EngineInfo:
         homepage="",
         integrators=integrators,
         missing=missing,
+        offers=tuple(quantity for quantity in get_args(Offer) if quantity in offered),
+        lacks={
+            quantity: str(reasons.get(quantity) or "the program does not offer it")[:LONGEST]
+            for quantity in get_args(Offer)
+            if quantity not in offered
+        },
         largest_n=largest,
         largest_n_reason=_text(hello, "largest_n_reason") or "the program takes no more",
+        no_point_masses=_text(hello, "no_point_masses"),
         interchanges=bool(hello.get("interchanges", False)),
         **choices,
     )

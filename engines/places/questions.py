@@ -26,6 +26,8 @@ PLANAR: dict[str, Question] = {
     "fields": Question((), FIELDS),
     "inverse_dynamics": Question((*_STATE, "alpha"), ("forces",), ("gravity",)),
     "joint_forces": Question((*_STATE, "alpha"), ("forces",)),
+    "derivatives": Question(_STATE, ("of_positions", "of_rates")),
+    "inverse_mass": Question(("theta",), ("inverse_mass",)),
     "energy": Question(_STATE, ("energy",)),
     "trajectory": Question(_STATE, _STATE, _RUN),
     "path": Question(_STATE, _STATE, _RUN),
@@ -40,6 +42,8 @@ SPATIAL: dict[str, Question] = {
     "mass_matrix": Question(("q",), ("mass_matrix",)),
     "bias": Question(("q", "v"), ("forces",)),
     "passive": Question(("q", "v"), ("forces",)),
+    "derivatives": Question(("q", "v"), ("of_positions", "of_rates")),
+    "inverse_mass": Question(("q",), ("inverse_mass",)),
     "energy": Question(("q", "v"), ("energy",)),
     "trajectory": Question(("q", "v"), ("q", "v"), _RUN),
 }

@@ -56,6 +56,12 @@ class _Planar:
     def _joint_forces(self, theta: Array, omega: Array, alpha: Array) -> Array:
         return _one(self._model, "joint_forces", theta, omega, alpha)
 
+    def _derivatives(self, theta: Array, omega: Array) -> tuple[Array, Array]:
+        return _both(self._model.ask("derivatives", {"theta": theta, "omega": omega}))
+
+    def _inverse_mass(self, theta: Array) -> Array:
+        return _one(self._model, "inverse_mass", theta)
+
     def _energy(self, theta: Array, omega: Array) -> Array:
         return _one(self._model, "energy", theta, omega)
 
@@ -106,6 +112,12 @@ class _Tree(_Terms):
 
     def accelerations(self, q: Array, v: Array) -> Array:
         return _spatial(self._model, "accelerations", q, v)
+
+    def derivatives(self, q: Array, v: Array) -> tuple[Array, Array]:
+        return _both(self._model.ask("derivatives", {"q": q, "v": v}, spatial=True))
+
+    def inverse_mass(self, q: Array) -> Array:
+        return _spatial(self._model, "inverse_mass", q)
 
     def energy(self, q: Array, v: Array) -> Array:
         return _spatial(self._model, "energy", q, v)
@@ -162,6 +174,10 @@ def _spatial(model: Model, question: str, *arrays: Array) -> Array:
     asked = SPATIAL[question]
     answer = model.ask(question, dict(zip(asked.takes, arrays, strict=True)), spatial=True)
     return _array(answer, asked.gives[0])
+
+
+def _both(answer: Message) -> tuple[Array, Array]:
+    return _array(answer, "of_positions"), _array(answer, "of_rates")
 
 
 def _array(answer: Message, name: str) -> Array:

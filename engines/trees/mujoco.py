@@ -61,6 +61,9 @@ class MujocoTree:
     def passive(self, q: Array, v: Array) -> Array:
         return self._bound.passive(q, v)
 
+    def inverse_mass(self, q: Array) -> Array:
+        return self._bound.inverse_mass(q)
+
     def energy(self, q: Array, v: Array) -> Array:
         found = np.empty((len(q), 2))
         for row in range(len(q)):

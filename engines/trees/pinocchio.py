@@ -29,6 +29,7 @@ from ...models.spatial_mechanism import WORLD, Joint, SpatialMechanism
 from ...models.writers.spatial_mjcf import spatial_mjcf
 from ..model_files.robot_coordinates import Block, RobotCoordinates
 from ..model_files.robot_pinocchio import BoundPinocchio, PinocchioRobot
+from ..pinocchio import both_triangles
 from ..protocol import Array
 
 # Pinocchio is a C++ extension without types: Any, here and nowhere else.
@@ -85,6 +86,30 @@ class PinocchioAbaTree:
         forces[:, self._at_v] -= self._stiffness * (q[:, self._at_q] - self._rest)
         return forces
 
+    def derivatives(self, q: Array, v: Array) -> tuple[Array, Array]:
+        """By ``computeABADerivatives``, at the torques of springs and dampers; these come in by M⁻¹ afterwards."""
+        n, forces = self._mechanism.nv, self.passive(q, v)
+        stiffness = np.zeros(n)
+        stiffness[self._at_v] = self._stiffness
+        found = np.empty((2, len(q), n, n))
+        for row, (positions, rates, force) in enumerate(zip(self._own(q), v, forces, strict=True)):
+            state = self._coordinates.state(positions, rates)
+            torques = state.theirs(force)
+            pinocchio.computeABADerivatives(self._model, self._data, state.positions, state.rates, torques)
+            inverse = state.our_matrix(both_triangles(self._data.Minv))
+            found[0, row] = state.our_matrix(self._data.ddq_dq) - inverse * stiffness
+            found[1, row] = state.our_matrix(self._data.ddq_dv) - inverse * self._damping
+        return found[0], found[1]
+
+    def inverse_mass(self, q: Array) -> Array:
+        n = self._mechanism.nv
+        found = np.empty((len(q), n, n))
+        for row, positions in enumerate(self._own(q)):
+            state = self._coordinates.state(positions, np.zeros(n))
+            inverse = pinocchio.computeMinverse(self._model, self._data, state.positions)
+            found[row] = state.our_matrix(both_triangles(inverse))
+        return found
+
     def energy(self, q: Array, v: Array) -> Array:
         springs = self._stiffness * (q[:, self._at_q] - self._rest) ** 2 / 2
         found = np.stack([(self._armature * v**2).sum(axis=-1) / 2, springs.sum(axis=-1)], axis=-1)
@@ -109,6 +134,16 @@ class PinocchioCrbaTree(PinocchioAbaTree):
         factors = np.linalg.cholesky(self.mass_matrix(q))
         halfway = np.linalg.solve(factors, right[..., None])
         return np.asarray(np.linalg.solve(factors.swapaxes(1, 2), halfway)[..., 0], dtype=np.float64)
+
+    def inverse_mass(self, q: Array) -> Array:
+        n = self._mechanism.nv
+        found = np.empty((len(q), n, n))
+        for row, positions in enumerate(self._own(q)):
+            state = self._coordinates.state(positions, np.zeros(n))
+            pinocchio.crba(self._model, self._data, state.positions)
+            pinocchio.cholesky.decompose(self._model, self._data)
+            found[row] = state.our_matrix(pinocchio.cholesky.computeMinv(self._model, self._data))
+        return found
 
 
 class PinocchioMjcfTree(PinocchioAbaTree):

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ...models import InvalidInput
 from ...models.spatial_mechanism import SpatialMechanism
-from ..info import EngineInfo, TreeQuantity
+from ..info import EngineInfo, Offer, TreeQuantity
 from ..protocol import Array, TreeEngine
 
 
@@ -46,6 +46,21 @@ class TreeShape:
         self._refuse_missing("passive")
         return self._batched(self._engine.passive, (self._nv,), q, v)
 
+    def derivatives(self, q: ArrayLike, v: ArrayLike) -> tuple[Array, Array]:
+        """∂a/∂q and ∂a/∂v, (..., nv, nv) each."""
+        self._refuse_unless_offered("derivatives")
+
+        def both(*rows: Array) -> Array:
+            return np.stack(self._engine.derivatives(*rows), axis=1)
+
+        found = self._batched(both, (2, self._nv, self._nv), q, v)
+        return found[..., 0, :, :], found[..., 1, :, :]
+
+    def inverse_mass(self, q: ArrayLike) -> Array:
+        """M⁻¹, (..., nv, nv)."""
+        self._refuse_unless_offered("inverse_mass")
+        return self._batched(self._engine.inverse_mass, (self._nv, self._nv), q)
+
     def energy(self, q: ArrayLike, v: ArrayLike) -> Array:
         """Kinetic and potential energy [J], (..., 2)."""
         self._refuse_missing("energy")
@@ -72,6 +87,12 @@ class TreeShape:
         assert self.info.tree is not None
         if quantity in self.info.tree.missing:
             raise InvalidInput(f"{self.info.name} has no {quantity} of a tree: {self.info.tree.missing[quantity]}")
+
+    def _refuse_unless_offered(self, quantity: Offer) -> None:
+        assert self.info.tree is not None
+        if quantity not in self.info.tree.offers:
+            why = self.info.tree.lacks.get(quantity, "its adapter does not offer it")
+            raise InvalidInput(f"{self.info.name} has no {quantity} of a tree: {why}")
 
     def _batched(self, ask: Callable[..., Any], tail: tuple[int, ...], q: ArrayLike, *v: ArrayLike) -> Array:
         given = [_state("q", q, self._nq), *(_state("v", rates, self._nv) for rates in v)]

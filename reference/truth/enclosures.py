@@ -132,15 +132,18 @@ def over_states(
         t_balls, w_balls = xp.array(t[part]), xp.array(w[part])
         return quantity(t_balls, w_balls, accelerate(system, t_balls, w_balls) if accelerate else t_balls)
 
-    parts = [_rounded_precisely(partial(enclose, part)) for part in _chunks(len(t), system.n)]
+    parts = [enclosed(partial(enclose, part)) for part in _chunks(len(t), system.n)]
     high, low, radius = (
         np.concatenate([part[k] for part in parts]) if parts else np.empty((0, *shape)) for k in range(3)
     )
     return Enclosure(*(values.reshape(*batch, *shape) for values in (high, low, radius)))
 
 
-def _rounded_precisely(enclose: Callable[[], Array]) -> tuple[Floats, Floats, Floats]:
-    """High, low and radius of the balls of ``enclose``, with as many bits as the promised radius needs."""
+def enclosed(enclose: Callable[[], Array]) -> tuple[Floats, Floats, Floats]:
+    """High, low and radius of the balls of ``enclose``, with as many bits as the promised radius needs.
+
+    That is 2⁻⁸⁰ of the largest of each entry of the first axis. Raises ArithmeticError where no number of bits does.
+    """
     bits = BITS
     while True:
         try:

@@ -48,7 +48,7 @@ ROOMS = {
     ),
     "engines": (
         {"models", "records"},
-        [("workers",), ("info", "protocol", "releases"), ("places",), (".",), ("model_files",), ("trees",)],
+        [("workers",), ("info", "protocol", "releases"), ("known",), ("places",), (".",), ("model_files",), ("trees",)],
     ),
     "diagnosis": (
         {"models", "records", "reference", "engines"},
@@ -102,7 +102,7 @@ LAZY = {
     "models.trees.system": "arrays are made where they are asked for",
     "checks.jobs": "what trees need is imported where a tree is",
 }
-ENGINES = {"mujoco", "pinocchio", "exudyn", "pydrake", "dartpy", "pybullet"}
+ENGINES = {"mujoco", "pinocchio", "exudyn", "pydrake", "dartpy", "pybullet", "jax"}
 
 
 def place(module):

@@ -112,3 +112,16 @@ def test_a_difference_is_given_its_cause_and_says_what_was_measured(run_cell):
         assert results[check].reason
         assert "upward vertical" not in results[check].reason  # said once, in the cell's diagnosis
     assert run_cell("fake_engines:HiddenArmature")["model fields"].outcome == "differs"
+
+
+def test_single_precision_is_said_where_it_is_what_an_engine_is_held_to(run_cell, monkeypatch):
+    import fake_engines
+
+    from furiko.records.check import Result
+
+    single = {"accuracy": 2.0**-23, "accuracy_reason": "single precision, its own", "algorithm": "other"}
+    monkeypatch.setattr(fake_engines.Right, "info", fake_engines.about("Right", **single))
+    found = run_cell("fake_engines:Right", "rods-2", "smoke")["accelerations"]
+    assert isinstance(found, Result)
+    assert found.outcome == "agrees"
+    assert found.reason.endswith("; single precision, its own")

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from .info import EngineInfo
+from ..info import EngineInfo
 
 _NO_RUNS = {"trajectory": "its adapter asks for dynamics alone, not for time steps"}
+_NO_INVERSE: Any = {"inverse_mass": "it forms the mass matrix, and an inverse of it would be NumPy's"}
 _DRAKE: dict[str, Any] = {
     "module": "pydrake",
     "package": "drake",
@@ -28,6 +29,7 @@ _SYMPY: dict[str, Any] = {
     "tested": ("1.14.0",),
     "homepage": "https://www.sympy.org",
     "coordinates": "absolute",
+    "lacks": _NO_INVERSE | {"derivatives": "its formulas are compiled for accelerations alone"},
     "algorithm": "other",
     "largest_n": 5,
     "largest_n_reason": "deriving the equations takes 2 s for five links and 40 s for ten",
@@ -36,6 +38,27 @@ _SYMPY: dict[str, Any] = {
         "fields": "it compiles no model: the mechanism's numbers are in its formulas",
         "joint_forces": "neither method forms the forces in the joints",
     },
+}
+_MJX: dict[str, Any] = {
+    "module": "mujoco.mjx",
+    "package": "mujoco-mjx",
+    "tested": ("3.17.0",),
+    "homepage": "https://mujoco.readthedocs.io/en/stable/mjx.html",
+    "coordinates": "relative",
+    "inverse": "crba",
+    "moments": "tree",
+    "algorithm": "other",  # as MuJoCo, in an order that a compiler chooses anew
+    "missing": _NO_RUNS
+    | {
+        "fields": "its model is the one that MuJoCo compiles, whose fields are compared there",
+        "joint_forces": "it forms no forces in hinges without sensors",
+        "energy": "its energies are computed in steps alone",
+    },
+    "largest_n": 5,
+    "largest_n_reason": "compiling one question takes seconds for five links and minutes beyond ten",
+    "least_mass": 1e-15,
+    "least_inertia": 1e-15,
+    "least_reason": "MuJoCo's compiler, which makes its model, puts 1e-15 in the place of anything less",
 }
 
 ON_REQUEST: dict[str, EngineInfo] = {
@@ -52,6 +75,8 @@ ON_REQUEST: dict[str, EngineInfo] = {
             coordinates="relative",
             algorithm="other",
             inverse="rnea",
+            offers=("inverse_mass",),
+            lacks={"derivatives": "DART differentiates no accelerations"},
             missing=_NO_RUNS,
             largest_n=200,
             largest_n_reason="longer chains were not tried",
@@ -60,18 +85,41 @@ ON_REQUEST: dict[str, EngineInfo] = {
             name="drake-aba",
             formulation="articulated-body algorithm; model from URDF",
             adapter="furiko.engines.drake:DrakeAba",
+            offers=("derivatives",),
+            lacks=_NO_INVERSE,
             algorithm="other",  # articulated bodies in the world's axes, with rotations in three dimensions
             **_DRAKE,
         ),
         EngineInfo(
             name="drake-crba",
+            lacks=_NO_INVERSE | {"derivatives": "those of Drake's accelerations are asked of drake-aba"},
             formulation="mass matrix, bias and gravity, then numpy's solution; model from URDF",
             adapter="furiko.engines.drake:DrakeCrba",
             interchanges=True,
             **_DRAKE,
         ),
         EngineInfo(
+            name="mjx",
+            formulation="MuJoCo's equations in JAX, in batches, double precision; model from MJCF",
+            adapter="furiko.engines.mjx:Mjx",
+            offers=("derivatives",),
+            lacks={
+                "inverse_mass": "it has a function for M⁻¹ times a vector, which derivatives and accelerations test"
+            },
+            **_MJX,
+        ),
+        EngineInfo(
+            name="mjx-float32",
+            formulation="MuJoCo's equations in JAX, in batches, single precision; model from MJCF",
+            adapter="furiko.engines.mjx:MjxSingle",
+            accuracy=2.0**-23,
+            accuracy_reason="single precision, JAX's own: held to 2⁻²³ for one operation",
+            lacks=dict.fromkeys(("derivatives", "inverse_mass"), "asked of mjx, in double precision"),
+            **_MJX,
+        ),
+        EngineInfo(
             name="pybullet",
+            lacks=_NO_INVERSE | {"derivatives": "PyBullet differentiates no accelerations"},
             formulation="mass matrix and bias, then numpy's solution; model from URDF",
             adapter="furiko.engines.pybullet:PyBullet",
             module="pybullet",
