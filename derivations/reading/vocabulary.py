@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from .names import plain_name, spelling
+from ..dialects.names import plain_name, spelling
 
 # Letters of the symbols: t angle, w rate, a acceleration, l, m, g, r density, I a link's own inertia, c its centre.
 LETTERS = {
@@ -22,7 +22,7 @@ LETTERS = {
     "rho": "r", "ρ": "r", "\\rho": "r", "I": "I", "pi": "p", "π": "p", "\\pi": "p",
 }  # fmt: skip
 FUNCTIONS = {"cos": "cos", "sin": "sin", "tan": "tan", "\\cos": "cos", "\\sin": "sin", "\\tan": "tan", "inv": "inv",
-             "sqrt": "sqrt", "\\sqrt": "sqrt"}  # fmt: skip
+             "solve": "solve", "sqrt": "sqrt", "\\sqrt": "sqrt"}  # fmt: skip
 # Families of letters that are angles where they are used: the likeliest first, which is also their order.
 ANGLES: dict[str, tuple[str, ...]] = {
     "α": ("\\alpha", "alpha", "α"),

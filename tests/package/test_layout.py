@@ -65,6 +65,7 @@ ROOMS = {
         [
             (".",),
             ("algebra",),
+            ("dialects",),
             ("steps",),
             ("reading.submission",),
             ("reading.forms",),
