@@ -36,6 +36,8 @@ BRACED = re.compile(
     rf"(?P<before>\\(?:sin|cos|tan)\s*|(?<![A-Za-z_^\s}}])|(?<=\s))\{{\s*(?P<x>\\(?:{_GREEK})|[A-Za-z])\s*\}}(?=\s*_)"
 )
 
+DOT_IN_BRACES = re.compile(rf"\{{\s*(?P<x>\\d?dot\s*\{{\s*(?:\\(?:{_GREEK})|[A-Za-z])\s*\}})\s*\}}(?=\s*_)")
+
 
 def pasted(line: str) -> str:
     """The line in the reader's notation."""
@@ -45,6 +47,7 @@ def pasted(line: str) -> str:
     line = REMARK.sub(lambda found: " " * len(found[0]), line)
     line = SPACED.sub(lambda found: ("\\\\" if found[0].startswith("\\\\") else "").ljust(len(found[0])), line)
     line = BRACED.sub(lambda found: f"{found['before']} {found['x']} ".ljust(len(found[0])), line)
+    line = DOT_IN_BRACES.sub(lambda found: found["x"].rjust(len(found[0])), line)  # as Wikipedia writes
     line = NEGATIVE_SPACE.sub("  ", line)
     for pattern in (FONT, LETTERS, UNBRACED):
         line = pattern.sub(lambda found: f" {found['x']} ".rjust(len(found[0])), line)

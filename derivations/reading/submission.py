@@ -26,10 +26,11 @@ from ..steps.mechanism import Origin
 from ..steps.stages import STAGES, Stages
 from .declaration import PRESETS, declared
 from .evaluation import Evaluation
-from .layout import equations_of, laid_out
+from .layout import LEFT_SIDE, equations_of, laid_out
 from .matrices import Grid, added
 from .meaning import Meaning, momentum_symbols, own_symbols
 from .momenta import Variable, has_momenta, variable, with_variable
+from .nodes import Symbol
 from .parser import Slashes, parse_equation, parse_expression
 from .tokens import SIGNS
 from .typeset import Typesetter
@@ -242,17 +243,6 @@ def _texts(data: dict[str, Any]) -> Iterable[str]:
 
 NO_GRAVITY = re.compile(r"[+-]?0+(?:\.0*)?")
 ACCELERATION = re.compile("\\\\ddot|''|″|ddot|\u0308")
-_OF = r"\s*(?:\([^=()]{0,200}\)\s*)?"
-LEFT_SIDE = {  # what people write in front of an energy
-    "kinetic": re.compile(rf"^\s*(?:[TK]|KE|E_?\{{?k\}}?|\\mathcal\s*\{{?\s*T\s*\}}?){_OF}="),
-    "potential": re.compile(rf"^\s*(?:[UV]|PE|E_?\{{?p\}}?|\\mathcal\s*\{{?\s*[UV]\s*\}}?){_OF}="),
-    "lagrangian": re.compile(
-        rf"^\s*(?:L|\\mathcal\s*\{{?\s*L\s*\}}?|\\mathscr\s*\{{?\s*L\s*\}}?|ℒ|𝓛){_OF}(?:=\s*T\s*[-−]\s*[UV]\s*)?="
-    ),
-    "hamiltonian": re.compile(
-        rf"^\s*(?:H|\\mathcal\s*\{{?\s*H\s*\}}?|\\mathscr\s*\{{?\s*H\s*\}}?|ℋ){_OF}(?:=\s*T\s*\+\s*[UV]\s*)?="
-    ),
-}
 
 
 class Reader:
@@ -298,10 +288,22 @@ class Reader:
                 self.weightless = True
                 self.defined.append((name, "0"))
                 continue
+            if self._says_the_same(name, line):
+                continue
             self._check_name(name)
             node = _located(f"define.{name}", self._expression, line)
             self.evaluation.definitions[name] = node
             self.defined.append((name, self.typesetter.equation((node,))))
+
+    def _says_the_same(self, name: str, line: object) -> bool:
+        """Whether ω_1 = θ̇_1 is all that is said: what the reader knows."""
+        try:
+            both = [parse_expression(self.written(x), self.names, self.words) for x in (name, line)]
+        except InvalidInput:
+            return False
+        return all(isinstance(x, Symbol) and x.letter == "w" for x in both) and both[0] == replace(
+            both[1], at=both[0].at
+        )
 
     def _check_name(self, name: str) -> None:
         """Raises InvalidInput where a name is none, or means something already."""

@@ -109,3 +109,31 @@ def test_a_robot_in_vectors_with_the_short_waves_of_robotics():
 def test_what_may_mean_something_else_is_refused_and_says_what_to_write(text, said):
     with pytest.raises(InvalidInput, match=said):
         grade_text(text)
+
+
+TWO = r"""system = 'double-pendulum'
+[define]
+{}
+[equations]
+1 = '''\begin{{aligned}}{}\end{{aligned}}'''
+"""
+ROWS = (
+    r"(m_1+m_2)L_1{\ddot{\theta}}_{1}+m_2L_2[{\ddot{\theta}}_{2}\cos(\theta_1-\theta_2)+{\omega_2}^{2}\sin(\theta_1-\theta_2)]"
+    r"+(m_1+m_2)g\sin\theta_1&=0\\L_2{\ddot{\theta}}_{2}+L_1[{\ddot{\theta}}_{1}\cos(\theta_1-\theta_2)"
+    r"-{\dot{\theta}}_{1}^{2}\sin(\theta_1-\theta_2)]+g\sin\theta_2&=0"
+)
+
+
+def test_capital_lengths_in_an_aligned_environment_dots_in_braces_and_a_rate_that_is_said_to_be_one():
+    """The l of \\begin{aligned} is no length, and ω_1 = θ̇_1 says nothing new."""
+    rates = r"'\omega_1' = '\dot\theta_1'" + "\n" + r"'\omega_2' = '\dot\theta_2'"
+    assert grade_text(TWO.format(rates, ROWS)).verdict == "correct"
+    assert grade_text(TWO.format(rates, ROWS.replace("-{", "+{"))).verdict == "wrong"
+
+
+def test_a_matrix_of_numbered_entries_needs_no_commas():
+    rows = "M11 = '(m1+m2)*l1'\nM12 = 'm2*l2*cos(t1-t2)'\nM21 = 'l1*cos(t1-t2)'\nM22 = 'l2'\nM = '[M11 M12; M21 M22]'\n"
+    right = "[-m2*l2*w2^2*sin(t1-t2) - (m1+m2)*g*sin(t1); l1*w1^2*sin(t1-t2) - g*sin(t2)]"
+    text = f"system = 'double-pendulum'\n[define]\n{rows}[equations]\n1 = '[a1; a2] = inv(M)*{right}'\n"
+    assert grade_text(text).verdict == "correct"
+    assert grade_text(text.replace("M21 M22", "M12 M22")).verdict == "wrong"
