@@ -22,13 +22,15 @@ OPERATOR = re.compile(
 )
 TWO_EQUALS = re.compile(r"(?<![=<>!])==(?!=)")
 TILDE = re.compile(r"(?<=\s)~(?=\s)")
+LONGEST_ARGUMENT = 1000  # characters between the brackets of a function
+MOST_FUNCTIONS = 400  # of a line, that are rewritten
 PAIRS = {"(": ")", "[": "]", "{": "}"}
 
 
 def closing(line: str, opened: int) -> int:
     """The place of the bracket that closes the one at ``opened``; -1 where there is none."""
     stack = []
-    for at in range(opened, len(line)):
+    for at in range(opened, min(len(line), opened + LONGEST_ARGUMENT)):
         c = line[at]
         if c in PAIRS:
             stack.append(PAIRS[c])
@@ -65,7 +67,10 @@ def _primed(found: re.Match[str]) -> str:
 def _functions(line: str) -> str:
     """Sin[x] as sin(x)."""
     at = 0
-    while found := FUNCTION.search(line, at):
+    for _ in range(MOST_FUNCTIONS):
+        found = FUNCTION.search(line, at)
+        if found is None:
+            break
         opened, at = found.end() - 1, found.end()
         end = closing(line, opened)
         if end > 0:

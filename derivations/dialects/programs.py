@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from .bracketed import closing, padded
+from .bracketed import LONGEST_ARGUMENT, MOST_FUNCTIONS, closing, padded
 
 COMMENTS = (
     re.compile(r"/\*(?:[^*]|\*(?!/)){0,500}\*/|\(\*(?:[^*]|\*(?!\))){0,500}\*\)"),
@@ -38,7 +38,10 @@ def program(line: str, names: frozenset[str]) -> str:
 def _powers(line: str) -> str:
     """pow(x, 2) as (x)^(2)."""
     at = 0
-    while found := POWER.search(line, at):
+    for _ in range(MOST_FUNCTIONS):
+        found = POWER.search(line, at)
+        if found is None:
+            break
         opened, at = found.end() - 1, found.end()
         end, comma = closing(line, opened), _comma(line, opened)
         if 0 < comma < end:
@@ -51,7 +54,10 @@ def _powers(line: str) -> str:
 
 def _squares(line: str) -> str:
     at = 0
-    while found := SQUARE.search(line, at):
+    for _ in range(MOST_FUNCTIONS):
+        found = SQUARE.search(line, at)
+        if found is None:
+            break
         opened, at = found.end() - 1, found.end()
         end = closing(line, opened)
         if end > 0:
@@ -64,7 +70,7 @@ def _squares(line: str) -> str:
 def _comma(line: str, opened: int) -> int:
     """The first comma within this bracket but within no other."""
     depth = 0
-    for at in range(opened, len(line)):
+    for at in range(opened, min(len(line), opened + LONGEST_ARGUMENT)):
         depth += (line[at] in "([{") - (line[at] in ")]}")
         if depth == 1 and line[at] == ",":
             return at

@@ -33,7 +33,7 @@ def suffixed(line: str, coordinates: Sequence[str], taken: Iterable[str]) -> str
                 if end in LONE and not (both or line.lstrip().startswith(coordinate + "_a") or "_v" in line):
                     continue
                 word = coordinate + end
-                if word in in_use or (plain_name(word) or word) in in_use:
+                if word not in line or word in in_use or (plain_name(word) or word) in in_use:
                     continue
                 line = re.sub(rf"(?<![A-Za-z0-9_\\]){re.escape(word)}(?![A-Za-z0-9_(])",
                               lambda found: (coordinate + primes).ljust(len(found[0])), line)  # noqa: B023 # fmt: skip

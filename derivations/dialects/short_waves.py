@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 SHORT = re.compile(
     r"(?:(?<![A-Za-z\\])|(?<=(?<![A-Za-z])g)(?=._))(?<!_)(?<!_\{)(?P<wave>[csCS])(?:_\s*\{\s*(?P<braced>[1-9](?:\s*[-+]?\s*[1-9])?)\s*\}|_(?P<low>[1-9]{1,2})|(?P<bare>[1-9]{1,2}))(?![0-9A-Za-z_\[({])"
 )
+MOST_ANGLES = 9  # of one figure each
 USUAL = {"double-pendulum": 2, "triple-pendulum": 3, "double-rod-pendulum": 2, "acrobot": 2}
 
 
@@ -21,7 +22,8 @@ def short_waves(data: dict[str, Any], known: Known) -> dict[str, Any]:
     """The fields with what these letters stand for among the definitions, so that it is said back."""
     define = data.get("define", {})
     links = data.get("links") or USUAL.get(str(data.get("system")), 0)
-    angles = known.coordinates or tuple(f"t{k}" for k in range(1, (links if isinstance(links, int) else 0) + 1))
+    counted = links if type(links) is int and links <= MOST_ANGLES else 0
+    angles = known.coordinates or tuple(f"t{k}" for k in range(1, counted + 1))
     if not isinstance(define, dict) or not angles:
         return data
     lines = list(_lines(data))

@@ -22,7 +22,7 @@ from .short_waves import short_waves
 
 TABLES = ("define", "positions", "velocities", "momenta", "equations", "solved")
 ENERGIES = ("kinetic", "potential", "lagrangian", "hamiltonian")
-MOST_LINES = 200
+MOST_LINES, MOST_BODIES, LONGEST_NAME = 50, 8, 80
 # Behind a name, in a declared mechanism, where no coordinate is called t
 OF_TIME = re.compile(
     r"(?<=[A-Za-z0-9_}₀-₉\u0307\u0308'])(?<!sin)(?<!cos)(?<!tan)\s*(?:\\left\s*)?\(\s*t\s*(?:\\right\s*)?\)"
@@ -90,8 +90,12 @@ def _with_any_gravity(data: dict[str, Any]) -> dict[str, Any]:
 
 
 def _is_small(data: Mapping[str, Any]) -> bool:
-    tables = [data.get(name) for name in TABLES]
-    return all(len(t) <= MOST_LINES for t in tables if isinstance(t, dict | list))
+    """Whether it is of a size that the reader takes; what is larger, it refuses itself."""
+    tables = [t for name in TABLES if isinstance(t := data.get(name), dict | list)]
+    bodies = data.get("bodies", ())
+    names = [name for t in tables if isinstance(t, dict) for name in t]
+    small = isinstance(bodies, list | tuple) and len(bodies) <= MOST_BODIES
+    return small and all(len(t) <= MOST_LINES for t in tables) and all(len(str(name)) <= LONGEST_NAME for name in names)
 
 
 def _line(line: str, names: frozenset[str]) -> str:

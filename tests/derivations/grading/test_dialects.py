@@ -1,6 +1,7 @@
 """What programs and computer algebra print is read as what it means there; what may mean two things is refused."""
 
 import re
+import time
 
 import pytest
 
@@ -137,3 +138,21 @@ def test_a_matrix_of_numbered_entries_needs_no_commas():
     text = f"system = 'double-pendulum'\n[define]\n{rows}[equations]\n1 = '[a1; a2] = inv(M)*{right}'\n"
     assert grade_text(text).verdict == "correct"
     assert grade_text(text.replace("M21 M22", "M12 M22")).verdict == "wrong"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "system = 3\nlinks = 10000000000\n[equations]\n1 = 'a = 0'\n",
+        PENDULUM + f"'{'Sin[' * 4000}'",
+        PENDULUM + f"'{'pow(' * 4000}'",
+        PENDULUM + f"'{'np.square(' * 1900}'",
+        "system = 'simple-pendulum'\n[define]\n" + f"'{'M' * 5000}(q)' = '[1, 2]'\n[equations]\n1 = 'a = 0'",
+    ],
+    ids=["links", "Sin", "pow", "square", "name"],
+)
+def test_a_hostile_file_is_refused_at_once(text):
+    begun = time.process_time()
+    with pytest.raises(InvalidInput):
+        grade_text(text)
+    assert time.process_time() - begun < 2.0  # what a hostile input may cost at most, here as anywhere
