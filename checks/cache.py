@@ -20,13 +20,15 @@ from pathlib import Path
 import msgspec
 
 from ..engines import ENGINES, environment_of
-from ..models import AnyScene, TreeScene
+from ..models import AnyScene, InvalidInput, TreeScene
+from ..models.readers.bounded_file import read_bytes
 from ..models.writers.whole_file import replace_file
 from ..records.check import Diagnosis, Result
 from .foundations import own_foundation, package_foundation, place_foundation
 from .plan import Task
 
 LARGEST = 512 << 20  # bytes of the whole folder; the entries that were used least recently go first
+LARGEST_ENTRY = 64 << 20  # bytes; the truth of a hundred links in a thousand states is a tenth of that
 DIGEST = 32
 
 
@@ -76,7 +78,7 @@ class Cache:
         compared = {result.comparison for result in entry.results}
         if entry.count != len(entry.results) or compared != set(task.checks):
             return None
-        results = [msgspec.structs.replace(result, kept=True, seconds=0.0) for result in entry.results]
+        results = [msgspec.structs.replace(result, kept=True, seconds=0.0, in_engine=0.0) for result in entry.results]
         return Kept(results, entry.diagnoses)
 
     def keep_results(self, task: Task, results: list[Result], diagnoses: Sequence[Diagnosis] = ()) -> None:
@@ -102,8 +104,8 @@ class Cache:
         if path is None:
             return None
         try:
-            sealed = path.read_bytes()
-        except OSError:
+            sealed = read_bytes(path, LARGEST_ENTRY)
+        except (InvalidInput, OSError):  # also where it is no file: a pipe would never end
             return None
         if hashlib.sha256(sealed[DIGEST:]).digest() != sealed[:DIGEST]:
             return None
@@ -113,7 +115,7 @@ class Cache:
 
     def _save(self, kind: str, key: str | None, content: bytes) -> None:
         path = self._path(kind, key)
-        if path is None:
+        if path is None or len(content) > LARGEST_ENTRY - DIGEST:
             return
         with contextlib.suppress(OSError):
             path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)

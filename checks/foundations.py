@@ -26,14 +26,22 @@ REQUIREMENT = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]*")
 def own_foundation() -> bytes:
     """Digest of all that every result rests on: furiko's code and data, Python, and the libraries of the truth."""
     seal = hashlib.sha256(f"{platform.python_version()} {platform.machine()} {platform.node()}".encode())
+    seal.update(own_code())
+    for package, module in SHARED.items():
+        seal.update(package_foundation(package, module))
+    return seal.digest()
+
+
+@cache
+def own_code() -> bytes:
+    """Digest of furiko's own code and data, the same on every machine."""
+    seal = hashlib.sha256()
     root = Path(__file__).parent.parent
     for name in ROOMS:
         # In a checkout the folders stand at the root, in a wheel inside the package: beside each other in both.
         for path in sorted((root / name).rglob("*")):
             if path.suffix != ".pyc" and path.is_file():
                 seal.update(path.relative_to(root).as_posix().encode() + b"\0" + path.read_bytes())
-    for package, module in SHARED.items():
-        seal.update(package_foundation(package, module))
     return seal.digest()
 
 

@@ -79,14 +79,16 @@ class CellJob:
 
         check = self.task.checks[0]
         send(Step(check))
-        cell = self._cell(lambda asked: send(Step(check, engine=asked)))
+        asking = Asking(send, check)
+        cell = self._cell(asking)
         causes = Causes(cell)
         differs = self.differs
         diagnosis: Diagnosis | None = None
         for check in self.task.checks:
             send(Step(check))
+            asking.check = check
             results = 0
-            for result in self._results(CHECKS[check], cell, differs, causes):
+            for result in self._results(CHECKS[check], cell, differs, causes, asking):
                 differs = differs or accelerations_differ(check, result)
                 send(msgspec.structs.replace(result, comparison=check))
                 results += 1
@@ -132,16 +134,17 @@ class CellJob:
         announce(False)
         return TreeCell(scene, info, cast(TreeShape, Announced(engine, announce)), looked_at, facts)
 
-    def _results(self, check: Check, cell: Cell | TreeCell, differs: bool, causes: Causes) -> Any:
+    def _results(self, check: Check, cell: Cell | TreeCell, differs: bool, causes: Causes, asking: Asking) -> Any:
         """The results of one check; a failure ends this check alone."""
         if check.moves and differs:
             yield cell.result(check.name, "skipped", reason="the accelerations differ already: no trajectory can agree")
             return
         begun = time.perf_counter()
+        asking.taken()
         try:
             for result in check.compare(cell):
-                now = time.perf_counter()
-                yield msgspec.structs.replace(causes.named(result, check), seconds=now - begun)
+                now, in_engine = time.perf_counter(), asking.taken()
+                yield msgspec.structs.replace(causes.named(result, check), seconds=now - begun, in_engine=in_engine)
                 begun = now
         except LibraryMissing as error:
             outcome: Outcome = "error" if isinstance(error, EngineMissing) else "skipped"
@@ -161,6 +164,27 @@ def messages_of(job: TruthJob | CellJob) -> list[object]:
     found: list[object] = []
     job.run(found.append)
     return found
+
+
+class Asking:
+    """Announces when a cell begins and ends to ask its engine in a ``check``, and sums up how long the engine took."""
+
+    def __init__(self, send: Send, check: str) -> None:
+        self._send, self.check = send, check
+        self._begun = self._seconds = 0.0
+
+    def __call__(self, asked: bool) -> None:
+        """``asked``: the engine is being asked from now on; else it is no longer."""
+        self._send(Step(self.check, engine=asked))
+        now = time.perf_counter()
+        if not asked:
+            self._seconds += now - self._begun
+        self._begun = now
+
+    def taken(self) -> float:
+        """Seconds in the engine since this was asked last."""
+        found, self._seconds = self._seconds, 0.0
+        return found
 
 
 class Announced:

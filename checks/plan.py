@@ -73,14 +73,30 @@ def make_plan(scenes: Sequence[str] | None, engines: Sequence[str] | None, profi
     )
     if OWN_EQUATIONS not in infos and any(map(_has_own, found)):
         infos = (*infos, OWN_EQUATIONS)
+    return plan_of(found, infos, chosen, asked=engines is not None)
+
+
+def plan_of(
+    scenes: tuple[AnyScene, ...],
+    infos: tuple[EngineInfo, ...],
+    chosen: Profile,
+    *,
+    asked: bool = True,
+    absent: Mapping[str, str] | None = None,
+) -> Plan:
+    """Decide for these scenes and engines. ``asked``: the user named the engines, so that a missing one is an error.
+
+    ``absent``: why each engine cannot run, or an empty string, where that has been looked up already.
+    """
     tasks: list[Task] = []
     settled: list[Result] = []
-    absent = {info.name: why_missing(info.name) for info in infos}
-    for scene in found:
+    if absent is None:
+        absent = {info.name: why_missing(info.name) for info in infos}
+    outcome: Outcome = "error" if asked else "skipped"
+    for scene in scenes:
         for info in infos:
-            if info == OWN_EQUATIONS and engines is None and not _has_own(scene):
+            if info == OWN_EQUATIONS and not asked and not _has_own(scene):
                 continue
-            outcome: Outcome = "skipped" if engines is None else "error"
             reasons = {check: reason for check in chosen.checks if (reason := skip(check, scene, info))}
             if absent[info.name]:
                 settled += [_settled(scene, info, check, outcome, absent[info.name]) for check in chosen.checks]
@@ -89,7 +105,7 @@ def make_plan(scenes: Sequence[str] | None, engines: Sequence[str] | None, profi
             runs = tuple(check for check in chosen.checks if check not in reasons)
             if runs:
                 tasks.append(Task(scene, info.name, runs, random_states(scene, chosen)))
-    return Plan(chosen, found, infos, tuple(tasks), tuple(settled), absent)
+    return Plan(chosen, scenes, infos, tuple(tasks), tuple(settled), absent)
 
 
 def _has_own(scene: AnyScene) -> bool:

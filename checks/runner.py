@@ -7,9 +7,10 @@ own, and what exceeds it is never said of the engine.
 
 from __future__ import annotations
 
+import heapq
 import os
 from collections import Counter, deque
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import chain
 
@@ -35,6 +36,7 @@ def run(
     jobs: int | None = None,
     timeout: float = TIMEOUT,
     ledger: Ledger | None = None,
+    hangs: int | None = HANGS,
 ) -> Iterator[Result | Diagnosis]:
     """Every result of the plan, and a diagnosis after those of a cell that differs.
 
@@ -42,7 +44,8 @@ def run(
 
     Workers are busy from the call on, before the first result is asked for; they end with their ``source``, if not by
     themselves. ``source``: where workers come from; ``jobs``: how many, as many as there are cores for None;
-    ``timeout``: seconds for one call of an engine; ``ledger`` is told how many results each check has given.
+    ``timeout``: seconds for one call of an engine; ``ledger`` is told how many results each check has given;
+    ``hangs``: after so many time-outs an engine is given up, None for never.
     """
     known: list[Result | Diagnosis] = [*plan.settled]
     tasks = []
@@ -58,7 +61,7 @@ def run(
                 ledger.promise(task.scene.name, task.engine, check, given)
     if not tasks:
         return iter(known)
-    run = _Run(tasks, cache, source, jobs or os.cpu_count() or 1, timeout, ledger)
+    run = _Run(tasks, cache, source, jobs or os.cpu_count() or 1, timeout, ledger, hangs)
     run.begin()
     return chain(known, run.results())
 
@@ -72,11 +75,58 @@ class _Progress:
     compared: set[str] = field(default_factory=set)
 
 
+class _Ready:
+    """Cells that may run: by engine, the largest scene first, and of equal ones the first that came.
+
+    A cell is put in and taken out in a time that grows with the logarithm of how many there are.
+    """
+
+    def __init__(self) -> None:
+        self._by_engine: dict[str, list[tuple[int, int, CellJob]]] = {}
+        self._came = 0
+        self._left = 0
+
+    def __len__(self) -> int:
+        return self._left
+
+    def add(self, job: CellJob) -> None:
+        """Put a cell in."""
+        cells = self._by_engine.setdefault(job.task.engine, [])
+        heapq.heappush(cells, (-job.task.scene.system.n, self._came, job))
+        self._came, self._left = self._came + 1, self._left + 1
+
+    def take(self, here: Collection[str], importers: Mapping[str, int]) -> CellJob | None:
+        """A cell of an engine that is imported ``here``; else of one that no worker has imported; else any."""
+        chosen: tuple[int, int, int, str] | None = None
+        for name, cells in self._by_engine.items():
+            if cells:
+                size, came, _ = cells[0]
+                rank = (0 if name in here else 2 if importers.get(name) else 1, size, came, name)
+                chosen = rank if chosen is None else min(chosen, rank)
+        if chosen is None:
+            return None
+        self._left -= 1
+        return heapq.heappop(self._by_engine[chosen[-1]])[2]
+
+    def remove(self, engine: str) -> list[CellJob]:
+        """Take out all cells of an engine."""
+        cells = sorted(self._by_engine.pop(engine, []))
+        self._left -= len(cells)
+        return [job for _, _, job in cells]
+
+
 class _Run:
     """The jobs that wait, and what has come of those that run."""
 
     def __init__(
-        self, tasks: list[Task], cache: Cache, source: Workers, jobs: int, timeout: float, ledger: Ledger
+        self,
+        tasks: list[Task],
+        cache: Cache,
+        source: Workers,
+        jobs: int,
+        timeout: float,
+        ledger: Ledger,
+        most_hangs: int | None = HANGS,
     ) -> None:
         self.cache, self.source, self.timeout, self.ledger = cache, source, timeout, ledger
         scenes = {task.scene.name: TruthJob(task.scene, task.random_states) for task in tasks}
@@ -85,9 +135,11 @@ class _Run:
         self.waiting: dict[str, list[Task]] = {name: [] for name in scenes}
         for task in tasks:
             self.waiting[task.scene.name].append(task)
-        self.ready: list[CellJob] = []
+        self.ready = _Ready()
         self.hangs: Counter[str] = Counter()
+        self.most_hangs = most_hangs
         self.imported: dict[Worker, set[str]] = {}  # engines that a worker has imported already
+        self.importers: Counter[str] = Counter()  # how many workers have imported an engine
         self.progress: dict[Worker, _Progress] = {}
         self.left_behind: dict[tuple[str, str], Diagnosis] = {}  # by workers that were lost; by scene and engine
         self.size = min(jobs, len(tasks))
@@ -124,19 +176,17 @@ class _Run:
         """Small truths come before cells only while nothing else is ready; an engine it has imported comes first."""
         if self.truths and (not self.ready or len(self.truths) * 2 > len(self.waiting)):
             return self.truths.popleft()
-        if self.ready:
-            here = self.imported.setdefault(worker, set())
-            elsewhere = {name for other, names in self.imported.items() if other is not worker for name in names}
-            self.ready.sort(key=lambda job: _preference(job, here, elsewhere))
-            job = self.ready.pop(0)
+        here = self.imported.setdefault(worker, set())
+        job = self.ready.take(here, self.importers)
+        if job is not None and job.task.engine not in here:
             here.add(job.task.engine)
-            return job
-        return self.truths.popleft() if self.truths else None
+            self.importers[job.task.engine] += 1
+        return job or (self.truths.popleft() if self.truths else None)
 
     def _on(self, event: Event) -> Iterator[Result | Diagnosis]:
         progress, job = self.progress[event.worker], event.job
         if isinstance(event, Lost):
-            self.imported.pop(event.worker, None)
+            self.importers.subtract(self.imported.pop(event.worker, set()))
             yield from self._lost(job, event, progress)
         elif isinstance(event, Finished):
             if isinstance(job, CellJob):
@@ -167,7 +217,8 @@ class _Run:
 
     def _release(self, job: TruthJob, facts: bytes) -> None:
         """A scene's truth is known: its cells may run."""
-        self.ready += [CellJob(task, facts) for task in self.waiting.pop(job.scene.name)]
+        for task in self.waiting.pop(job.scene.name):
+            self.ready.add(CellJob(task, facts))
 
     def _finished(self, job: CellJob, progress: _Progress) -> Iterator[Result]:
         missing = [check for check in job.task.checks if check not in progress.compared]
@@ -193,26 +244,29 @@ class _Run:
         if check not in progress.compared:
             yield _error(job.task, check, reason)
         left = job.task.checks[job.task.checks.index(check) + 1 :]
-        goes_on = bool(left) and self.hangs[engine] < HANGS
+        given_up = self.most_hangs is not None and self.hangs[engine] >= self.most_hangs
+        goes_on = bool(left) and not given_up
         yield from self._diagnosis(job, progress, ends=not goes_on)
-        if self.hangs[engine] >= HANGS:
+        if given_up:
             yield from self._give_up(engine)
-            yield from (_error(job.task, other, _given_up()) for other in left)
+            yield from (_error(job.task, other, self._given_up()) for other in left)
         elif goes_on:
             differs = any(accelerations_differ(result.comparison, result) for result in progress.results)
             task = replace(job.task, checks=left)
-            self.ready.append(replace(job, task=task, differs=job.differs or differs))
+            self.ready.add(replace(job, task=task, differs=job.differs or differs))
 
     def _give_up(self, engine: str) -> Iterator[Result | Diagnosis]:
         """An engine that hangs again and again: its other cells are errors without another wait."""
-        for job in [job for job in self.ready if job.task.engine == engine]:
-            self.ready.remove(job)
+        for job in self.ready.remove(engine):
             yield from self._diagnosis(job, _Progress())
-            yield from (_error(job.task, check, _given_up()) for check in job.task.checks)
+            yield from (_error(job.task, check, self._given_up()) for check in job.task.checks)
         for tasks in self.waiting.values():
             for task in [task for task in tasks if task.engine == engine]:
                 tasks.remove(task)
-                yield from (_error(task, check, _given_up()) for check in task.checks)
+                yield from (_error(task, check, self._given_up()) for check in task.checks)
+
+    def _given_up(self) -> str:
+        return f"not tried: the engine has hung {self.most_hangs} times"
 
     def _failed(self, job: object, reason: str, details: dict[str, str], progress: _Progress) -> Iterator[Result]:
         """A whole job came to nothing: all its checks are errors."""
@@ -224,15 +278,6 @@ class _Run:
             reason = f"the truth could not be computed: {reason}"
             for task in self.waiting.pop(job.scene.name, []):
                 yield from (_error(task, check, reason, details) for check in task.checks)
-
-
-def _given_up() -> str:
-    return f"not tried: the engine has hung {HANGS} times"
-
-
-def _preference(job: CellJob, here: set[str], elsewhere: set[str]) -> tuple[int, int]:
-    name = job.task.engine
-    return (0 if name in here else 2 if name in elsewhere else 1), -job.task.scene.system.n
 
 
 def _error(task: Task, check: str, reason: str, details: dict[str, str] | None = None) -> Result:

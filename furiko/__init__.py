@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from .diagnosis.model_files.result import Diagnosis
     from .engines import engine_names, load_engine
     from .models import EngineMissing, InvalidInput, LibraryMissing, NLegPendulum, RodChain, to_mjcf, to_urdf
+    from .reference.integration.flips import FlipTimes, flip_times
+    from .reference.integration.tangents import Exponents, Stretching, lyapunov, stretching
     from .reference.integration.taylor import simulate
     from .reference.kernels.energy import energy
     from .reference.kernels.forward_dynamics import accelerations
@@ -35,12 +37,15 @@ _HOMES = {
     "Diagnosis": "diagnosis.model_files.result",
     "Enclosed": "reference.proved.enclose",
     "EngineMissing": "models",
+    "Exponents": "reference.integration.tangents",
+    "FlipTimes": "reference.integration.flips",
     "Grade": "derivations.grading.grade_record",
     "InvalidInput": "models",
     "LibraryMissing": "models",
     "NLegPendulum": "models",
     "Report": "reports",
     "RodChain": "models",
+    "Stretching": "reference.integration.tangents",
     "accelerations": "reference.kernels.forward_dynamics",
     "audit": "derivations.audit.audit",
     "check": "run",
@@ -48,11 +53,14 @@ _HOMES = {
     "enclose": "reference.proved.enclose",
     "energy": "reference.kernels.energy",
     "engine_names": "engines",
+    "flip_times": "reference.integration.flips",
     "grade": "derivations.grading.grade",
     "grade_text": "derivations.classroom.in_python",
     "load_engine": "engines",
+    "lyapunov": "reference.integration.tangents",
     "read_stream": "reports",
     "simulate": "reference.integration.taylor",
+    "stretching": "reference.integration.tangents",
     "to_mjcf": "models",
     "to_urdf": "models",
 }
@@ -62,12 +70,15 @@ __all__ = [
     "Diagnosis",
     "Enclosed",
     "EngineMissing",
+    "Exponents",
+    "FlipTimes",
     "Grade",
     "InvalidInput",
     "LibraryMissing",
     "NLegPendulum",
     "Report",
     "RodChain",
+    "Stretching",
     "accelerations",
     "audit",
     "check",
@@ -75,11 +86,14 @@ __all__ = [
     "enclose",
     "energy",
     "engine_names",
+    "flip_times",
     "grade",
     "grade_text",
     "load_engine",
+    "lyapunov",
     "read_stream",
     "simulate",
+    "stretching",
     "to_mjcf",
     "to_urdf",
 ]

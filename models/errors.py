@@ -19,6 +19,8 @@ EXTRAS = {
     "numba": "fast",
     "heyoka": "truth",
     "scipy": "scipy",
+    "pyarrow": "sweep",
+    "distributed": "sweep",
 }
 
 

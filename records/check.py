@@ -85,6 +85,7 @@ class Result(msgspec.Struct, frozen=True, kw_only=True, tag_field="kind", tag="r
     cause: str | None = None
     reason: str = ""
     seconds: float = 0.0
+    in_engine: float = 0.0  # [s] of those, in calls of the engine
     kept: bool = False  # from an earlier run with the very same inputs
     loose: bool = False  # only where it agrees
     line: float | None = None  # the sharp line, in `unit`; None: there is none

@@ -1,10 +1,12 @@
-"""The documents of ``furiko scenes``, ``engines`` and ``cache`` with ``--json``."""
+"""The documents of ``furiko scenes``, ``engines``, ``engine-test`` and ``cache`` with ``--json``."""
 
 from __future__ import annotations
 
 from typing import Literal
 
 import msgspec
+
+StepOutcome = Literal["right", "wrong", "note", "skipped"]
 
 
 class SceneRow(msgspec.Struct, frozen=True, kw_only=True):
@@ -72,3 +74,20 @@ class CacheContents(msgspec.Struct, frozen=True, kw_only=True):
     limit: int  # bytes; beyond it the entries that were used least recently are deleted
     kinds: dict[str, CacheKind]  # results: of one scene on one engine; truths: of one scene
     deleted: int | msgspec.UnsetType = msgspec.UNSET  # entries; only with --clear
+
+
+class ConformanceStep(msgspec.Struct, frozen=True, kw_only=True):
+    """One step of the test. ``help`` is empty where nothing is to be done."""
+
+    step: str  # what was looked at
+    outcome: StepOutcome
+    says: str  # what was found, or why nothing was looked for
+    help: str = ""  # what to change in the adapter
+
+
+class EngineTest(msgspec.Struct, frozen=True, kw_only=True):
+    """An adapter, step by step; ``furiko engine-test --json`` prints it."""
+
+    engine: str
+    conforms: bool  # no step is wrong, and the test came to its end
+    steps: list[ConformanceStep]

@@ -1,4 +1,4 @@
-"""Measurements over many runs: the benchmark and the stress test.
+"""Measurements over many runs: the benchmark, the stress test, maps of starts, releases.
 
 May import models, records, reference, engines and checks.
 """

@@ -115,6 +115,15 @@ class WrongEnergy(Right):
         return found
 
 
+class WrongHeight(Right):
+    """A part in 1e9 of the potential energy is missing."""
+
+    info = about("WrongHeight")
+
+    def energy(self, q, v):
+        return super().energy(q, v) * np.array([1.0, 1 - 1e-9])
+
+
 class OtherZero(Right):
     """Right: the potential energy is off by one constant."""
 

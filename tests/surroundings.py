@@ -236,8 +236,9 @@ def main() -> None:
     chosen = parser.parse_args()
     if chosen.what == "faults":
         from surroundings_faults import FAULTS
+        from surroundings_places import FAULTS as FAULTS_OF_PLACES
 
-        sys.exit(report(FAULTS, chosen.only) > 0)
+        sys.exit(report([*FAULTS, *FAULTS_OF_PLACES], chosen.only) > 0)
     from hostile_inputs import report as report_inputs
 
     sys.exit(report_inputs(chosen.count, chosen.seed) > 0)

@@ -121,11 +121,8 @@ def _compare(cell: Cell, integrator: Integrator, steps: Steps, textbook: Textboo
         return cell.result(f"{NAME} {integrator.name}", "skipped", reason=reason)
     best, *rest = fits
     agrees = best.excess <= 1 and best.candidate.scheme.order == integrator.order
-    line = (
-        sharp_line(cell, integrator, steps, textbook, best.candidate, got)
-        if agrees and sharp.is_known(cell.info) and not unsolved
-        else None
-    )
+    within = [one.candidate for one in fits if one.excess <= 1] if agrees and not unsolved else []
+    line = sharp_line(cell, integrator, steps, textbook, within, got) if sharp.is_known(cell.info) else None
     return cell.result(
         f"{NAME} {integrator.name}",
         **sharp.verdict(agrees, line, _reason(integrator, fits)),
@@ -146,15 +143,27 @@ def _compare(cell: Cell, integrator: Integrator, steps: Steps, textbook: Textboo
 
 
 def sharp_line(
-    cell: Cell, integrator: Integrator, steps: Steps, textbook: Textbook, candidate: Candidate, got: Array
-) -> sharp.Line:
-    """The engine's step (B, 2, n) against what rounding does to each angle and rate of it."""
+    cell: Cell, integrator: Integrator, steps: Steps, textbook: Textbook, within: list[Candidate], got: Array
+) -> sharp.Line | None:
+    """The engine's step (B, 2, n) against what rounding does to each angle and rate of it; None where it is not known.
+
+    ``within``: the schemes whose step is the engine's within the proven bound. It may be any of them, and the bound,
+    which has room for the worst, does not tell which: the one that rounding explains best is.
+    """
+    if not within:
+        return None
     by = disturbed(cell, integrator, steps.theta, steps.omega, steps.alpha)
-    size = sharp_steps(cell, candidate, steps.theta, steps.omega, by, steps.h)
-    error = (got - np.stack(textbook.end(candidate), axis=1)).astype(np.float64)
-    rounding, left = (values.swapaxes(0, 1) for values in (size.rounding, size.left))
     states = cell.states.at(np.arange(len(cell.states))[-STATES:])
-    return sharp.line(error, rounding, sharp.for_steps(cell.info, integrator), states, len(states), left)
+    factor = sharp.for_steps(cell.info, integrator)
+    lines: list[sharp.Line] = []
+    for candidate in within:
+        size = sharp_steps(cell, candidate, steps.theta, steps.omega, by, steps.h)
+        error = (got - np.stack(textbook.end(candidate), axis=1)).astype(np.float64)
+        rounding, left = (values.swapaxes(0, 1) for values in (size.rounding, size.left))
+        lines.append(sharp.line(error, rounding, factor, states, len(states), left))
+        if not lines[-1].loose:
+            break
+    return min(lines, key=lambda line: line.quotient)
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from ...diagnosis.explain import explanation
 from ...diagnosis.explanation import Explanation
 from ...models.coordinates import absolute_from_relative
 from ...models.systems import DocumentSystem
-from ...records.conformance import ConformanceStep
+from ...records.listings import ConformanceStep
 from ...reference import centrifugal_matrix, energies, gravity_vector, joint_forces, literal_accelerations, mass_matrix
 from .subject import GROSS, MECHANISMS, Array, Subject, Wrong, apart, array, right, states
 

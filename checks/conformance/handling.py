@@ -8,7 +8,7 @@ from typing import Any, get_args
 import numpy as np
 
 from ...engines import Quantity
-from ...records.conformance import ConformanceStep
+from ...records.listings import ConformanceStep
 from .subject import MECHANISMS, Array, Subject, Wrong, apart, array, right, states
 
 ARGUMENTS = {

@@ -13,7 +13,7 @@ from ...engines.workers.messages import Failed, Send, Step
 from ...engines.workers.pool import Lost, Pool, Said
 from ...engines.workers.processes import worker_processes
 from ...models import EngineMissing, InvalidInput
-from ...records.conformance import ConformanceStep, EngineTest
+from ...records.listings import ConformanceStep, EngineTest
 from . import conventions, handling, runs
 from .subject import Subject, Wrong
 

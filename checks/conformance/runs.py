@@ -10,7 +10,7 @@ import numpy as np
 
 from ...engines import Integrator
 from ...models.systems import DocumentSystem
-from ...records.conformance import ConformanceStep
+from ...records.listings import ConformanceStep
 from ...reference import literal_accelerations
 from ...reference.integration.schemes import classical_step
 from .subject import MECHANISMS, Array, Subject, Wrong, array, right, states

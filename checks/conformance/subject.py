@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ...engines import EngineInfo, cannot
 from ...models import NLegPendulum, RodChain
 from ...models.systems import DocumentSystem
-from ...records.conformance import ConformanceStep, StepOutcome
+from ...records.listings import ConformanceStep, StepOutcome
 
 Array = NDArray[np.float64]
 

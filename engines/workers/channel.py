@@ -22,10 +22,11 @@ def encode(message: object) -> bytes:
 
 
 class Channel:
-    """One end of a connection."""
+    """One end of a connection. ``ready``: whether the worker at the other end has said so."""
 
     def __init__(self, connection: socket.socket) -> None:
         self.connection = connection
+        self.ready = False
         self._frames = Frames()
 
     def send(self, message: object) -> None:

@@ -30,6 +30,11 @@ class Setup:
 
 
 @dataclass(frozen=True)
+class Ready:
+    """A worker has started and imported what it was told to: from now on the time is that of its job."""
+
+
+@dataclass(frozen=True)
 class Step:
     """The job begins a step, and its time limit starts anew. If the worker dies now, it died in this step.
 

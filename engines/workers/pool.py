@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from multiprocessing.connection import wait
 from typing import Any
 
-from .messages import Done, Job, Step
+from .messages import Done, Job, Ready, Step
 from .processes import WorkerProcess, Workers
 
 START = Step("", engine=True)  # until the job says otherwise
@@ -30,9 +30,10 @@ class Worker:
     heard: int = 0  # messages of this job
 
     def begin(self, step: Step) -> None:
-        """The clock starts anew."""
+        """The clock starts anew. A process that is still starting is at work of furiko's own."""
         self.step = step
-        self.allowed = self.limit if step.engine else max(self.limit, OWN_LIMIT)
+        engine = step.engine and self.process.channel.ready
+        self.allowed = self.limit if engine else max(self.limit, OWN_LIMIT)
         self.deadline = time.monotonic() + self.allowed
 
 
@@ -107,14 +108,17 @@ class Pool:
 
     def stop(self, worker: Worker) -> None:
         """End a worker with whatever it is doing, and start a fresh one in its place."""
-        worker.process.end()
+        self.source.end(worker.process)
         worker.job = None
         self.workers[self.workers.index(worker)] = Worker(self.source.worker())
 
     def close(self) -> None:
-        """End all workers."""
+        """End all workers; those without a job go back to a source that keeps them for the next pool."""
         for worker in self.workers:
-            worker.process.end()
+            if self.source.keeps and worker.job is None:
+                self.source.take_back(worker.process)
+            else:
+                self.source.end(worker.process)
         self.workers = []
 
     def _listen(self, worker: Worker) -> Iterator[Event]:
@@ -127,6 +131,10 @@ class Pool:
             yield from self._lose(worker, f"the engine's process cannot be understood: {error}")
             return
         for message in messages:
+            if isinstance(message, Ready) and not worker.process.channel.ready:
+                worker.process.channel.ready = True
+                worker.begin(worker.step)
+                continue
             job = worker.job
             if job is None:  # it spoke without being asked: not to be trusted with another job
                 self.stop(worker)

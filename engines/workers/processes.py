@@ -53,29 +53,53 @@ class WorkerProcess:
 
 @dataclass(frozen=True)
 class Workers:
-    """A temporary folder for workers to run in, and workers that wait there for their first job."""
+    """A temporary folder for workers to run in, and workers that wait there for a job.
+
+    ``keeps``: whether a pool that closes gives its idle workers back, so that the next one need not start others.
+    """
 
     folder: str
     memory: int | None = None  # bytes that each may allocate
     modules: tuple[str, ...] = ()  # imported by each worker while its first job is still being decided on
+    keeps: bool = False
     waiting: list[WorkerProcess] = field(default_factory=list)
     taken: list[WorkerProcess] = field(default_factory=list)
 
     def worker(self) -> WorkerProcess:
         """One that waits, or a fresh one."""
-        self.taken.append(self.waiting.pop() if self.waiting else spawn(self.folder, self.modules, self.memory))
-        return self.taken[-1]
+        while self.waiting:
+            found = self.waiting.pop()
+            if not self.keeps or found.process.poll() is None:  # it may have died since it was given back
+                break
+            found.end()
+        else:
+            found = spawn(self.folder, self.modules, self.memory)
+        self.taken.append(found)
+        return found
+
+    def take_back(self, worker: WorkerProcess) -> None:
+        """A worker that has done its job, and waits for the next."""
+        self.taken.remove(worker)
+        self.waiting.append(worker)
+
+    def end(self, worker: WorkerProcess) -> None:
+        """End a worker, whatever it is doing, and forget it."""
+        worker.end()
+        if worker in self.taken:
+            self.taken.remove(worker)
 
 
 @contextlib.contextmanager
-def worker_processes(ahead: int = 0, modules: Sequence[str] = (), memory: int | None = None) -> Iterator[Workers]:
+def worker_processes(
+    ahead: int = 0, modules: Sequence[str] = (), memory: int | None = None, *, keeps: bool = False
+) -> Iterator[Workers]:
     """A source of workers, so many of them started already; all its workers are ended with it.
 
-    ``memory``: bytes that each may allocate, None for any number.
+    ``memory``: bytes that each may allocate, None for any number; ``keeps``: workers serve one pool after the other.
     """
     remove_left_behind()
     with tempfile.TemporaryDirectory(prefix=f"{PREFIX}{os.getpid()}-", ignore_cleanup_errors=True) as folder:
-        found = Workers(folder, memory, tuple(modules))
+        found = Workers(folder, memory, tuple(modules), keeps)
         try:
             found.waiting.extend(spawn(folder, found.modules, memory) for _ in range(min(ahead, MOST_AHEAD)))
             yield found

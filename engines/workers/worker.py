@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 
 from .channel import Channel
 from .limits import LIMITS, limit_memory
-from .messages import Done, Failed, Setup
+from .messages import Done, Failed, Ready, Setup
 
 if TYPE_CHECKING:
     from .messages import Job
@@ -38,6 +38,7 @@ def main() -> None:
     for module in setup.modules:
         with contextlib.suppress(ImportError):  # the job that needs it will say so
             import_module(module)
+    channel.send(Ready())
     while True:
         try:
             job = channel.receive()

@@ -11,7 +11,7 @@ from .options import engine_names, found_here, json_option
 from .output import print_json, print_text
 
 if TYPE_CHECKING:
-    from ..records.conformance import ConformanceStep
+    from ..records.listings import ConformanceStep
 
 SIGNS = {"right": "✓", "wrong": "✗", "note": "!", "skipped": "-"}
 

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from ..checks.plan import Plan
     from ..records.check import Result
     from ..stress import Progress
+    from ..sweep import Doing as SweepDoing
     from .remaining import Place, Size
 
 EVERY = 0.5  # [s] between two looks at what is left: a large run has a hundred results in a second
@@ -42,15 +43,17 @@ def check_progress() -> Iterator[Callable[[Plan, Result], None] | None]:
         task = bar.add_task("checking", total=None, left="")
         seen: set[tuple[str, str, str]] = set()
         cells: list[Cells] = []
+        total = 0
         looked = [begun]
 
         def watch(plan: Plan, result: Result) -> None:
-            settled = {(r.scene, r.engine, r.check) for r in plan.settled}
+            nonlocal total
             # An engine has one trajectory result for each integrator: they count as the one check that was planned.
             seen.add((result.scene, result.engine, result.comparison))
-            total = sum(len(t.checks) for t in plan.tasks) + len(settled)
             now = one_line(f"{result.scene} {result.engine}", 80)
-            if not cells:
+            if not cells:  # the plan stays as it is: counting it again at each result would be quadratic
+                settled = {(r.scene, r.engine, r.check) for r in plan.settled}
+                total = sum(len(t.checks) for t in plan.tasks) + len(settled)
                 cells.append(Cells(_planned(plan)))
             cells[0].took((result.scene, result.engine, result.comparison), result.seconds)
             bar.update(task, completed=min(len(seen), total), total=total, description=now)
@@ -156,5 +159,38 @@ def stress_progress(budget: float) -> Iterator[Callable[[Progress], None] | None
                 open=now.open,
                 left=left,
             )
+
+        yield watch
+
+
+@contextmanager
+def sweep_progress() -> Iterator[Callable[[SweepDoing], None]]:
+    """A bar over the planned cells, with what is left by the pace of this run: a function to call after each chunk."""
+    if not sys.stderr.isatty():
+        yield lambda _: None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import Progress as Bar
+
+    from .remaining import about
+
+    begun = time.monotonic()
+    columns = (
+        TextColumn("cells"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TextColumn("{task.fields[left]}"),
+        TextColumn("{task.fields[said]}"),
+    )
+    with Bar(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("cells", total=None, left="", said="")
+
+        def watch(now: SweepDoing) -> None:
+            pace = (time.monotonic() - begun) / now.here if now.here else None
+            left = about(None if pace is None else pace * (now.of - now.cells))
+            said = ", ".join(f"{n:,} {what}" for n, what in ((now.differs, "differ"), (now.errors, "failed")) if n)
+            bar.update(task, completed=now.cells, total=now.of, left=left, said=said)
 
         yield watch

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import tempfile
+import time
 from pathlib import Path
 
 from ..errors import InvalidInput
-from ..readers.bounded_file import shown
+from ..readers.bounded_file import RAW, shown
+
+PATIENCE = 1.0  # [s] for a pipe's reader to open it
 
 
 def write_whole(path: Path, text: str) -> Path:
@@ -18,7 +22,7 @@ def write_whole(path: Path, text: str) -> Path:
     """
     try:
         if path.exists() and not path.is_file():
-            path.write_text(text, encoding="utf-8", newline="\n")
+            _write_through(path, text.encode())
         else:
             replace_file(path.resolve(), text.encode())
     except OSError as error:
@@ -50,6 +54,25 @@ def make_folder(folder: Path) -> None:
             pass
     except OSError as error:
         raise _unwritable(folder, error) from None
+
+
+def _write_through(path: Path, content: bytes) -> None:
+    """Write to a device, or to a pipe. One that nobody reads is an error, and not waited for without end."""
+    with os.fdopen(_opened(path), "wb") as file:
+        if hasattr(os, "set_blocking"):
+            os.set_blocking(file.fileno(), True)
+        file.write(content)
+
+
+def _opened(path: Path) -> int:
+    end = time.monotonic() + PATIENCE
+    while True:
+        try:
+            return os.open(path, os.O_WRONLY | RAW)
+        except OSError as error:
+            if error.errno != errno.ENXIO or time.monotonic() > end:
+                raise
+            time.sleep(0.02)
 
 
 def _unwritable(path: Path, error: OSError) -> InvalidInput:

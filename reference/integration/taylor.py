@@ -35,26 +35,30 @@ this is cheapest.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, fields
 from functools import cached_property
-from operator import attrgetter
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...models.errors import InvalidInput
 from ...models.systems import System
-from ..kernels.forward_dynamics import link_masses, processors, thread_pool
-from ..limits import checked_state
+from .starts import (
+    FINEST,
+    SAFETY,
+    STEPS_A_CALL,
+    Starts,
+    best_order,
+    checked_starts,
+    checked_times,
+    checked_tolerance,
+    local_size,
+    on_threads,
+    too_fast,
+)
 
 Array = NDArray[np.float64]
-
-FINEST = 1e-14  # a tolerance below this asks for more than doubles hold
-SAFETY = 1e-2  # the error of a step over the tolerance: errors add up, and grow with the motion
-STEPS_A_CALL = 20_000  # after so many, Python is given a chance to see an interrupt
 
 
 @dataclass(frozen=True)
@@ -124,52 +128,17 @@ def simulate(
     that is run alone differs from the same one in an ensemble by rounding.
     Raises :class:`InvalidInput` for input that makes no sense, and for motions too fast to be followed to the end.
     """
-    systems, angles, rates = _checked_starts(system, theta, omega)
+    starts = checked_starts(system, theta, omega)
     moments = checked_times(times)
-    if not (isinstance(tolerance, int | float | np.floating) and 0 < tolerance <= 0.1):
-        raise InvalidInput(f"tolerance: must be above 0 and at most 0.1, got {tolerance!r}")
-    local = local_size(float(tolerance))
+    wanted = checked_tolerance(tolerance)
+    local = local_size(wanted)
     order = best_order(local)
 
     def finer() -> tuple[Array, Array]:
-        return _integrate(systems, angles, rates, moments, order + 4, local * SAFETY, threads)[:2]
+        return _integrate(starts, moments, order + 4, local * SAFETY, threads)[:2]
 
-    out_theta, out_omega, steps = _integrate(systems, angles, rates, moments, order, local, threads)
-    return Trajectory(moments, out_theta, out_omega, float(tolerance), steps, finer)
-
-
-def _checked_starts(system: System | Sequence[System], theta: Any, omega: Any) -> tuple[list[System], Array, Array]:
-    """The systems, one or one a start, and the starts."""
-    if not isinstance(system, Sequence):
-        return [system], *checked_state(system, theta, omega)
-    systems = [*system]
-    kinds = {(each.kind, each.n) for each in systems}
-    if len(kinds) != 1:
-        raise InvalidInput(
-            f"system: one or more of one kind and number of links are needed, got {len(systems)}: {kinds}"
-        )
-    angles, rates = checked_state(systems[0], theta, omega)
-    if angles.ndim == 1:
-        angles, rates = (np.repeat(row[np.newaxis], len(systems), axis=0) for row in (angles, rates))
-    if angles.ndim != 2 or len(angles) != len(systems):
-        raise InvalidInput(
-            f"theta: with {len(systems)} systems, shape ({len(systems)}, {systems[0].n}) is needed, got {angles.shape}"
-        )
-    return systems, angles, rates
-
-
-def local_size(tolerance: float) -> float:
-    """The size of a step's last terms relative to its first; at the finest below rounding."""
-    return SAFETY * max(tolerance, FINEST)
-
-
-def best_order(local: float) -> int:
-    """The order P at which reaching ``local`` costs least.
-
-    The step grows as local^(1/P). Work that grows as P² (the convolutions) is least at P = -ln(local)/2 (Jorba and Zou
-    2005), work that grows as P at twice that; measured for 2, 5 and 100 rods, the best is flat about 0.72.
-    """
-    return max(6, math.ceil(-0.72 * math.log(local)))
+    out_theta, out_omega, steps = _integrate(starts, moments, order, local, threads)
+    return Trajectory(moments, out_theta, out_omega, wanted, steps, finer)
 
 
 @dataclass(frozen=True)
@@ -194,30 +163,21 @@ class _Runs:
 
 
 def _integrate(
-    systems: list[System], theta: Array, omega: Array, times: Array, order: int, local: float, threads: int | None
+    starts: Starts, times: Array, order: int, local: float, threads: int | None
 ) -> tuple[Array, Array, NDArray[np.int64]]:
     """All trajectories of an ensemble, in as many parts as threads."""
-    kind, n = systems[0].kind, systems[0].n
-    angles, rates = theta.reshape(-1, n), omega.reshape(-1, n)
-    count = len(angles)
-    masses, lengths, gravity = (
-        np.ascontiguousarray(np.broadcast_to([value(system) for system in systems], (count, *shape)), np.float64)
-        for value, shape in ((link_masses, (n,)), (attrgetter("lengths"), (n,)), (attrgetter("gravity"), ()))
-    )
-    out_theta, out_omega = np.empty((2, count, len(times), n))
-    runs = _Runs(masses, lengths, gravity, angles, rates, np.zeros(count, np.int64), out_theta, out_omega)
+    kind, count = starts.kind, starts.count
+    angles, rates = starts.rows()
+    out_theta, out_omega = np.empty((2, count, len(times), starts.n))
+    runs = _Runs(*starts.links(), angles, rates, np.zeros(count, np.int64), out_theta, out_omega)
     if count == 1:
         runs.steps[0] = _follow(kind, runs.part(0), times, order, local)
-    elif count > 1:
-        size = -(-count // min(processors(threads), count))
-        parts = [runs.part(slice(first, first + size)) for first in range(0, count, size)]
-        spread = thread_pool().map if len(parts) > 1 else map
-        for _ in spread(lambda part: _follow_lanes(kind, part, times, order, local), parts):
-            pass
+    else:
+        on_threads(count, threads, lambda rows: _follow_lanes(kind, runs.part(rows), times, order, local))
     at_start = times == times[0]
     out_theta[:, at_start], out_omega[:, at_start] = angles[:, np.newaxis], rates[:, np.newaxis]  # to the last bit
-    shape = (*theta.shape[:-1], len(times), n)
-    return out_theta.reshape(shape), out_omega.reshape(shape), runs.steps.reshape(theta.shape[:-1])
+    shape = (*starts.shape, len(times), starts.n)
+    return out_theta.reshape(shape), out_omega.reshape(shape), runs.steps.reshape(starts.shape)
 
 
 def _follow_lanes(kind: str, runs: _Runs, times: Array, order: int, local: float) -> None:
@@ -239,7 +199,7 @@ def _follow_lanes(kind: str, runs: _Runs, times: Array, order: int, local: float
         status = run(*given, *kept, STEPS_A_CALL // EIGHT)
     if status == BROKEN:
         lane = int(np.argmax(lanes[compiled.TRAJECTORY] == lanes[compiled.NEXT, 1]))
-        raise _too_fast(clock[compiled.TIME, lane], times)
+        raise too_fast(clock[compiled.TIME, lane], times[-1])
 
 
 def _follow(kind: str, run: _Runs, times: Array, order: int, local: float) -> int:
@@ -255,29 +215,5 @@ def _follow(kind: str, run: _Runs, times: Array, order: int, local: float) -> in
     while status == compiled.MORE:
         status = advance(*given, state, clock, counts, run.out_theta, run.out_omega, STEPS_A_CALL)
     if status == compiled.BROKEN:
-        raise _too_fast(clock[0], times)
+        raise too_fast(clock[0], times[-1])
     return int(counts[1])
-
-
-def _too_fast(time: float, times: Array) -> InvalidInput:
-    return InvalidInput(f"omega: the motion is too fast to be followed from t = {time:g} s to {times[-1]:g} s")
-
-
-def checked_times(times: Any) -> Array:
-    """``times`` as float64, (m,), finite and in order. Raises InvalidInput."""
-    try:
-        moments = np.array(times, np.float64)
-    except (TypeError, ValueError):
-        raise InvalidInput(f"times: an array of numbers is needed, got {str(times)[:60]}") from None
-    if moments.ndim != 1 or len(moments) == 0:
-        raise InvalidInput(f"times: one axis with at least one time is needed, got shape {moments.shape}")
-    if not np.isfinite(moments).all():
-        raise InvalidInput(f"times: must be finite, got {float(moments[~np.isfinite(moments)][0])}")
-    steps = np.diff(moments)
-    if (steps > 0).any() and (steps < 0).any():
-        turn = int(np.argmax(steps * (moments[-1] - moments[0] or steps[np.nonzero(steps)[0][0]]) < 0)) + 1
-        raise InvalidInput(
-            f"times: must rise or fall throughout, but times[{turn - 1}] = {moments[turn - 1]:g} is followed by "
-            f"times[{turn}] = {moments[turn]:g}"
-        )
-    return moments

@@ -104,34 +104,51 @@ def run(factor: Any, solve: Any, given: Any) -> int:
         expand(factor, solve, state, top, factors, part, series)
         for row, order in enumerate((0, 1, 2, top - 1, top)):
             store(sizes, row, largest(powers[order]))
-        for lane in range(EIGHT):
-            clock[STEP, lane] = step_size(
-                sizes[0, lane], sizes[1, lane], sizes[2, lane], sizes[3, lane], sizes[4, lane], top, local
-            )
-            steps[max(lanes[TRAJECTORY, lane], 0)] += lanes[TRAJECTORY, lane] != IDLE
+        set_steps(sizes, clock, lanes, steps, top, local)
         while find_due(clock, lanes, times):
-            ahead = load(clock, AHEAD)
-            for j in range(n):
-                angle, angle_low, rate, rate_low = moved_on(powers, state, j, top, ahead)
-                store(moved[0], j, angle)
-                store(moved[1], j, angle_low)
-                store(moved[2], j, rate)
-                store(moved[3], j, rate_low)
+            look_ahead(powers, state, moved, top, load(clock, AHEAD))
             write(moved, state, lanes, out_theta, out_omega)
         if set_ahead(clock, lanes, times, direction):
             return BROKEN
-        ahead = load(clock, AHEAD)
-        high, low = two_sum(load(clock, TIME), ahead)
-        high, low = two_sum(high, low + load(clock, TIME_LOW))
-        store(clock, TIME, high)
-        store(clock, TIME_LOW, low)
-        for j in range(n):
-            advance(powers, state, j, top, ahead)
+        go_on(powers, state, top, clock)
         for lane in range(EIGHT):
             if lanes[TRAJECTORY, lane] != IDLE and lanes[WRITTEN, lane] == times.size:
                 begin(lane, masses, lengths, gravity, theta, omega, times[0], state, factors, clock, lanes)
                 running -= lanes[TRAJECTORY, lane] == IDLE
     return MORE if running > 0 else DONE
+
+
+@called
+def set_steps(sizes: Any, clock: Any, lanes: Any, steps: Any, top: int, local: float) -> None:
+    """The step of each lane, from the largest coefficients of orders 0, 1, 2 and the last two; they are counted."""
+    for lane in range(EIGHT):
+        clock[STEP, lane] = step_size(
+            sizes[0, lane], sizes[1, lane], sizes[2, lane], sizes[3, lane], sizes[4, lane], top, local
+        )
+        steps[max(lanes[TRAJECTORY, lane], 0)] += lanes[TRAJECTORY, lane] != IDLE
+
+
+@inlined
+def look_ahead(powers: Any, state: Any, moved: Any, top: int, ahead: Any) -> None:
+    """Angles and rates of all links after ``ahead``, each as a sum of two numbers, into the rows of ``moved``."""
+    for j in range(len(state)):
+        angle, angle_low, rate, rate_low = moved_on(powers, state, j, top, ahead)
+        store(moved[0], j, angle)
+        store(moved[1], j, angle_low)
+        store(moved[2], j, rate)
+        store(moved[3], j, rate_low)
+
+
+@inlined
+def go_on(powers: Any, state: Any, top: int, clock: Any) -> None:
+    """Take time and state of each lane ahead."""
+    ahead = load(clock, AHEAD)
+    high, low = two_sum(load(clock, TIME), ahead)
+    high, low = two_sum(high, low + load(clock, TIME_LOW))
+    store(clock, TIME, high)
+    store(clock, TIME_LOW, low)
+    for j in range(len(state)):
+        advance(powers, state, j, top, ahead)
 
 
 @called

@@ -24,6 +24,10 @@ KERNELS = {
     "run_legs": ("simulations of an N-leg pendulum", 4),
     "run_rod_lanes": ("simulations of ensembles of rods", 8),
     "run_leg_lanes": ("simulations of ensembles of N-leg pendulums", 5),
+    "run_rod_tangents": ("the growth of small differences of rods", 15),
+    "run_leg_tangents": ("the growth of small differences of N-leg pendulums", 10),
+    "run_rod_flips": ("flip times of rods", 8),
+    "run_leg_flips": ("flip times of N-leg pendulums", 5),
 }
 
 

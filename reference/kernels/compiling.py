@@ -43,6 +43,8 @@ SOURCES = (
     "kernels/forward_dynamics_compiled.py",
     "integration/taylor_compiled.py",
     "integration/taylor_lanes.py",
+    "integration/taylor_tangents.py",
+    "integration/taylor_flips.py",
 )
 
 njit: Any = numba.njit  # numba's own types know neither forceinline nor what the result can be called with

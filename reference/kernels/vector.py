@@ -132,6 +132,12 @@ def maximum(_context: Any, a: Any, b: Any) -> Any:
 
 
 @intrinsic
+def square_root(_context: Any, a: Any) -> Any:
+    """√a."""
+    return _elementwise("sqrt", 1)(a)
+
+
+@intrinsic
 def in_quadrant(_context: Any, rounded: Any, _sine: Any, _cosine: Any) -> Any:
     """Sine and cosine of an angle from those of what is left of it within its quadrant.
 

@@ -17,7 +17,7 @@ from ...models.spatial_mechanism import SpatialMechanism
 from ...models.systems import System
 from ...models.tree import PlanarTree
 from ...models.trees.system import TreeSystem
-from ..integration.taylor import checked_times
+from ..integration.starts import checked_times
 from ..limits import checked_state
 from .clouds import Cloud, box
 from .follow import Limits, Progress, follow

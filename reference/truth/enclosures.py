@@ -63,7 +63,7 @@ def enclosed_accelerations(system: DocumentSystem, theta: Floats, omega: Floats)
 
     The radius is at most 2⁻⁸⁰ of the largest component of a state; raises ArithmeticError where that fails.
     """
-    return _over_states(lambda t, w, a: a, system, theta, omega, (system.n,))
+    return over_states(lambda t, w, a: a, system, theta, omega, (system.n,))
 
 
 def enclosed_joint_forces(system: DocumentSystem, theta: Floats, omega: Floats) -> Enclosure:
@@ -71,7 +71,7 @@ def enclosed_joint_forces(system: DocumentSystem, theta: Floats, omega: Floats) 
 
     Raises ArithmeticError as :func:`enclosed_accelerations` does.
     """
-    return _over_states(lambda t, w, a: motion.joint_forces(system, t, w, a), system, theta, omega, (system.n, 2))
+    return over_states(lambda t, w, a: motion.joint_forces(system, t, w, a), system, theta, omega, (system.n, 2))
 
 
 def enclosed_energies(system: DocumentSystem, theta: Floats, omega: Floats) -> Enclosure:
@@ -80,7 +80,7 @@ def enclosed_energies(system: DocumentSystem, theta: Floats, omega: Floats) -> E
     def both(t: Array, w: Array, a: Array) -> Array:
         return np.stack(motion.energies(system, t, w), axis=-1)
 
-    return _over_states(both, system, theta, omega, (2,), accelerate=False)
+    return over_states(both, system, theta, omega, (2,), accelerate=None)
 
 
 def enclosed_terms(system: DocumentSystem, theta: Floats) -> Terms:
@@ -111,15 +111,18 @@ def precision(bits: int) -> Iterator[None]:
         yield
 
 
-def _over_states(
+def over_states(
     quantity: Callable[[Array, Array, Array], Array],
     system: DocumentSystem,
     theta: Floats,
     omega: Floats,
     shape: tuple[int, ...],
-    accelerate: bool = True,
+    accelerate: Callable[[DocumentSystem, Array, Array], Array] | None = accelerations_in_balls,
 ) -> Enclosure:
-    """``quantity`` of (θ, ω, θ̈) in balls, for every state, a chunk at a time, rounded."""
+    """``quantity`` of (θ, ω, θ̈) in balls, for every state, a chunk at a time, rounded.
+
+    ``accelerate`` gives θ̈ as :func:`accelerations_in_balls` does; None where the quantity needs none.
+    """
     theta, omega = np.broadcast_arrays(np.asarray(theta, dtype=np.float64), np.asarray(omega, dtype=np.float64))
     batch = theta.shape[:-1]
     t, w = theta.reshape(-1, system.n), omega.reshape(-1, system.n)
@@ -127,7 +130,7 @@ def _over_states(
     def enclose(part: slice) -> Array:
         xp = balls()
         t_balls, w_balls = xp.array(t[part]), xp.array(w[part])
-        return quantity(t_balls, w_balls, accelerations_in_balls(system, t_balls, w_balls) if accelerate else t_balls)
+        return quantity(t_balls, w_balls, accelerate(system, t_balls, w_balls) if accelerate else t_balls)
 
     parts = [_rounded_precisely(partial(enclose, part)) for part in _chunks(len(t), system.n)]
     high, low, radius = (

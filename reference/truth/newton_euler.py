@@ -1,10 +1,10 @@
 """Enclosed accelerations of long chains and of many legs, in O(n): Newton's and Euler's equations in ball arithmetic.
 
-:mod:`.enclosures` solves the literal equations, whose matrix is dense; that is too much for a thousand rods. Here the
-block tridiagonal system of a rod chain's joint forces (:mod:`.block_tridiagonal`) is solved at some precision without
-regard to errors, and the result is *proved* afterwards. For accelerations α̃, (8) gives forces, and the residual of
-(6), ρ_j = I_j α̃_j - (l_j/2) (T_j + T_{j-1})·q_j, is row j of M α̃ + C ω² + G. Kinetic energy is not less than that of
-the rotation about the centres alone, so M ≥ diag(I_j), and for the error e = M⁻¹ ρ
+:mod:`.enclosures` solves the literal equations, whose matrix is dense; that is slow from a dozen links on, and too much
+for a thousand. Here the block tridiagonal system of a rod chain's joint forces (:mod:`.block_tridiagonal`) is solved at
+some precision without regard to errors, and the result is *proved* afterwards. For accelerations α̃, (8) gives forces,
+and the residual of (6), ρ_j = I_j α̃_j - (l_j/2) (T_j + T_{j-1})·q_j, is row j of M α̃ + C ω² + G. Kinetic energy is not
+less than that of the rotation about the centres alone, so M ≥ diag(I_j), and for the error e = M⁻¹ ρ
 
     Σ I_j e_j² ≤ e·M e = e·ρ ≤ (Σ I_j e_j²)^½ (Σ ρ_j²/I_j)^½,      hence      |e_j| ≤ (Σ ρ_k²/I_k)^½ / √I_j.
 
@@ -21,9 +21,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...models import DocumentSystem, RodChain
-from ..arithmetic import balls
+from ..arithmetic import Array, balls
+from ..documents.equations_of_motion import joint_forces
 from .block_tridiagonal import chain_accelerations
-from .enclosures import AS_GOOD_AS_ZERO, MOST_BITS, RELATIVE_RADIUS, SMALLEST, Enclosure, precision
+from .enclosures import AS_GOOD_AS_ZERO, MOST_BITS, RELATIVE_RADIUS, SMALLEST, Enclosure, over_states, precision
 
 Floats = NDArray[np.float64]
 
@@ -40,6 +41,25 @@ def enclosed_accelerations(system: DocumentSystem, theta: Floats, omega: Floats)
     rows = [_row(system, t, w) for t, w in zip(*(a.reshape(-1, system.n) for a in (theta, omega)), strict=True)]
     parts = (np.array([row[k] for row in rows]).reshape(theta.shape) for k in range(3))
     return Enclosure(*parts)
+
+
+def enclosed_joint_forces(system: DocumentSystem, theta: Floats, omega: Floats) -> Enclosure:
+    """Joint reaction forces [N] in the free motion, (…, n) in, (…, n, 2) out.
+
+    The same result as :func:`.enclosures.enclosed_joint_forces`, with the same promise, for any n; raises
+    ArithmeticError where it cannot be kept.
+    """
+    return over_states(
+        lambda t, w, a: joint_forces(system, t, w, a), system, theta, omega, (system.n, 2), accelerate=_accelerations
+    )
+
+
+def _accelerations(system: DocumentSystem, theta: Array, omega: Array) -> Array:
+    """θ̈ as balls, (B, n), of states that are doubles, given as balls."""
+    rows = [
+        _enclosed(system, t, w) for t, w in zip(*(x.astype(np.float64).tolist() for x in (theta, omega)), strict=True)
+    ]
+    return np.array(rows, dtype=object).reshape(theta.shape)
 
 
 def close_accelerations(system: DocumentSystem, theta: Floats, omega: Floats, bits: int = FEWEST_BITS) -> list[Any]:

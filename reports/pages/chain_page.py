@@ -7,9 +7,8 @@ from collections.abc import Mapping, Sequence
 from ...records.check import Header
 from ...records.stress import ChainMotion, ChainSummary, SmallSwings, StressSummary, TipConvergence
 from .chain_pictures import ChainPicture, draw_chains
-from .plot import Plot, draw
+from .plot import Plot, Points, draw, to_series
 from .rendering import render_with_plots
-from .series import Points, to_series
 
 INSTANTS = ("0.125", "0.25", "0.375", "0.5", "0.75", "1", "1.5", "2")  # [s] at which chains are pictured
 LARGE = 1.0  # amplitude of the motions that are shown

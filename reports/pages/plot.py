@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from .axes import Axis, Tick, fits, linear_axis, log_axis, path
@@ -13,6 +13,7 @@ LINEAR_TICKS = 6  # at most, on a linear axis
 MOST_POINTS = 400  # of a line without marks; more cannot be told apart
 
 Point = tuple[float, float, str]
+Points = Sequence[tuple[float, float]]  # without words
 
 
 @dataclass(frozen=True)
@@ -37,7 +38,7 @@ class Series:
     """A line through points (x, y, what a mark says when pointed at).
 
     ``colour`` and ``mark`` are numbers below :data:`KINDS`; no marks are drawn where ``mark`` is None. ``group``: what
-    it is shown and hidden with, as its engine; empty for itself alone.
+    it is shown and hidden with, as its engine; empty for itself alone. ``joined``: a line goes through the marks.
     """
 
     name: str
@@ -46,6 +47,7 @@ class Series:
     mark: int | None = None
     dashed: bool = False
     group: str = ""
+    joined: bool = True
 
 
 @dataclass(frozen=True)
@@ -119,7 +121,7 @@ def _axis(axis: Axis) -> str:
 def _line(series: Series, points: Sequence[Point], across: Axis, up: Axis) -> Line:
     placed = [(across.at(x), up.at(y), words) for x, y, words in points]
     if series.mark is not None:
-        return Line(series, path([(x, y) for x, y, _ in placed]), tuple(placed))
+        return Line(series, path([(x, y) for x, y, _ in placed]) if series.joined else "", tuple(placed))
     thinned = placed[:: max(1, len(placed) // MOST_POINTS)]
     return Line(series, path([(x, y) for x, y, _ in thinned]), ())
 
@@ -131,3 +133,17 @@ def _stairs(points: Sequence[tuple[float, float]], across: Axis, up: Axis) -> li
             stairs.append((stairs[-1][0], up.at(y)))
         stairs.append((across.at(x), up.at(y)))
     return stairs
+
+
+def to_series(lines: Mapping[str, Points], *, marked: bool = False, order: Sequence[str] = ()) -> list[Series]:
+    """A series for each line; its colour, and its mark if ``marked``, by its place in ``order``, else in ``lines``."""
+    places = {name: i % KINDS for i, name in enumerate(order or lines)}
+    return [
+        Series(
+            name,
+            [(x, y, f"{name}: {x:.4g}, {y:.3g}" if marked else "") for x, y in points],
+            places[name],
+            places[name] if marked else None,
+        )
+        for name, points in lines.items()
+    ]

@@ -17,9 +17,8 @@ from ...records.stress import (
     StressSummary,
 )
 from .chain_page import chain_page
-from .plot import Plot, draw
+from .plot import Plot, draw, to_series
 from .rendering import render_with_plots
-from .series import to_series
 from .stability_map import Column, StabilityMap, draw_map
 
 PAGE, CHAIN_PAGE = "stress.html", "chain.html"

@@ -3,14 +3,13 @@
 What has been found is in the results alone, each under a name of its own. A search is a function of them: it says which
 case it needs next, or that it knows. So a run that was cut off goes on where it stood, nothing is lost and nothing is
 done twice, and the order in which cases come in changes nothing. Families of searches (frontiers of accelerations,
-frontiers of the step, …) share the time by weight; within a family cheap cases come first, then
-a frontier that is caught between two rungs, then one search after the other: the time goes where the frontiers are.
+frontiers of the step, …) share the time by weight; within a family every search is asked as often as the others, from
+coarse to fine (:mod:`.questions`): a run that is cut off has something to say of each.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from time import monotonic as now
@@ -30,6 +29,7 @@ from .chain import chain_runs, listed_cases
 from .condition import condition_cases
 from .failures import Failure
 from .frontier import Frontier, frontier, next_rung
+from .questions import Questions
 from .stability import CHUNKS, STRESSES, TOP, LongRunCase, StabilityCase, Stress
 from .trees import TREE_LADDERS, TreeCase, TreeLadder
 
@@ -62,10 +62,6 @@ class Search(Protocol):
         """The next case (None: all is known), and how many of its cases there are results of."""
         ...
 
-    def caught(self, results: Results) -> bool:
-        """Whether it is between two rungs."""
-        ...
-
 
 class UpRungs(ABC):
     """A search up the rungs of a ladder, for the last that holds."""
@@ -88,9 +84,6 @@ class UpRungs(ABC):
         answers = self.answers(results)
         rung = next_rung(answers, self.top)
         return None if rung is None else self.case(rung), len(answers)
-
-    def caught(self, results: Results) -> bool:
-        return self.frontier(results).fails is not None
 
     def frontier(self, results: Results) -> Frontier:
         """The frontier known so far."""
@@ -189,9 +182,6 @@ class LongRun:
         start = (tuple(parts[-1].details["theta"]), tuple(parts[-1].details["omega"])) if parts else None
         return LongRunCase(self.engine, self.integrator, len(parts), self.steps, start), len(parts)
 
-    def caught(self, results: Results) -> bool:
-        return False
-
 
 @dataclass(frozen=True)
 class Listed:
@@ -203,9 +193,6 @@ class Listed:
     def next(self, results: Results) -> tuple[Case | None, int]:
         left = [case for case in self.cases if key(case) not in results]
         return (left[0] if left else None), len(self.cases) - len(left)
-
-    def caught(self, results: Results) -> bool:
-        return False
 
 
 # What share of the time each family gets while others have something left to ask.
@@ -281,9 +268,8 @@ class _Run:
         pool: Pool,
         watch: Watch,
     ) -> None:
-        self.asking = {search: search.next(results) for search in searches}
         self.known, self.until, self.timeout, self.pool, self.watch = results, until, timeout, pool, watch
-        self.spent: defaultdict[str, float] = defaultdict(float)
+        self.questions: Questions[Search, Case] = Questions(searches, lambda one: one.next(self.known), WEIGHTS)
         self.searches: dict[Worker, Search] = {}
         self.found: dict[Worker, Result] = {}
 
@@ -306,26 +292,12 @@ class _Run:
     def _employ(self) -> bool:
         """Give idle workers cases while there is time; whether any is at work."""
         for worker in self.pool.idle():
-            chosen = self._choose() if now() < self.until else None
+            chosen = self.questions.next() if now() < self.until else None
             if chosen is not None:
                 self.searches[worker], case = chosen
-                self.watch(case, sum(case is not None for case, _ in self.asking.values()))
+                self.watch(case, self.questions.open)
                 self.pool.give(worker, CaseJob(case), max(self.timeout, getattr(case, "takes", 0.0)))
         return bool(self.pool.busy)
-
-    def _choose(self) -> tuple[Search, Case] | None:
-        """The next case of the family that has had least of its share; it may have none while others run its last."""
-        running = {self.searches[worker] for worker in self.pool.busy}
-        asked: dict[str, list[tuple[tuple[bool, bool, int], Search, Case]]] = {}
-        for place, (search, (case, _)) in enumerate(self.asking.items()):
-            if case is not None and search not in running:
-                urgency = (getattr(case, "heavy", False), not search.caught(self.known), place)
-                asked.setdefault(search.family, []).append((urgency, search, case))
-        if not asked:
-            return None
-        family = min(asked, key=lambda name: (self.spent[name] / WEIGHTS[name], FAMILIES.index(name)))
-        _, search, case = min(asked[family], key=lambda one: one[0])
-        return search, case
 
     def _on(self, event: Event) -> Iterator[Result]:
         assert isinstance(event.job, CaseJob)
@@ -351,9 +323,7 @@ class _Run:
         seconds = now() - worker.begun
         found = msgspec.structs.replace(result, seconds=round(seconds, 3))
         self.known[key(found)] = found
-        search = self.searches.pop(worker)
-        self.spent[search.family] += seconds
-        self.asking[search] = search.next(self.known)
+        self.questions.answered(self.searches.pop(worker), seconds)
         return found
 
 

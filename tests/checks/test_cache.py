@@ -1,14 +1,17 @@
 """What is kept is found again, only for the very same inputs, and its failures cost nothing but time."""
 
+import ast
 import hashlib
 import importlib
 import multiprocessing
 import os
+import re
 import sys
 from dataclasses import replace
 
 import pytest
 from msgspec import json, structs
+from package_rooms import ROOMS, ROOT
 
 import furiko
 from furiko.checks import cache as module
@@ -16,6 +19,7 @@ from furiko.checks import foundations
 from furiko.checks.cache import Cache
 from furiko.checks.foundations import package_foundation
 from furiko.checks.plan import make_plan
+from furiko.engines import ENGINES, OWN_EQUATIONS
 from furiko.records.check import Result
 
 RESULT = Result(
@@ -60,6 +64,80 @@ def test_any_other_input_is_another_entry(cache, task, monkeypatch):
     ]
     assert all(cache.results(other) is None for other in others)
     monkeypatch.setattr(module, "own_foundation", lambda: b"another version of furiko")
+    assert cache.results(task) is None
+
+
+def test_the_key_has_every_input(task, monkeypatch):
+    """Each changes what an answer may be; none is left to what else is looked at when an entry is read."""
+    scene = task.scene
+    numbers = ("theta", "omega", "duration", "random", "named", "tags", "name", "system")
+    values = ((1.0, 1.0), (1.0, 1.0), 3.0, 7, ("hanging",), ("other",), "other", furiko.RodChain((1.0, 0.5)))
+    others = [replace(task, scene=replace(scene, **{name: value})) for name, value in zip(numbers, values, strict=True)]
+    others += [replace(task, random_states=21), replace(task, checks=("energy",))]
+    pinocchio = [replace(task, engine=name) for name in ("pinocchio-aba", "pinocchio-crba")]  # of one package
+    keys = {module._results_key(each) for each in (task, *others, *pinocchio)}
+    assert len(keys) == 1 + len(others) + 2
+    assert len({module._facts_key(scene, count) for count in (20, 21)}) == 2
+    before = module._results_key(task)
+    monkeypatch.setattr(module, "package_foundation", lambda *_: b"another build")
+    assert module._results_key(task) != before
+    assert module._digest("a", "bc") != module._digest("ab", "c")
+
+
+def test_every_room_and_library_that_a_result_is_made_with_is_part_of_its_foundation():
+    """As the imports tell: all that ``checks`` reaches, but for derivations, which only a user's own equations ask for:
+    those are no engine's, and are not kept.
+    """
+    rooms = {room: "".join(path.read_text() for path in (ROOT / room).rglob("*.py")) for room in ROOMS}
+    reached, left = set(), {"checks"}
+    while left:
+        here = left.pop()
+        reached.add(here)
+        left |= set(re.findall(r"^ *from \.\.+(\w+)", rooms[here], flags=re.MULTILINE)) & set(ROOMS) - reached
+    assert reached - {"derivations"} == set(foundations.ROOMS)
+    assert not package_foundation(OWN_EQUATIONS.package, OWN_EQUATIONS.module)
+    assert OWN_EQUATIONS.name not in ENGINES
+    others = {"msgspec", "platformdirs", "llvmlite", "sympy"}  # carry results, come with numba, and formulas alone
+    files = [path for room in ("reference", "checks") for path in (ROOT / room).rglob("*.py")]
+    libraries = {name for path in files for name in libraries_of(path)} - set(sys.stdlib_module_names) - others
+    assert libraries == set(foundations.SHARED.values())
+
+
+def libraries_of(path):
+    """What a file imports that is not furiko's: in statements, and by ``library("…")`` where it is used."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            yield from (name.name.partition(".")[0] for name in node.names)
+        elif isinstance(node, ast.ImportFrom) and not node.level:
+            yield node.module.partition(".")[0]
+        elif isinstance(node, ast.Call) and ast.unparse(node.func) == "library":
+            yield node.args[0].value.partition(".")[0]
+
+
+def test_what_a_package_requires_is_part_of_it(tmp_path, monkeypatch):
+    """A library that an installed package requires, of the same version, with one byte more."""
+    for name, requires in (("outer", "Requires-Dist: inner\n"), ("inner", "")):
+        (tmp_path / f"{name}.py").write_text("")
+        info = tmp_path / f"{name}-1.0.dist-info"
+        info.mkdir()
+        (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n{requires}")
+        (info / "RECORD").write_text(f"{name}.py,,\n")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    before = package_foundation("outer", "outer")
+    package_foundation.cache_clear()
+    (tmp_path / "inner.py").write_text("#")
+    assert package_foundation("outer", "outer") != before
+
+
+def test_what_a_users_model_file_gives_is_not_kept(task, tmp_path):
+    """It may include others, and meshes."""
+    (tree,) = make_plan(["cart-pole"], ["mujoco"], "smoke").tasks
+    assert module._results_key(tree)
+    assert module._results_key(replace(tree, scene=replace(tree.scene, model="robot.xml"))) is None
+
+
+def test_a_failure_among_results_is_not_kept_either(cache, task):
+    cache.keep_results(task, [RESULT, structs.replace(RESULT, check="accelerations, other states", outcome="error")])
     assert cache.results(task) is None
 
 
@@ -188,6 +266,22 @@ def test_a_damaged_entry_is_computed_again(cache, task, damage):
         path.write_bytes(damage)
     assert cache.results(task) is None
     assert cache.facts(task.scene, 20) is None
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs pipes that have a name")
+@pytest.mark.parametrize("kind", ["pipe", "device", "folder", "itself", "sparse"])
+def test_what_is_no_entry_in_the_place_of_one_is_computed_again_at_once(cache, task, kind):
+    """A pipe would be waited for without end, a device read without end."""
+    cache.keep_results(task, [RESULT])
+    (entry,) = cache.entries()
+    entry.unlink()
+    if kind == "sparse":
+        with entry.open("wb") as file:
+            file.truncate(1 << 40)
+    else:
+        makers = {"pipe": os.mkfifo, "folder": os.mkdir, "itself": lambda path: os.symlink(path, path)}
+        makers.get(kind, lambda path: os.symlink("/dev/zero", path))(entry)
+    assert cache.results(task) is None
 
 
 def test_truth_is_found_again(cache, task):

@@ -1,14 +1,19 @@
 """The causes of a cell's differences: all of them, once, and each row with the one that explains it."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
 import furiko
 from furiko.checks.cache import Cache
+from furiko.checks.causes import Causes
 from furiko.checks.diagnoses import joined
 from furiko.checks.jobs import CellJob, Facts, TruthJob, messages_of
 from furiko.checks.plan import make_plan
+from furiko.checks.registry import CHECKS
+from furiko.diagnosis.explanation import together
+from furiko.diagnosis.finding import Finding
 from furiko.records.check import Diagnosis, Result
 from furiko.records.findings import Difference
 
@@ -141,3 +146,14 @@ def test_two_parts_of_a_diagnosis_are_one():
     assert both.explains == ["accelerations", "trajectory"]
     assert joined(None, first) == joined(first, None) == first
     assert joined(None, None) is None
+
+
+@pytest.mark.parametrize("cause", ["mass", "density", "length", "inertia", "gravity", "com-displaced"])
+def test_a_wrong_number_of_the_mechanism_is_the_cause_of_wrong_forces_too(cause):
+    """Newton's sum over all that hangs below a joint has every one of these numbers in it."""
+    found = together([Finding(cause, "link 1", 2.0, 1.0, "another number")])
+    causes = Causes(SimpleNamespace(explanation=found, scene=SimpleNamespace(name="s"), info=SimpleNamespace(name="e")))
+    for check in ("accelerations", "joint forces", "energy"):
+        result = Result(scene="s", engine="e", check=check, comparison=check, outcome="differs")
+        assert causes.named(result, CHECKS[check]).cause == cause
+    assert causes.diagnosis().explains == ["accelerations", "joint forces", "energy"]

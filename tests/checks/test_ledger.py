@@ -33,6 +33,23 @@ def test_a_check_without_results_and_one_with_too_few(ledger):
     assert "2 of its 4 results" in second.reason
 
 
+def test_a_check_that_gave_nothing_is_missing_whatever_it_says_of_itself(ledger):
+    """Each check that is planned has a result, a skip at least."""
+    ledger.promise("rods-2", "mujoco", "accelerations", 0)
+    terms = [result(f"terms {part}", "terms") for part in ("M", "C", "G", "velocity")]
+    (missing,) = ledger.missing(terms)
+    assert (missing.check, missing.outcome) == ("accelerations", "error")
+
+
+def test_what_was_settled_beforehand_must_arrive_too():
+    """Pinocchio has no integrator: the skips that say so are results as any others."""
+    plan = make_plan(["rods-2"], ["pinocchio-aba"], "quick")
+    planned = [found.comparison for found in plan.settled]
+    assert "trajectory" in planned
+    lost = {found.comparison for found in Ledger(plan).missing([])}
+    assert lost == {*planned, *plan.tasks[0].checks}
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("lost", ["a whole check", "one of several results"])
 def test_what_the_runner_drops_is_noticed(monkeypatch, lost):

@@ -5,14 +5,22 @@ import subprocess
 import sys
 from collections import Counter
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 import furiko
-from furiko.checks.cache import Cache
+from furiko.checks import runner
+from furiko.checks.cache import Cache, Kept
+from furiko.checks.jobs import CellJob, Facts, accelerations_differ
+from furiko.checks.ledger import Ledger
 from furiko.checks.plan import PROFILES, make_plan
 from furiko.checks.runner import run
+from furiko.engines.workers.messages import Failed
+from furiko.engines.workers.pool import Finished, Said
 from furiko.engines.workers.processes import worker_processes
+from furiko.models import EngineMissing, LibraryMissing
+from furiko.records.check import Diagnosis, Result
 
 CHECKS = PROFILES["quick"].checks
 
@@ -147,3 +155,89 @@ def test_every_planned_check_has_its_results(jobs):
     assert report.complete
     checks = {(result.scene, result.comparison) for result in report.results}
     assert len(checks) == 2 * len(CHECKS)
+
+
+def test_a_truth_is_looked_for_and_kept_in_as_many_states_as_the_run_has(monkeypatch):
+    asked, kept = [], []
+
+    class Spy(Cache):
+        def facts(self, scene, random_states):
+            asked.append((scene.name, random_states))
+
+        def keep_facts(self, scene, random_states, content):
+            kept.append((scene.name, random_states, content))
+
+    monkeypatch.setattr(runner, "Pool", lambda *_: SimpleNamespace(idle=list, busy=[]))
+    plan = make_plan(["rods-1"], ["mujoco"], "quick")
+    run = runner._Run(list(plan.tasks), Spy(None), None, 1, 60.0, Ledger(plan))
+    run.begin()
+    (job,), worker = run.truths, object()
+    run.progress[worker] = runner._Progress()
+    assert list(run._on(Said(worker, job, Facts(b"truth")))) == []
+    assert (asked, kept) == ([("rods-1", 200)], [("rods-1", 200, b"truth")])
+    assert [ready.facts for ready in run.ready] == [b"truth"]
+
+
+def test_a_truth_that_cannot_be_computed_fails_every_cell_of_its_scene(monkeypatch):
+    monkeypatch.setattr(runner, "Pool", lambda *_: SimpleNamespace(idle=list, busy=[]))
+    plan = make_plan(["rods-1"], ["mujoco", "exudyn-tree"], "smoke")
+    run = runner._Run(list(plan.tasks), Cache(None), None, 1, 60.0, Ledger(plan))
+    run.begin()
+    (job,), worker = run.truths, object()
+    run.progress[worker] = runner._Progress()
+    found = list(run._on(Said(worker, job, Failed("no digits left", ""))))
+    assert [(result.engine, result.outcome) for result in found] == [("mujoco", "error"), ("exudyn-tree", "error")]
+    assert all("the truth could not be computed: no digits left" in result.reason for result in found)
+
+
+def test_a_check_that_a_worker_never_told_of_is_an_error_and_its_cell_is_not_kept(monkeypatch):
+    kept = []
+    monkeypatch.setattr(runner, "Pool", lambda *_: SimpleNamespace(idle=list, busy=[]))
+    monkeypatch.setattr(Cache, "keep_results", lambda self, task, results, found: kept.append(results))
+    (task,) = (plan := make_plan(["rods-1"], ["mujoco"], "quick")).tasks
+    run = runner._Run([task], Cache(None), None, 1, 60.0, Ledger(plan))
+    run.begin()
+    job, worker = CellJob(task, b""), object()
+    for told, missing in ((task.checks[1:], [(task.checks[0], "error")]), (task.checks, [])):
+        run.progress[worker] = runner._Progress(compared=set(told))
+        found = list(run._on(Finished(worker, job)))
+        assert [(result.check, result.outcome) for result in found] == missing
+    assert kept == [[]]  # the second, of which nothing is missing
+
+
+def test_what_is_kept_comes_with_its_diagnosis_and_is_promised(monkeypatch):
+    plan = make_plan(["rods-1"], ["mujoco"], "smoke")
+    (task,) = plan.tasks
+    (check,) = task.checks
+    results = [
+        Result(scene="rods-1", engine="mujoco", check=name, comparison=check, outcome="differs") for name in ("a", "b")
+    ]
+    diagnosis = Diagnosis(scene="rods-1", engine="mujoco", explains=["a"])
+    monkeypatch.setattr(Cache, "results", lambda *_: Kept(results, [diagnosis]))
+    ledger = Ledger(plan)
+    found = list(run(plan, cache=Cache(None), source=None, ledger=ledger))
+    assert found == [*plan.settled, *results, diagnosis]
+    assert "1 of its 2 results" in ledger.missing([*plan.settled, results[0]])[0].reason
+
+
+@pytest.mark.parametrize(
+    ("check", "outcome", "stops"),
+    [("accelerations", "differs", True), ("accelerations", "error", False), ("terms", "differs", False)],
+)
+def test_only_accelerations_that_differ_make_a_motion_pointless(check, outcome, stops):
+    """An engine's motion rests on its accelerations, and on none of its other answers."""
+    result = Result(scene="s", engine="e", check=check, comparison=check, outcome=outcome)
+    assert accelerations_differ(check, result) == stops
+
+
+@pytest.mark.parametrize(("missing", "outcome"), [(EngineMissing, "error"), (LibraryMissing, "skipped")])
+def test_an_engine_that_is_gone_has_failed_and_a_library_of_furikos_own_is_a_reason_to_skip(missing, outcome):
+    def compare(_cell):
+        raise missing("it is not there")
+
+    check = SimpleNamespace(name="terms", moves=False, compare=compare)
+    cell = SimpleNamespace(result=lambda name, found, **more: (name, found, more["reason"]))
+    (task,) = make_plan(["rods-1"], ["mujoco"], "smoke").tasks
+    (found,) = CellJob(task, b"")._results(check, cell, False, None)
+    assert found[:2] == ("terms", outcome)
+    assert "it is not there" in found[2]

@@ -7,6 +7,7 @@ import pytest
 
 from furiko.checks import sharp
 from furiko.checks.comparisons import energy, step_map, symmetries, trajectories
+from furiko.checks.step_rounding import disturbed
 from furiko.engines import ENGINES
 from furiko.models import NLegPendulum, RodChain, Scene
 from furiko.reference import literal_accelerations
@@ -223,3 +224,29 @@ def test_near_rest_a_run_may_be_that_of_any_scheme_whose_first_step_is_the_same(
     cell = make_cell(engine, Scene(name, system, theta, omega, duration))
     for result in (*trajectories.compare(cell), *energy.compare(cell)):
         assert (result.outcome, result.loose) == ("agrees", False), result
+
+
+def test_a_step_may_be_that_of_any_scheme_within_the_proven_bound(make_cell):
+    """Of a leg a hundred times shorter than the first: 3/8 rule and classical Runge-Kutta are 4e-15 rad/s apart in its
+    rate, of which the proven bound explains 4e-14, and ten roundings as they are 1e-15. Exudyn's is the latter.
+    """
+    system = NLegPendulum(
+        (5.67544700133484e-22, 3.838322299228545e-24, 5.0080959149773334e-23),
+        (1.2480731588927749e30, 1.1154102428495624e30, 1.200739138436013e30),
+        9.931839693377556e-24,
+    )
+    # The name is what random states follow from.
+    runge_kutta, *_ = step_map.compare(make_cell("exudyn-tree", Scene("absurd-102-0", system), random_states=200))
+    assert (runge_kutta.outcome, runge_kutta.loose) == ("agrees", False), runge_kutta
+
+
+@pytest.mark.parametrize("engine", ["mujoco", "exudyn-tree"])
+def test_a_run_is_that_of_one_scheme_where_steps_are_not_the_same_to_rounding(make_cell, engine):
+    """Of a lively motion: the 3/8 rule, whose first step is another by 1e-9, would explain a wrong run too."""
+    cell = make_cell(engine, "double-pendulum", 5)
+    runge_kutta = next(one for one in cell.info.integrators if one.order == 4)
+    theta, omega = (values[None] for values in cell.start)
+    alpha = literal_accelerations(cell.scene.system, theta, omega)
+    by = disturbed(cell, runge_kutta, theta, omega, alpha)
+    found = trajectories.schemes_of(cell, runge_kutta, theta, omega, 0.02, by)
+    assert [candidate.scheme.name for candidate in found] == ["classical Runge-Kutta"]

@@ -8,7 +8,10 @@ import pytest
 
 import furiko
 from furiko.cli.main import run
+from furiko.models.errors import InvalidInput
 from furiko.records.schema import FOLDER, SCHEMAS
+from furiko.reports import StreamWriter
+from furiko.run import ReportNotWritten
 
 DERIVATION = """system = "n-leg"
 links = 2
@@ -77,3 +80,33 @@ def test_another_document_is_not(name):
     validator = jsonschema.Draft202012Validator(json.loads((FOLDER / f"{name}.json").read_text(encoding="utf-8")))
     for other in (1, {}, [{}], {"verdict": "maybe"}):
         assert not validator.is_valid(other)
+
+
+def test_a_run_prints_all_that_its_stream_has(printed, tmp_path):
+    """Skipped and differing results, diagnoses and the footer: nothing is known from JSON that is not so."""
+    document = printed("check", "rods-1", "-e", "mujoco", "-e", "pinocchio-aba", "--out", "here")
+    lines = [json.loads(line) for line in (tmp_path / "here" / "report.jsonl").read_text().splitlines()]
+    results = [line for line in lines if line["kind"] == "result"]
+    assert {line["outcome"] for line in results} == {"agrees", "skipped"}
+    assert len(document["results"]) == len(results)
+    assert document["footer"]["digest"] == lines[-1]["digest"]
+
+
+def full(*_, **__):
+    raise InvalidInput("report: cannot be written: No space left on device")
+
+
+def test_a_report_that_cannot_be_written_is_an_incomplete_run(tmp_path, monkeypatch, capfd):
+    """All agrees, and the disk fills up at the end."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("furiko.run.write_reports", full)
+    assert run(["check", "rods-1", "-e", "mujoco", "--profile", "smoke"]) == 3
+    assert "No space left" in capfd.readouterr().err
+
+
+def test_a_stream_that_takes_no_more_is_told_and_has_no_footer(tmp_path, monkeypatch):
+    monkeypatch.setattr(StreamWriter, "write", full)
+    with pytest.raises(ReportNotWritten, match="No space left") as caught:
+        furiko.check(["rods-1"], ["mujoco"], profile="smoke", out=tmp_path)
+    assert [result.outcome for result in caught.value.report.results] == ["agrees"]
+    assert not furiko.read_stream(tmp_path).complete

@@ -7,7 +7,10 @@ import sys
 from pathlib import Path
 from xml.etree import ElementTree
 
+import msgspec
 import pytest
+
+from furiko.reports import StreamWriter, read_stream
 
 FAKES = Path(__file__).parent.parent
 ENVIRONMENT = os.environ | {"PYTHONPATH": os.pathsep.join([str(FAKES), *filter(None, [os.environ.get("PYTHONPATH")])])}
@@ -67,9 +70,24 @@ def test_json_has_it(check):
     assert known["state"] == "differs"
     assert known["results"] == [["rods-2", "fake_engines:SignFlipped", "accelerations"]]
     assert known["reason"] == "it is a fake"
+    (diagnosis,) = json.loads(done.stdout)["diagnoses"]
+    assert diagnosis["explains"] == ["accelerations"]
 
 
 def test_a_bad_file_is_one_line_before_anything_runs(check):
     done = check("Right", "[[known]]\n")
     assert (done.returncode, done.stdout) == (2, "")
     assert len(done.stderr.splitlines()) == 1
+
+
+def test_a_baseline_decides_too_where_all_that_differs_is_known(check, tmp_path):
+    """It is known now, and it agreed then."""
+    first = check("SignFlipped", KNOWN.format("rods-*"), "--out", "now")
+    then = read_stream(tmp_path / "now")
+    with StreamWriter(tmp_path / "then.jsonl", then.header) as stream:
+        for result in then.results:
+            stream.write(msgspec.structs.replace(result, outcome="agrees", measured=1.0))
+        stream.finish()
+    second = check("SignFlipped", KNOWN.format("rods-*"), "--baseline", "then.jsonl")
+    assert (first.returncode, second.returncode) == (0, 1), second
+    assert "broke (1)" in second.stdout

@@ -58,7 +58,7 @@ ROOMS = {
     ),
     "studies": (
         {"models", "records", "reference", "engines", "diagnosis", "checks"},
-        [(".",), ("bench", "stress", "versions")],
+        [(".",), ("bench", "maps", "stress", "sweep", "versions")],
     ),
     "derivations": (
         {"models", "reference"},
@@ -154,7 +154,7 @@ def test_inside_the_package_imports_are_relative_and_engines_are_adapters_alone(
 
 def test_every_folder_at_the_root_is_known():
     found = {path.name for path in ROOT.iterdir() if path.is_dir() and path.name[0] not in "._"}
-    built = {"build", "dist", "furiko.egg-info", "furiko-report", "furiko-stress"}
+    built = {"build", "dist", "furiko.egg-info", "furiko-report", "furiko-stress", "furiko-sweep"}
     assert found - built == {*ROOMS, "tests", "docs", "benchmarks"}
     assert len(found - built) <= 13
 

@@ -141,3 +141,17 @@ def test_a_narrower_run_is_one_line_and_what_disappeared_within_it_is_not(make):
     lost = make.report(both[0], both[3], scenes=scenes)
     assert "disappeared (2)" in compare(wide, lost).text()
     assert "not looked at" not in compare(wide, lost).text()
+
+
+def test_how_many_times_an_error_grew_is_told(make):
+    comparison = compare(make.report(make.result(measured=2.0)), make.report(make.result(measured=7.0)))
+    (change,) = comparison.changes
+    assert change.ratio == 3.5
+    assert "3.5 ×" in comparison.text()
+
+
+def test_a_library_of_which_one_run_says_nothing_is_no_other_circumstance(make):
+    old = make.report(make.result(), versions={"numpy": "2.0", "mujoco": "4.0.1"})
+    new = make.report(make.result(), versions={"numpy": "2.1", "scipy": "1.15", "mujoco": "4.0.2"})
+    # mujoco is the engine's package: its version is told with the engine, or not at all
+    assert compare(old, new).circumstances == (("numpy", "2.0", "2.1"),)

@@ -135,3 +135,10 @@ def test_a_bad_file_is_refused_with_the_field(tmp_path, text, says):
 def test_no_file_is_refused(tmp_path):
     with pytest.raises(InvalidInput):
         read_known(tmp_path / "none.toml")
+
+
+def test_an_entry_accounts_for_no_failure(make):
+    run = make.report(make.result("error"), make.result("differs", check="energy"))
+    known = known_in(run, [entry()])
+    assert list(known.by_result) == [("rods-2", "mujoco", "energy")]
+    assert known.exit_status_of(False, False) == 3

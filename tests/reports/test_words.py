@@ -4,7 +4,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from furiko.reports.words import figure, last_line, one_line, printable
+from furiko.records.exit_status import AGREES, DIFFERS, INCOMPLETE, INTERNAL_ERROR, TERMINATED
+from furiko.reports.words import figure, last_line, one_line, outcome_of, printable
 
 
 @pytest.mark.parametrize(
@@ -59,3 +60,8 @@ def test_spaces_of_other_scripts_are_spaces_and_controls_are_not():
 def test_of_a_traceback_the_last_line_tells():
     assert last_line("Traceback (most recent call last):\n  File x\nValueError: no") == "ValueError: no"
     assert last_line("first\nsecond") == "first\nsecond"
+
+
+def test_only_a_whole_run_that_agrees_has_its_glyph():
+    assert [outcome_of(status) for status in (AGREES, DIFFERS)] == ["agrees", "differs"]
+    assert {outcome_of(status) for status in (INCOMPLETE, INTERNAL_ERROR, TERMINATED)} == {"error"}

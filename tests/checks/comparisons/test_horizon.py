@@ -79,6 +79,19 @@ def test_another_model_is_told_from_a_scheme(make_cell, monkeypatch):
     assert "another model" in second.reason
 
 
+@pytest.mark.parametrize(("later", "agrees"), [(0.0, True), (0.1, True), (-1.0, False), (1.0, False)])
+def test_a_run_that_parts_too_early_or_too_late_is_missed_by_so_much(later, agrees):
+    """Both errors grow e-fold in half a second: the predicted one is a thousandth after 5 s, the measured one later."""
+    times = np.linspace(0.0, 10.0, 1001)
+    predicted, measured = (1e-3 * np.exp(2 * (times - at)) for at in (5.0, 5.0 + later))
+    nothing = np.zeros((0, 1))
+    found = horizon.Horizon(None, 0.01, times, predicted, measured, nothing, 0.0, 0.5, nothing, nothing)
+    known = math.log(1.05) / 2 + 1.5 * 0.01  # of a prediction to a twentieth, and a step and a half
+    expected = max(0.0, abs(later) - known) / (5.0 + later)
+    assert found.miss() == pytest.approx(expected, abs=0.01 / 4)  # of the grid of times
+    assert (found.miss() <= horizon.EXPLAINED) == agrees
+
+
 def test_errors_are_carried_by_the_flow():
     # e₁ = d₁, e₂ = Φ e₁ + d₂: twice, and one more.
     flow = np.repeat(2 * np.eye(2)[None], 3, axis=0)

@@ -65,3 +65,19 @@ def test_steps_that_are_too_long_for_the_motion_are_skipped_and_said(make_cell):
         found = list(invariants.compare(cell))
         assert "differs" not in {result.outcome for result in found}, found
         assert any("do not fall" in result.reason for result in found), found
+
+
+def test_energy_is_kept_by_the_engines_own_account_of_it(make_cell):
+    """An account that has a part of the angle too much: its motion keeps the documents' energy, and not this."""
+    cell = make_cell("fake_engines:Right", "double-pendulum", 3)
+
+    class Account:
+        def __getattr__(self, name):
+            return getattr(cell.engine, name)
+
+        def energy(self, theta, omega):
+            return cell.engine.energy(theta, omega) + 1e-3 * theta
+
+    found = {result.check: result for result in invariants.compare(replace(cell, engine=Account()))}
+    assert found["invariant energy RK4"].outcome == "differs"
+    assert found["invariant there and back RK4"].outcome == "agrees"

@@ -117,3 +117,21 @@ def test_a_scheme_that_cannot_be_solved_for_the_step_is_no_error_of_the_engine(m
     path.write_text(UNSOLVED, encoding="utf-8")
     found = list(step_map.compare(make_cell("exudyn-redundant", find_scene(str(path)), 200)))
     assert {(result.outcome, result.loose) for result in found} <= {("agrees", False), ("skipped", False)}, found
+
+
+@pytest.mark.parametrize("what", [0, 1])
+@pytest.mark.parametrize("link", [0, 1])
+@pytest.mark.parametrize("state", [-3, -2, -1])
+def test_one_angle_or_rate_after_a_step_from_one_of_the_states_is_enough(make_cell, what, link, state):
+    """Of a millionth: the bounds are some 1e-14."""
+    cell = make_cell(Fake, "double-pendulum")
+    here = cell.states.theta[state]
+
+    class Moved(Fake):
+        def trajectory(self, theta, omega, *run):
+            ends = super().trajectory(theta, omega, *run)
+            ends[what][link] += 1e-6 * (theta == here).all()
+            return ends
+
+    result = only(step_map.compare(make_cell(Moved, "double-pendulum")))
+    assert result.outcome == "differs"

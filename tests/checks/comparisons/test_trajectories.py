@@ -9,6 +9,7 @@ from fake_integrators import Damped, Fake, LongStep
 from furiko.checks.comparisons import trajectories
 from furiko.checks.comparisons.trajectories import Ladder
 from furiko.models import NLegPendulum, RodChain, Scene
+from furiko.reference.integration.schemes import SCHEMES
 from furiko.reference.rounding.bounds import EPSILON
 
 
@@ -90,8 +91,10 @@ def test_sound_motions_that_only_their_numbers_make_unusual(make_cell, engine, s
 
 
 def test_four_steps_are_reported(make_cell):
-    (result,) = trajectories.compare(make_cell(Fake, "double-pendulum"))
+    cell = make_cell(Fake, "double-pendulum")
+    (result,) = trajectories.compare(cell)
     assert result.outcome == "agrees"
+    assert result.details["time"] > cell.scene.duration / 8  # the first of the truth's times is not enough
     assert len(result.details["steps"]) == len(result.details["errors"]) == 4
     ratios = np.array(result.details["steps"][:-1]) / result.details["steps"][1:]
     np.testing.assert_allclose(ratios, 2)
@@ -126,3 +129,52 @@ def test_rounding_of_a_run_grows_with_its_steps_and_its_time():
     """Ten steps and two seconds: angles and rates of every step, and what turns and speeds in every second."""
     found = trajectories.Rounding(angle=1.0, rate=10.0, turning=100.0, speeding=1000.0)
     assert found.after(10, 2.0, (3.0, 5.0)) == (10 * 1.0 + 2 * 100.0) * 3.0 + (10 * 10.0 + 2 * 1000.0) * 5.0
+
+
+@pytest.mark.parametrize(("name", "order"), [("Kutta's third order", 3), ("explicit midpoint", 2)])
+def test_a_scheme_of_a_lower_order_than_said_differs_by_its_order_alone(make_cell, name, order):
+    """It converges to the true motion; and with some hundred steps it is known that no finer ones raise its order."""
+
+    class Lower(Fake):
+        scheme = next(scheme for scheme in SCHEMES if scheme.name == name)
+
+    (result,) = trajectories.compare(make_cell(Lower, "double-pendulum"))
+    assert result.outcome == "differs"
+    assert result.measured <= result.allowed
+    assert "RK4 is of order 4 and shows order" in result.reason
+    assert result.details["measured order"] == pytest.approx(order, abs=trajectories.ORDER_SETTLED / 4)
+    assert result.details["time"] / result.details["steps"][-1] < 1000
+
+
+class Beside(Fake):
+    """Every run ends a ten-thousandth of a radian beside where it should."""
+
+    def trajectory(self, theta, omega, integrator, step, steps):
+        angles, rates = super().trajectory(theta, omega, integrator, step, steps)
+        return angles + 1e-4, rates
+
+
+@pytest.mark.parametrize(("sure", "outcome"), [(0.0, "differs"), (2e-4, "agrees")])
+def test_no_motion_is_judged_beyond_what_its_truth_is_sure_to(make_cell, monkeypatch, sure, outcome):
+    monkeypatch.setattr(trajectories, "sure", lambda *_: (np.full(4, sure), [False] * 4))
+    monkeypatch.setattr(trajectories, "FEW_STEPS", 1)  # the first of the times is enough
+    (result,) = trajectories.compare(make_cell(Beside, "double-pendulum"))
+    assert result.outcome == outcome
+
+
+def test_rounding_grows_as_near_states_part():
+    """A rod upright: δ̈ = ν² δ with ν² = 3 g / 2 l. An angle of 1 becomes cosh νt, a rate of 1 the angle sinh(νt)/ν."""
+    scene = Scene("upright", RodChain((1.0,), 1.0, 6.0), (math.pi,), (0.0,), 1.0)
+
+    class Cell:
+        start = np.array(scene.theta), np.array(scene.omega)
+
+        def trajectory(self, theta, omega, _integrator, step, steps):
+            return np.array(Fake(scene.system).trajectory(theta, omega, "RK4", step, steps))
+
+    cell = Cell()
+    cell.scene = scene
+    ends = tuple(trajectories.run(cell, None, 1.0, 8 << k) for k in range(4))
+    found = trajectories.growth(cell, None, Ladder(1 / 8, 8, ends))
+    # The classical scheme at νh = 3/16: its own error is (νh)⁴ / 120 of what grows, 1e-5.
+    assert found == pytest.approx((math.cosh(3.0), math.sinh(3.0) / 3.0), rel=1e-4)

@@ -94,6 +94,7 @@ def test_a_right_engine_agrees_in_every_comparison(scene, facts):
         ("WrongVelocityTerms", "terms bias", "bias: the entry of"),
         ("WrongPassive", "terms passive", "forces of dampers and springs"),
         ("WrongEnergy", "energy", "the kinetic energy is off by"),
+        ("WrongHeight", "energy", "the potential energy is off by"),
         ("WrongScheme", "trajectory RK4", "order"),
     ],
 )

@@ -99,3 +99,57 @@ def _running(pid):
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
     except OSError:
         return False
+
+
+def process_of(job):
+    """The worker's process, which has done the job."""
+    with worker_processes(keeps=True) as source:
+        pids = []
+        for _ in range(2):
+            pool = Pool(source, 1)
+            pool.give(pool.workers[0], job, 60.0)
+            while pool.busy:
+                list(pool.events())
+            pids.append(pool.workers[0].process.process.pid)
+            pool.close()
+    return pids
+
+
+def test_a_source_that_keeps_its_workers_gives_them_to_the_next_pool():
+    first, second = process_of(Works(engine=True, seconds=0.0))
+    assert first == second
+
+
+def test_one_that_died_while_it_waited_is_not_given_out():
+    with worker_processes(keeps=True) as source:
+        pool = Pool(source, 1)
+        (old,) = [worker.process for worker in pool.workers]
+        pool.close()
+        old.process.kill()
+        old.process.wait()
+        assert source.worker() is not old
+    assert source.taken[0].process.poll() is not None
+
+
+def test_a_busy_worker_is_not_kept():
+    with worker_processes(keeps=True) as source:
+        pool = Pool(source, 1)
+        (old,) = [worker.process for worker in pool.workers]
+        pool.give(pool.workers[0], Works(engine=True, seconds=3600.0), 3600.0)
+        pool.close()
+        assert old.process.poll() is not None
+        assert source.waiting == source.taken == []
+
+
+def test_the_start_of_a_worker_is_not_on_the_engines_clock(tmp_path, monkeypatch):
+    (tmp_path / "slow_to_import.py").write_text("import time\ntime.sleep(4)\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    with worker_processes(modules=["slow_to_import"]) as source:
+        pool = Pool(source, 1)
+        # The job itself sleeps for no time; two seconds are enough for its few messages.
+        pool.give(pool.workers[0], Works(engine=True, seconds=0.0), 2.0)
+        found = []
+        while pool.busy:
+            found += pool.events()
+        pool.close()
+    assert isinstance(found[-1], Finished), found[-1]

@@ -1,6 +1,7 @@
 """A file is written completely or not at all, and nothing is left beside it."""
 
 import os
+import subprocess
 import threading
 from pathlib import Path
 
@@ -64,3 +65,21 @@ def test_a_place_that_cannot_be_written(tmp_path):
         with pytest.raises(InvalidInput, match="cannot be written"):
             write_whole(path, "text")
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs pipes that have a name")
+def test_a_pipe_that_nobody_reads_is_not_waited_for(tmp_path):
+    os.mkfifo(tmp_path / "report.html")
+    with pytest.raises(InvalidInput, match=r"report\.html: cannot be written: No such device or address"):
+        write_whole(tmp_path / "report.html", "text")
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs pipes that have a name")
+def test_a_pipe_that_somebody_reads_gets_all_of_it(tmp_path):
+    """More than a pipe holds at once, 64 kB: the writer waits for the reader then."""
+    pipe = tmp_path / "report.html"
+    os.mkfifo(pipe)
+    with (tmp_path / "read").open("wb") as read, subprocess.Popen(["cat", pipe], stdout=read) as reader:
+        write_whole(pipe, "x" * 1_000_000)
+        assert reader.wait(30) == 0
+    assert (tmp_path / "read").stat().st_size == 1_000_000

@@ -39,6 +39,22 @@ def test_both_enclosures_hold_the_same_value(system):
     assert ours.relative_radius <= 2.0**-80
 
 
+@pytest.mark.parametrize(
+    "system",
+    [
+        RodChain(tuple(random.uniform(0.1, 2, 25))),
+        NLegPendulum(tuple(random.uniform(0.1, 2, 25)), tuple(random.uniform(1e-3, 1e3, 25))),
+    ],
+    ids=["25-rods", "24-legs"],
+)
+def test_joint_forces_of_both_are_the_same(system):
+    theta, omega = (np.array(rows) for rows in zip(*(state(system.n) for _ in range(3)), strict=True))
+    ours, literal = (proofs.enclosed_joint_forces(system, theta, omega) for proofs in (newton_euler, enclosures))
+    apart = np.abs((ours.high - literal.high) + (ours.low - literal.low))
+    assert (apart <= ours.radius + literal.radius + 2.0**-52 * np.abs(literal.low)).all()  # as above
+    assert (ours.radius.max((-2, -1)) <= 2.0**-80 * np.abs(ours.high).max((-2, -1))).all()
+
+
 def test_the_proof_notices_a_wrong_acceleration():
     from flint import arb
 

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from furiko.records.check import Diagnosis
 from furiko.records.findings import Difference
 from furiko.reports.ci.junit import to_junit
+from furiko.reports.known import Entry, known_in
 from furiko.reports.report import Report
 
 
@@ -101,6 +102,14 @@ def test_a_failure_carries_its_whole_diagnosis(make):
     assert failure.get("type") == "mass"
     assert "either mass of link 1 is 2" in failure.text
     assert failure.get("message").startswith("either mass of link 1 is 2; ")
+
+
+def test_a_failure_is_none_of_the_known_differences(make):
+    """Of a check that gave one result, and was lost with its worker before the next: both go by the check's name."""
+    run = make.report(make.result("differs"), make.result("error", reason="the engine's process died"))
+    root = ElementTree.fromstring(to_junit(run, known_in(run, [Entry("*", "*", "accepted")])).encode())
+    assert_structure(root)
+    assert [root.get(name) for name in ("tests", "failures", "errors", "skipped")] == ["2", "0", "1", "1"]
 
 
 @settings(deadline=None, max_examples=60)

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from furiko.reports.ci.markdown import escape, to_markdown
+from furiko.reports.known import Entry, known_in
 from furiko.reports.report import Report
 
 HOSTILE = "a|b `c` <img src=x onerror=alert(1)> [l](javascript:x) **b** @you #1 https://x.y \n## h\n| x |"
@@ -80,3 +81,11 @@ def test_loose_results_are_rows_of_their_own(make):
     assert "| rods-2 | mujoco | accelerations | 50 ε | 4 ε | 64 ε | Monte-Carlo |" in text.replace("&#949;", "ε")
     assert "| rods-2 | ≈ loose 50 ε |" in text
     assert "Loose" not in to_markdown(make.report(make.result()))
+
+
+def test_what_has_no_cause_and_what_is_known_are_told(make):
+    run = make.report(make.result("differs"), make.result("differs", check="energy"))
+    text = to_markdown(run, known_in(run, [Entry("*", "*", "it is a fake", check="energy")])).replace("&#58;", ":")
+    assert "### Known differences: 1 of 2 differences; 1 not known\n" in text
+    assert ": 1 difference: it is a fake\n" in text
+    assert "### Differs without a known cause\n\n- " in text

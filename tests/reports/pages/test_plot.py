@@ -2,8 +2,7 @@
 
 import pytest
 
-from furiko.reports.pages.plot import LARGE, Series, draw
-from furiko.reports.pages.series import to_series
+from furiko.reports.pages.plot import LARGE, Series, draw, to_series
 
 
 def places(ticks):
