@@ -7,12 +7,12 @@ author's symbols then stand for. None is a guess at a verdict: a derivation is h
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import gcd, lcm
 
 from flint import fmpq
 
-from ..algebra.trig import Formula, Space, constant
+from ..algebra.trig import NOTHING, Formula, Space, constant
 from ..reading.submission import Submission
 from ..steps.conventions import Convention, conventions
 from ..steps.families import Choices, family
@@ -105,6 +105,8 @@ def hypotheses(s: Submission, *, pinned: bool = False) -> Iterator[Hypothesis]:
                 mechanism = s.mechanism.mechanism(convention)
             else:
                 mechanism = family(s.kind, s.space, convention, variant.choices).with_values(merged(s, variant))
+            if s.weightless:
+                mechanism = replace(mechanism, weight=NOTHING)
             yield Hypothesis(mechanism, convention, variant, assumes)
 
 

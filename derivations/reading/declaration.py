@@ -21,14 +21,14 @@ from typing import Any
 from ...models.errors import InvalidInput, nearest
 from ..algebra.signs import sign_symbols
 from ..algebra.trig import NOTHING, Formula, Space
+from ..dialects.lines import LONGEST_LINE
+from ..dialects.names import GREEK, WRITTEN, base_and_index, is_joined, plain_name, spelling, splits
 from ..steps.declared import Declared, Joined, pivot_to_centre
 from .evaluation import Evaluation
 from .layout import laid_out
 from .meaning import Meaning, momentum_symbols
 from .momenta import Variable, has_momenta, variable
-from .names import GREEK, WRITTEN, base_and_index, is_joined, plain_name, spelling, splits
 from .parser import parse_expression
-from .tokens import LONGEST_LINE
 from .vocabulary import ANGLES, FUNCTIONS, LETTERS, Vocabulary
 
 MOST_BODIES = 8
@@ -96,7 +96,9 @@ def declared(
                 raise InvalidInput(f"bodies {place}: {name}: a text in quotes is needed, got {value!r:.40}")
     names, apart = _names([*(b[q] for b in bodies for q in QUANTITIES if q in b), *constants])
     coordinates = tuple(_coordinate(b, place) for place, b in enumerate(bodies, 1))
-    taken = frozenset({*names, *(base for base, _ in coordinates), *map(str, data.get("define", {}))})
+    defined = tuple(map(str, data.get("define", {})))
+    taken = frozenset({*names, *(base for base, _ in coordinates), *defined})
+    taken |= {found[0] for name in defined if (found := base_and_index(name)) and found[1]}
     names += [_reaction(k) for k, body in enumerate(bodies) if _is_given(body, k)]
     letter = variable(texts, len(bodies), momenta=has_momenta(data), coordinates=coordinates, taken=taken)
     signs = has_signs or any("friction" in b for b in bodies)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..dialects.table import translated
 from .forms.hamilton import read_hamilton
 from .forms.stages import is_staged, read_stages
 from .submission import Submission, known_fields, opened, read_fields
@@ -15,6 +16,7 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     Raises InvalidInput, with the place, where it is none.
     """
     known_fields(data)
+    data = translated(data)
     reader = opened(data, slashes)
     if is_staged(data, reader.evaluation.space.n):
         return read_stages(data, reader)

@@ -8,10 +8,10 @@ from flint import fmpq
 
 from ..algebra.quotient import Budget, Quotient, number
 from ..algebra.signs import sign_of
-from ..algebra.trig import COS, SIN, Formula, unit
+from ..algebra.trig import CONSTANT_ONE, COS, SIN, Formula, unit
 from .matrices import Grid, added, inverse, multiplied, scaled
 from .meaning import WORDS, Meaning
-from .parser import Call, Inverse, Matrix, Name, Node, Number, Power, Product, Root, Sum, Symbol
+from .nodes import Call, Inverse, Matrix, Name, Node, Number, Power, Product, Rate, Root, Sum, Symbol
 from .tokens import fail
 
 LARGEST_ANGLE_FACTOR = 16  # cos(16 θ) at most: harmonics stay small, and nobody writes more
@@ -39,7 +39,7 @@ class Evaluation:
             )
         return value
 
-    def value(self, node: Node) -> Value:  # noqa: PLR0911 -- one for each kind of node
+    def value(self, node: Node) -> Value:  # noqa: PLR0911, PLR0912 -- one for each kind of node
         """The formula or the matrix of a tree. Raises InvalidInput, with the column, where it has no meaning."""
         match node:
             case Number(value=value):
@@ -58,7 +58,8 @@ class Evaluation:
             case Product(parts=parts):
                 product: Value | None = None
                 for above, part in parts:
-                    factor = self._factor(part, above)
+                    vector = self.column(part) if above and isinstance(product, Grid) else None
+                    factor = self._factor(part, above) if vector is None else vector
                     self.budget.at = part.at
                     product = factor if product is None else multiplied(product, factor, self.budget)
                 return number(1) if product is None else product
@@ -70,8 +71,17 @@ class Evaluation:
                 return Grid(tuple(tuple(self.scalar(entry) for entry in row) for row in rows))
             case Inverse(base=base, at=at):
                 return self._power(base, -1, at)
+            case Rate():
+                return self._rate(node)
             case Root(at=at):
                 return fail(at, "a square root; it is read where it is squared, as in w0^2 with w0 = sqrt(g/l)")
+
+    def column(self, node: Node) -> Grid | None:
+        """All rates, or all accelerations, of a symbol without an index; None where it is none."""
+        n = self.space.n
+        if not isinstance(node, Symbol) or node.index or node.letter not in "wa" or n < 2:
+            return None
+        return Grid(tuple((self.meaning.symbol(node.letter, k, node.at),) for k in range(1, n + 1)))
 
     def _signed(self, value: Value, sign: int) -> Value:
         return value if sign > 0 else scaled(value, number(-1), self.budget)
@@ -82,6 +92,37 @@ class Evaluation:
                 self._values[text] = self.value(self.definitions[text])
             return self._values[text]
         return self.meaning.own(text, at)
+
+    def _rate(self, node: Rate) -> Value:
+        """The time derivative; of a matrix, entry by entry."""
+        if isinstance(node.base, Name) and node.base.text not in self.definitions:
+            fail(node.at, f"a dot or a prime on {node.base.text}, which is no coordinate; say what it is in [define]")
+        value = self.value(node.base)
+        self.budget.at = node.at
+        if isinstance(value, Grid):
+            return Grid(tuple(tuple(self._by_time(x, node.at) for x in row) for row in value.rows))
+        found = self._by_time(value, node.at)
+        if isinstance(node.base, Name) and not found.numerator:
+            fail(node.at, f"{node.base.text} does not change with time; give what the prime means a name of its own")
+        return found
+
+    def _by_time(self, value: Quotient, at: int) -> Quotient:
+        """By the quotient rule, a factor of the denominator at a time."""
+        space, budget, degree = self.space, self.budget, value.degree
+        for part in (value.numerator, *value.denominator):
+            places = space.places(part)
+            if any(k < space.n for k in places):
+                fail(at, "a third time derivative; an equation of motion has none")
+            if any(space.names[k] in self.meaning.momenta for k in places):
+                fail(at, "d/dt of an expression with momenta; write it in coordinates and rates")
+            budget.left -= 2 * space.n * len(part)
+        over = Quotient(CONSTANT_ONE, value.denominator, degree)
+        found = Quotient(space.by_time(value.numerator), {}, degree + 2).times(over, budget)
+        for factor, power in value.denominator.items():
+            inner = Quotient(budget.product(value.numerator, space.by_time(factor).times(power)), {}, 2 * degree + 2)
+            below = Quotient(CONSTANT_ONE, {factor: 1}, degree)
+            found = found.plus(inner.times(over, budget).times(below, budget), -1, budget)
+        return found
 
     def _power(self, base: Node, exponent: int, at: int) -> Value:
         root = self.definitions.get(base.text) if isinstance(base, Name) else base

@@ -27,7 +27,21 @@ SQUARED = re.compile(
 )
 TRANSPOSED = re.compile(r"(?P<list>\[[^\[\];]{0,2000}\])\.?'")
 MATLAB = re.compile(r"\[[^\[\]]*;[^\[\]]*\]")
+_ENTRY = r"(?:[A-Za-z]{1,3}_?[1-9]{2}|0)"  # M11, which is an entry and no factor
+NUMBERED = re.compile(rf"\[\s*{_ENTRY}(?:[ \t]+{_ENTRY})+\s*(?:;\s*{_ENTRY}(?:[ \t]+{_ENTRY})+\s*)+\]")
 ENTRY_ENDS = re.compile(r"(?<=[\w)'])(?P<blank>[ \t]+)(?=[\w(]|[+-][\w(])")
+
+_OF = r"\s*(?:\([^=()]{0,200}\)\s*)?"
+LEFT_SIDE = {  # what people write in front of an energy
+    "kinetic": re.compile(rf"^\s*(?:[TK]|KE|E_?\{{?k\}}?|\\mathcal\s*\{{?\s*T\s*\}}?){_OF}="),
+    "potential": re.compile(rf"^\s*(?:[UV]|PE|E_?\{{?p\}}?|\\mathcal\s*\{{?\s*[UV]\s*\}}?){_OF}="),
+    "lagrangian": re.compile(
+        rf"^\s*(?:L|\\mathcal\s*\{{?\s*L\s*\}}?|\\mathscr\s*\{{?\s*L\s*\}}?|ℒ|𝓛){_OF}(?:=\s*T\s*[-−]\s*[UV]\s*)?="
+    ),
+    "hamiltonian": re.compile(
+        rf"^\s*(?:H|\\mathcal\s*\{{?\s*H\s*\}}?|\\mathscr\s*\{{?\s*H\s*\}}?|ℋ){_OF}(?:=\s*T\s*\+\s*[UV]\s*)?="
+    ),
+}
 
 
 def laid_out(line: str) -> str:
@@ -88,6 +102,8 @@ def _matlab(line: str) -> str:
 
 def _entries(matrix: str) -> str:
     """Commas for blanks, where products have a star, in every row, and so a blank is none."""
+    if NUMBERED.fullmatch(matrix):
+        return re.sub(r"(?<=[0-9])[ \t](?=[ \t]*[A-Za-z0-9])", ",", matrix)
     if "," in matrix or not all("*" in row for row in matrix[1:-1].split(";")):
         return matrix
     depth, out = 0, list(matrix)

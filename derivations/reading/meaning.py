@@ -40,6 +40,7 @@ class Meaning:
     space: Space
     named: Mapping[str, Formula] = field(default_factory=dict)
     used: set[tuple[str, int]] = field(default_factory=set)
+    momenta: tuple[str, ...] = ()  # names of momenta and of their derivatives, where a file has some
 
     def own(self, name: str, at: int) -> Quotient:
         """A symbol that the file declares."""

@@ -14,11 +14,11 @@ from functools import cached_property, partial
 from unicodedata import normalize
 
 from ...models.errors import InvalidInput
+from ..dialects.lines import LONGEST_LINE
+from ..dialects.names import GREEK
+from ..dialects.srepr import from_srepr
 from .layout import laid_out
-from .names import GREEK
 from .spellings import OF_TIME, D
-from .srepr import from_srepr
-from .tokens import LONGEST_LINE
 from .vocabulary import Vocabulary
 
 Kind = str  # "momentum": a variable of its own; "rate": the rate of the coordinate with its index

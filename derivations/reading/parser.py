@@ -7,6 +7,7 @@ factor    = ("+"|"-") factor | primary [ "^" whole number ]
 primary   = number | symbol | "(" sum ")" | call | "\\frac" group group
           | "[" rows "]" | "\\begin{bmatrix}" rows "\\end{bmatrix}"
           | "|" sum "|"
+          | ("d/dt" "(" sum ")" | "diff" "(" sum "," "t" ")")
 call      = ("cos"|"sin"|"tan"|"sgn"|"abs") [ "^" whole number ] ( "(" sum ")" | [number] symbol ) | "sqrt" "(" sum ")"
 """
 
@@ -16,99 +17,13 @@ from dataclasses import dataclass, field
 
 from flint import fmpq
 
-from .tokens import CLOSING, OPENING, Token, fail, tokenize
+from .nodes import Call, Inverse, Matrix, Name, Node, Number, Power, Product, Rate, Root, Sum, Symbol
+from .tokens import CLOSING, FASTER, OPENING, Token, fail, tokenize
 from .vocabulary import Vocabulary
 
 DEEPEST = 60  # brackets within brackets
 LARGEST_POWER = 12
 SIDE_BY_SIDE = ("symbol", "function", "open", "fraction", "number", "name", "matrix")  # a product without a sign
-
-
-@dataclass(frozen=True)
-class Number:
-    """A rational number."""
-
-    value: fmpq
-    at: int
-
-
-@dataclass(frozen=True)
-class Symbol:
-    """A symbol: its letter and its index, from 1, or 0 where it has none. ``less``: minus that of this index."""
-
-    letter: str
-    index: int
-    at: int
-    less: int = 0
-
-
-@dataclass(frozen=True)
-class Sum:
-    """A sum of signed parts."""
-
-    parts: tuple[tuple[int, Node], ...]
-    at: int
-
-
-@dataclass(frozen=True)
-class Product:
-    """A product; a part with False is divided by."""
-
-    parts: tuple[tuple[bool, Node], ...]
-    at: int
-
-
-@dataclass(frozen=True)
-class Power:
-    """A whole power, of either sign."""
-
-    base: Node
-    exponent: int
-    at: int
-
-
-@dataclass(frozen=True)
-class Call:
-    """cos, sin or tan of an angle; or sgn or abs of a rate."""
-
-    function: str
-    argument: Node
-    at: int
-
-
-@dataclass(frozen=True)
-class Name:
-    """A name that the file itself defines."""
-
-    text: str
-    at: int
-
-
-@dataclass(frozen=True)
-class Matrix:
-    """A matrix; a list of numbers is a column."""
-
-    rows: tuple[tuple[Node, ...], ...]
-    at: int
-
-
-@dataclass(frozen=True)
-class Inverse:
-    """The inverse of a matrix, or 1 over a number."""
-
-    base: Node
-    at: int
-
-
-@dataclass(frozen=True)
-class Root:
-    """A square root, of which only even powers are read."""
-
-    base: Node
-    at: int
-
-
-Node = Number | Symbol | Sum | Product | Power | Call | Name | Matrix | Inverse | Root
 
 
 @dataclass
@@ -133,15 +48,20 @@ def parse_expression(
 
 
 def parse_equation(
-    line: str, names: frozenset[str] = frozenset(), words: Vocabulary | None = None, slashes: Slashes | None = None
-) -> tuple[Node, Node]:
-    """The trees of both sides of an equation."""
+    line: str, names: frozenset[str] = frozenset(), words: Vocabulary | None = None, slashes: Slashes | None = None,
+    *, alone: bool = False,
+) -> tuple[Node, Node]:  # fmt: skip
+    """The trees of both sides of an equation; of the rows that computer algebra prints as a list, and 0.
+
+    ``alone``: there is one coordinate, so that a row with its acceleration is no right-hand side.
+    """
     parser = _Parser(line, names, words, slashes)
     left = parser.sum(0)
     if parser.next.text != "=":
-        if parser.next.kind == "end":
-            fail(parser.next.at, "an equation needs an equals sign; put '= 0' behind it")
         parser.expect_end("")
+        if not ((alone or isinstance(left, Matrix)) and _accelerates(left)):
+            fail(parser.next.at, "an equation needs an equals sign; put '= 0' behind it")
+        return left, Number(fmpq(0), parser.next.at)
     parser.advance()
     right = parser.sum(0)
     parser.expect_end("a second equals sign; one equation a row" if parser.next.text == "=" else "")
@@ -350,7 +270,10 @@ class _Parser:
                 return Symbol(token.text, token.index, token.at, token.less)
             case "name":
                 self.advance()
-                return Name(token.text, token.at)
+                named: Node = Name(token.text, token.at)
+                for _ in range(token.index):
+                    named = Rate(named, token.at)
+                return named
             case "open":
                 return self.group(depth)
             case "matrix":
@@ -385,6 +308,10 @@ class _Parser:
             if self.next.kind != "open":
                 fail(self.next.at, "inv needs a matrix in brackets, as in inv(M)")
             return Inverse(self.group(depth), function.at)
+        if function.text == "solve":
+            return self.solution(function, depth)
+        if function.text in ("d/dt", "diff"):
+            return self.rate(function, depth)
         if function.text == "sqrt":
             if self.next.kind != "open" or self.next.text == "[":
                 fail(self.next.at, "a square root needs brackets or braces, as in sqrt(g/l) or \\sqrt{g/l}")
@@ -396,6 +323,41 @@ class _Parser:
                 fail(function.at, f"{function.text} to a negative power is ambiguous; write 1/{function.text}(…)")
         node: Node = Call(function.text, self.argument(function, depth), function.at)
         return node if exponent == 1 else Power(node, exponent, function.at)
+
+    def solution(self, function: Token, depth: int) -> Node:
+        """solve(A, b) of numpy: the inverse of A times b."""
+        parts: list[Node] = []
+        if self.next.kind == "open":
+            opened = self.advance()
+            parts.append(self.sum(depth + 1))
+            if self.sees("separator"):
+                self.advance()
+                parts.append(self.sum(depth + 1))
+                self.close(opened)
+        if len(parts) < 2:
+            fail(self.next.at, "solve needs a matrix and a column, as in np.linalg.solve(A, b)")
+        return Product(((True, Inverse(parts[0], function.at)), (True, parts[1])), function.at)
+
+    def rate(self, function: Token, depth: int) -> Node:
+        """d/dt (…), and diff(…, t) of computer algebra."""
+        if self.next.kind != "open":
+            fail(self.next.at, "put brackets around what d/dt acts on, as in d/dt(m l^2 θ')")
+        if function.text == "d/dt":
+            return self.derived(self.group(depth), function.at)
+        opened = self.advance()
+        base = self.sum(depth + 1)
+        behind = self.tokens[self.place : self.place + 2]
+        if [x.kind for x in behind] != ["separator", "symbol"] or behind[1].text != "t" or behind[1].index:
+            fail(self.next.at, "a derivative with respect to time is read, diff(…, t); take others yourself")
+        self.place += 2
+        self.close(opened)
+        return self.derived(base, function.at)
+
+    def derived(self, base: Node, at: int) -> Node:
+        """Of a symbol alone, the symbol of its derivative."""
+        if isinstance(base, Symbol) and base.letter in FASTER:
+            return Symbol(FASTER[base.letter], base.index, at, base.less)
+        return Rate(base, at)
 
     def argument(self, function: Token, depth: int) -> Node:
         if self.next.kind == "open":
@@ -431,6 +393,18 @@ class _Parser:
         if self.next.kind in ("number", "symbol"):
             return self.primary(depth)
         return fail(self.next.at, f"{fraction.text} needs two parts in braces: {fraction.text}{{…}}{{…}}")
+
+
+def _accelerates(node: Node) -> bool:
+    """Whether accelerations occur, in every entry of a matrix: then it is a row, and no right-hand side."""
+    match node:
+        case Symbol(letter=letter):
+            return letter == "a"
+        case Sum(parts=parts) | Product(parts=parts):
+            return any(_accelerates(part) for _, part in parts)
+        case Matrix(rows=rows):
+            return all(_accelerates(entry) for row in rows for entry in row)
+    return False
 
 
 def _bounded(exponent: int, at: int) -> int:

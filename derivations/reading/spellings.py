@@ -26,7 +26,7 @@ TWO = r"(?:\^\s*\{\s*2\s*\}|\^\s*2|\*\*\s*2|²)"
 
 # Each with what tells the second derivative from the first: a group that is then not empty.
 RULES = [
-    rf"(?:Derivative|diff)\(\s*{X}\s*,\s*(?:t|\(\s*t\s*,\s*1\s*\)|(?P<two>\(\s*t\s*,\s*2\s*\)|t\s*,\s*t|t\s*,\s*2))\s*\)",
+    rf"(?:Derivative|diff)\(\s*{X}\s*,\s*(?:t(?:\s*,\s*1)?|\(\s*t\s*,\s*1\s*\)|(?P<two>\(\s*t\s*,\s*2\s*\)|t\s*,\s*t|t\s*,\s*2))\s*\)",
     rf"{X}\.diff\(\s*t\s*(?P<two>,\s*(?:2|t)\s*)?\)(?:\.diff\(\s*t\s*\))?",
     rf"\\[dt]?frac\s*\{{\s*{D}\s*(?P<two>{TWO})?\s*{X}\s*\}}\s*\{{\s*{D}\s*t\s*{TWO}?\s*\}}",
     rf"\\[dt]?frac\s*\{{\s*{D}\s*(?P<two>{TWO})?\s*\}}\s*\{{\s*{D}\s*t\s*{TWO}?\s*\}}\s*{X}",

@@ -15,7 +15,10 @@ from ...models.readers.toml_text import parse_toml
 from ..algebra.quotient import Quotient
 from ..algebra.signs import without_squares
 from ..algebra.symbols import KINDS, Symbols, symbols_of
-from ..algebra.trig import Formula, Space
+from ..algebra.trig import NOTHING, Formula, Space
+from ..dialects.lines import FULL_WIDTH, LONGEST_LINE
+from ..dialects.names import base_and_index, base_word, plain_name
+from ..dialects.srepr import from_srepr
 from ..steps.conventions import Convention
 from ..steps.declared import Declared
 from ..steps.first_order import FirstOrder
@@ -23,14 +26,13 @@ from ..steps.mechanism import Origin
 from ..steps.stages import STAGES, Stages
 from .declaration import PRESETS, declared
 from .evaluation import Evaluation
-from .layout import equations_of, laid_out
+from .layout import LEFT_SIDE, equations_of, laid_out
 from .matrices import Grid, added
 from .meaning import Meaning, momentum_symbols, own_symbols
 from .momenta import Variable, has_momenta, variable, with_variable
-from .names import base_and_index, plain_name
+from .nodes import Symbol
 from .parser import Slashes, parse_equation, parse_expression
-from .srepr import from_srepr
-from .tokens import FULL_WIDTH, LONGEST_LINE, SIGNS
+from .tokens import SIGNS
 from .typeset import Typesetter
 from .vocabulary import FUNCTIONS, Vocabulary, vocabulary
 
@@ -79,6 +81,7 @@ class Submission:
     mechanism: Declared | None = None  # where the file declares it body by body
     first_order: FirstOrder | None = None  # a Hamiltonian, or equations with momenta, as they were written
     stages: Stages | None = None  # a derivation stated stage by stage; then there is nothing else
+    weightless: bool = False  # g = 0 is said: its mechanism lies flat
 
     @property
     def relative(self) -> bool:
@@ -170,12 +173,14 @@ def opened(data: dict[str, Any], slashes: int = 0, constants: Sequence[str] = ()
         raise InvalidInput(f'define: a table of at most {MOST_DEFINITIONS} names is needed, as in M = "m1 + m2"')
     if own is None:
         names = frozenset(map(str, defined))
-        letter = variable(texts, n, momenta=has_momenta(data), taken=names)
+        letter = variable(texts, n, momenta=has_momenta(data), taken=names | _letters(names))
         words = with_variable(vocabulary(texts, n, names), letter)
-        meaning = Meaning(kind, Space.general(n, (*own_symbols(n), *momentum_symbols(letter, n))))
+        momenta = momentum_symbols(letter, n)
+        meaning = Meaning(kind, Space.general(n, (*own_symbols(n), *momenta)), momenta=momenta)
     else:
         letter, words = own.variable, with_variable(own.words, own.variable)
-        meaning = Meaning(kind, own.mechanism.space, own.symbols)
+        n = len(own.mechanism.bodies)
+        meaning = Meaning(kind, own.mechanism.space, own.symbols, momenta=momentum_symbols(letter, n))
     reader = Reader(
         meaning, words, Slashes(slashes), convention,
         frozenset(name for name in ("angles", "from", "sense") if name in data), "\n".join(texts),
@@ -183,6 +188,11 @@ def opened(data: dict[str, Any], slashes: int = 0, constants: Sequence[str] = ()
     )  # fmt: skip
     reader.define(defined)
     return reader
+
+
+def _letters(names: Iterable[str]) -> frozenset[str]:
+    """The letters of names with an index: u of u_1, which its author defines himself."""
+    return frozenset(found[0] for name in names if (found := base_and_index(name)) and found[1])
 
 
 def _system(data: dict[str, Any]) -> tuple[str, int]:
@@ -231,17 +241,8 @@ def _texts(data: dict[str, Any]) -> Iterable[str]:
             yield left.sub("", data[name]).translate(FULL_WIDTH)
 
 
-_OF = r"\s*(?:\([^=()]{0,200}\)\s*)?"
-LEFT_SIDE = {  # what people write in front of an energy
-    "kinetic": re.compile(rf"^\s*(?:[TK]|KE|E_?\{{?k\}}?|\\mathcal\s*\{{?\s*T\s*\}}?){_OF}="),
-    "potential": re.compile(rf"^\s*(?:[UV]|PE|E_?\{{?p\}}?|\\mathcal\s*\{{?\s*[UV]\s*\}}?){_OF}="),
-    "lagrangian": re.compile(
-        rf"^\s*(?:L|\\mathcal\s*\{{?\s*L\s*\}}?|\\mathscr\s*\{{?\s*L\s*\}}?|ℒ|𝓛){_OF}(?:=\s*T\s*[-−]\s*[UV]\s*)?="
-    ),
-    "hamiltonian": re.compile(
-        rf"^\s*(?:H|\\mathcal\s*\{{?\s*H\s*\}}?|\\mathscr\s*\{{?\s*H\s*\}}?|ℋ){_OF}(?:=\s*T\s*\+\s*[UV]\s*)?="
-    ),
-}
+NO_GRAVITY = re.compile(r"[+-]?0+(?:\.0*)?")
+ACCELERATION = re.compile("\\\\ddot|''|″|ddot|\u0308")
 
 
 class Reader:
@@ -258,6 +259,7 @@ class Reader:
         self.lines: list[tuple[str, str]] = []
         self.defined: list[tuple[str, str]] = []
         self.doubtful: list[str] = []
+        self.weightless = False
         self.typesetter = Typesetter(words)
 
     def submission(self, rows: tuple[tuple[str, Formula], ...], lagrangian: Formula | None) -> Submission:
@@ -271,7 +273,7 @@ class Reader:
         return Submission(
             meaning.kind, meaning.space, rows, lagrangian, self.convention, self.stated, frozenset(meaning.used),
             meaning.equal_lengths, meaning.equal_masses, tuple(self.lines), tuple(dict.fromkeys(self.doubtful)),
-            self.words, tuple(self.defined), self.source, self.mechanism,
+            self.words, tuple(self.defined), self.source, self.mechanism, weightless=self.weightless,
         )  # fmt: skip
 
     @property
@@ -282,10 +284,26 @@ class Reader:
     def define(self, table: dict[str, Any]) -> None:
         """Read the file's own names."""
         for name, line in table.items():
+            if name == "g" and isinstance(line, str) and NO_GRAVITY.fullmatch(line.strip()):
+                self.weightless = True
+                self.defined.append((name, "0"))
+                continue
+            if self._says_the_same(name, line):
+                continue
             self._check_name(name)
             node = _located(f"define.{name}", self._expression, line)
             self.evaluation.definitions[name] = node
             self.defined.append((name, self.typesetter.equation((node,))))
+
+    def _says_the_same(self, name: str, line: object) -> bool:
+        """Whether ω_1 = θ̇_1 is all that is said: what the reader knows."""
+        try:
+            both = [parse_expression(self.written(x), self.names, self.words) for x in (name, line)]
+        except InvalidInput:
+            return False
+        return all(isinstance(x, Symbol) and x.letter == "w" for x in both) and both[0] == replace(
+            both[1], at=both[0].at
+        )
 
     def _check_name(self, name: str) -> None:
         """Raises InvalidInput where a name is none, or means something already."""
@@ -300,6 +318,8 @@ class Reader:
         counted = self.words.kind(base) is not None and base not in self.words.fixed and base != "g"
         numbers = self.words.numbers.get(base)
         taken = index in numbers if numbers else index.isdigit() and 1 <= int(index[:6]) <= n
+        if base_word(base) == "alpha" and ACCELERATION.search(self.source):
+            counted = False  # accelerations are written with dots or primes
         if short in own or (counted and taken):
             raise InvalidInput(f"define.{name!s:.40}: already has a meaning")
 
@@ -361,9 +381,11 @@ class Reader:
 
     def _row(self, line: object) -> tuple[list[Formula], str]:
         written = self.written(line)
-        left, right = parse_equation(written, self.names, self.words, self.slashes)
+        left, right = parse_equation(written, self.names, self.words, self.slashes, alone=self.evaluation.space.n == 1)
         self._doubts(written)
-        value, other = self.evaluation.value(left), self.evaluation.value(right)
+        other = self.evaluation.value(right)
+        column = self.evaluation.column(left) if isinstance(other, Grid) else None
+        value = self.evaluation.value(left) if column is None else column
         self.evaluation.budget.at = right.at
         difference = added(value, other, -1, self.evaluation.budget)
         text = self.typesetter.equation((left, right))
@@ -371,7 +393,13 @@ class Reader:
             found = [entry.numerator for row in difference.rows for entry in row]
         else:
             found = [difference.numerator]
-        return [without_squares(self.evaluation.space, f) for f in found], text
+        space = self.evaluation.space
+        found = [self._weightless(f) for f in found]
+        return [without_squares(space, f) for f in found], text
+
+    def _weightless(self, f: Formula) -> Formula:
+        space = self.evaluation.space
+        return space.replace(f, {4 * space.n: NOTHING}) if self.weightless else f
 
     def lagrangian(self, line: object) -> Formula:
         """The Lagrangian."""
@@ -382,7 +410,7 @@ class Reader:
         value = self.quotient(where, label, line)
         if value.denominator:
             raise InvalidInput(f"{where}: column 1: a sum in a denominator; here there is none")
-        return value.numerator
+        return self._weightless(value.numerator)
 
     def quotient(self, where: str, label: str, line: object) -> Quotient:
         """An expression; what people write in front of an energy is left out."""

@@ -14,11 +14,11 @@ from unicodedata import normalize
 from flint import fmpq
 
 from ...models.errors import InvalidInput, nearest
-from .names import GLYPHS, HIGH, LOWS, is_joined, plain_name, spelling, splits
+from ..dialects.lines import FULL_WIDTH, LONGEST_LINE
+from ..dialects.names import GLYPHS, HIGH, LOWS, is_joined, plain_name, spelling, splits
 from .spellings import plain
 from .vocabulary import FUNCTIONS, Vocabulary
 
-LONGEST_LINE = 20_000  # characters; a chain of four rods needs about 1000
 MOST_TOKENS = 12_000
 LONGEST_NUMBER = 40  # digits
 LARGEST_EXPONENT_OF_TEN = 40
@@ -66,6 +66,10 @@ SIGN = re.compile(r"\\?(?P<name>sgn|sign|abs|tanh)(?=\s*[({\\\[])")
 SIGNS = re.compile(r"sgn|sign|abs|[|]|vert(?![A-Za-z])")
 BARS = re.compile(r"\||\\[lr]?vert(?![A-Za-z])|\\mid(?![A-Za-z])")
 OF_RATES = {"sgn": "sgn", "sign": "sgn", "abs": "abs"}
+BY_TIME = re.compile(
+    r"\\[dt]?frac\s*\{\s*(?:\\mathrm\s*)?\{?\s*d\s*\}?\s*\}\s*\{\s*(?:\\mathrm\s*)?\{?\s*d\s*\}?\s*t\s*\}"
+    r"|(?<![A-Za-z\\])d\s*/\s*d\s*t(?![A-Za-z])|(?<![A-Za-z])(?:diff|Derivative)(?=\s*\()"
+)
 NUMBER = re.compile(r"(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 ANGLE = rf"(?:\\[A-Za-z]+|(?:var)?theta|omega|(?:var)?phi|psi|alpha|beta|gamma|th|[{''.join(GLYPHS)}]|[A-Za-z])"
 INDEX = rf"(?:_?[0-9]+|_\s*\{{\s*[0-9A-Za-z]+\s*\}}|\{{\s*[0-9]+\s*\}}|_?[{LOWS}]+|_[A-Za-z])"
@@ -78,6 +82,8 @@ LETTER_INDEX = re.compile(r"(?P<index>[A-Z]{1,2})(?![a-z])")
 CENTRE = re.compile(
     r"(?:l|ℓ|\\ell)\s*(?:_\s*\{\s*c\s*,?\s*_?\s*(?P<braced>[0-9]{1,2})?\s*\}|_?c(?!os)_?(?P<bare>[0-9]{1,2}|[₀-₉]{1,2})?)"
 )
+PRIME = tuple("'′″")
+PRIMES = re.compile("['′″]{1,2}")
 COMMAND = re.compile(r"\\[A-Za-z]+")
 WORD = re.compile(r"[A-Za-z]+")
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(?:_[A-Za-z0-9]+)?")
@@ -90,11 +96,18 @@ OPERATORS = {
     "+": "+", "-": "-", "−": "-", "–": "-", "*": "*", "×": "*", "·": "*", "⋅": "*", "∙": "*", "/": "/", "÷": "/",
     "^": "^", "=": "=", "@": "*", "⧵": "left",
 }  # fmt: skip
+ADVICE = {  # what to write in place of LaTeX that stands for more than one line can say
+    "\\sum": "write the sum out, a term for each link",
+    "\\prod": "write the product out, a factor for each link",
+    "\\int": "write what the integral comes to",
+    "\\partial": 'write what the derivative comes to, or give lagrangian = "…" in place of its equations',
+    "\\nabla": "write what the gradient comes to",
+    "\\approx": "write an equation with =",
+    "\\Rightarrow": "give one equation a row",
+    "\\implies": "give one equation a row",
+}
 COMMAND_OPERATORS = {"\\cdot": "*", "\\times": "*", "\\div": "/", "\\over": "over"}
 OPENING, CLOSING = {"(": ")", "[": "]", "{": "}"}, ")]}"
-# Full-width characters, as a Japanese keyboard types them, stand for their ASCII twins; the dots ¨ ˙ for
-# those that combine.
-FULL_WIDTH = {0xFF01 + i: 0x21 + i for i in range(94)} | {0x3000: 0x20, 0xA8: 0x308, 0x2D9: 0x307}
 
 
 def tokenize(line: str, names: frozenset[str] = frozenset(), words: Vocabulary | None = None) -> list[Token]:
@@ -157,6 +170,11 @@ class _Tokenizer:
         of_rates = self.of_rates(at)
         if of_rates:
             return of_rates
+        by_time = BY_TIME.match(line, at)
+        if by_time and c not in self.names:
+            return Token(
+                "function", "d/dt" if "d" in by_time[0][:-4] or "/" in by_time[0] else "diff", at
+            ), by_time.end()
         if c == "\\":
             return self.command(at)
         return self.word(at)
@@ -191,9 +209,15 @@ class _Tokenizer:
             return self.word(at)
         if self.words.kind(command):
             return self.symbol(at, match.end(), command)
+        if command in ADVICE:
+            fail(at, f"{command} is not read; {ADVICE[command]}")
         known = [*COMMAND_OPERATORS, *FUNCTIONS, "\\frac", "\\dot", "\\ddot", "\\begin{bmatrix}"]
         known += [k for k in self.words.letters if k[0] == "\\"]
-        return fail(at, f"the LaTeX command {command[:30]} is not known here{nearest(command, known)}")
+        return fail(
+            at,
+            f"the LaTeX command {command[:30]} is not known here{nearest(command, known)}; "
+            f"say what it is, as in [define] '{command[:20]}' = \"…\"",
+        )
 
     def matrix(self, at: int, found: re.Match[str]) -> tuple[Token, int]:
         name = found["name"]
@@ -206,6 +230,9 @@ class _Tokenizer:
 
     def dotted(self, at: int, match: re.Match[str]) -> tuple[Token, int]:
         word = match["braced"] or match["bare"]
+        own = self.rate_of_own(at, match)
+        if own:
+            return own
         letter = self.words.kind(word)
         if letter is None:
             fail(at, f"the dot stands over {word}, which is not known as an angle here")
@@ -224,12 +251,23 @@ class _Tokenizer:
             index = self.words.fixed[word][1]
         return Token("symbol", letter, at, index=index, less=less), end
 
+    def rate_of_own(self, at: int, match: re.Match[str]) -> tuple[Token, int] | None:
+        """A dot over a name that the file defines, as over x_2 where x_2 is a rate; ``index``: how many dots."""
+        written = match["inner"] or match["outer"] or ""
+        short = plain_name((match["braced"] or match["bare"]) + written)
+        found = next((name for name in self.names if (plain_name(name) or name) == short), None)
+        if found is None:
+            return None
+        return Token("name", found, at, index=len(match["dots"]) - 2), match.end()
+
     def numbered(self, word: str, written: str | None, at: int) -> tuple[int, int]:
         """The place of the coordinate that a word with this index is, and of the one subtracted, or 0."""
         numbers = self.words.numbers.get(word)
         if numbers is None:
             return self.index(written, at)
         figures = re.sub(r"[_{},\s]", "", written or "").translate(SUBSCRIPTS)
+        if not figures and not self.words.fixed:
+            return 0, 0  # a column of all coordinates' rates, or an index forgotten
         if figures not in numbers:
             fail(at, f"{word}{figures[:12]} is no coordinate here")
         return numbers[figures], 0
@@ -286,7 +324,11 @@ class _Tokenizer:
             found = pattern.match(self.line, at)
             if found and found.end() > end:
                 best, end = name, found.end()
-        return (Token("name", best, at), end) if best else None
+        if not best:
+            return None
+        primes = PRIMES.match(self.line, end)
+        count = sum(2 if c == "″" else 1 for c in primes[0]) if primes else 0
+        return Token("name", best, at, index=count), end + (len(primes[0]) if primes else 0)
 
     def of_rates(self, at: int) -> tuple[Token, int] | None:
         """sgn, sign or abs, unless the author calls something else so."""
@@ -301,7 +343,7 @@ class _Tokenizer:
     def word(self, at: int) -> tuple[Token, int]:
         line, names = self.line, self.names
         name = NAME.match(line, at)
-        if name and name[0] in names and name[0] not in self.apart:
+        if name and name[0] in names and name[0] not in self.apart and line[name.end() : name.end() + 1] not in PRIME:
             return Token("name", name[0], at), name.end()
         word = next((w for w in self.words.words if line.startswith(w, at)), "")
         # names of the author may stand side by side, mgl, and before functions: the longest that fits is cut off
@@ -325,7 +367,8 @@ class _Tokenizer:
         return fail(
             at,
             f"{what!r} is not known here{nearest(what, known) if shown else ''}; "
-            "known are t, w, a (angle, rate, acceleration), l, m, g, rho, cos, sin",
+            "known are t, w, a (angle, rate, acceleration), l, m, g, rho, cos, sin, "
+            f'and what the file says itself, as in [define] {what[:12]} = "…"',
         )
 
 

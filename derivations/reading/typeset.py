@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..algebra.notation import SUBSCRIPTS, SUPERSCRIPTS
-from .parser import Call, Inverse, Matrix, Name, Node, Number, Power, Product, Root, Sum, Symbol
+from .nodes import Call, Inverse, Matrix, Name, Node, Number, Power, Product, Rate, Root, Sum, Symbol
 from .vocabulary import Vocabulary
 
 LONGEST = 600  # characters that are said back of one line
@@ -56,7 +56,7 @@ class Typesetter:
         text = " = ".join(self.text(side) for side in sides)
         return text if len(text) <= LONGEST else text[:LONGEST] + " …"
 
-    def text(self, node: Node, inside: int = 0) -> str:  # noqa: PLR0911 -- one for each kind of node
+    def text(self, node: Node, inside: int = 0) -> str:  # noqa: PLR0911, PLR0912 -- one for each kind of node
         """``inside``: 0 anything may stand bare; 1, in a sum: all but sums; 2, in a product: no fractions; 3: none."""
         match node:
             case Number(value=value):
@@ -83,6 +83,10 @@ class Typesetter:
                 return "[" + "; ".join(", ".join(self.text(entry) for entry in row) for row in rows) + "]"
             case Root(base=base):
                 return f"√{self.text(base, 3)}"
+            case Rate(base=Name(text=text)):
+                return text + DOTS["w"]
+            case Rate(base=base):
+                return f"d/dt {self.text(base, 3)}"
             case Inverse(base=base):
                 return self.text(base, 3) + "⁻¹"
 

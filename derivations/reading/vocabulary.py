@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from .names import plain_name, spelling
+from ..dialects.names import plain_name, spelling
 
 # Letters of the symbols: t angle, w rate, a acceleration, l, m, g, r density, I a link's own inertia, c its centre.
 LETTERS = {
@@ -22,7 +22,7 @@ LETTERS = {
     "rho": "r", "ρ": "r", "\\rho": "r", "I": "I", "pi": "p", "π": "p", "\\pi": "p",
 }  # fmt: skip
 FUNCTIONS = {"cos": "cos", "sin": "sin", "tan": "tan", "\\cos": "cos", "\\sin": "sin", "\\tan": "tan", "inv": "inv",
-             "sqrt": "sqrt", "\\sqrt": "sqrt"}  # fmt: skip
+             "solve": "solve", "sqrt": "sqrt", "\\sqrt": "sqrt"}  # fmt: skip
 # Families of letters that are angles where they are used: the likeliest first, which is also their order.
 ANGLES: dict[str, tuple[str, ...]] = {
     "α": ("\\alpha", "alpha", "α"),
@@ -37,6 +37,7 @@ GREEK = r"(?:\\(?:var)?(?:theta|phi)|\\psi|theta|phi|psi|[θϑφϕψ])"
 LETTER_INDEX = re.compile(
     rf"{GREEK}\s*\}}?\s*(?:_\s*\{{?\s*(?P<low>[A-Za-z]{{1,2}})(?![A-Za-z])|(?P<direct>[A-Z]{{1,2}})(?![a-z]))"
 )
+ENVIRONMENT = re.compile(r"\\(?:begin|end)\s*\{[a-zA-Z]+\*?\}")  # aligned has no l that is a length
 WORDS = re.compile(
     r"\\[A-Za-z]+|theta|omega|alpha|beta|gamma|phi|psi|rho|pi|cos|sin|tan|inv|sqrt|lambda|Derivative|diff|array|Matrix|Eq|sgn|sign|abs"
 )
@@ -71,7 +72,7 @@ class Vocabulary:
 
 def vocabulary(lines: Iterable[str], links: int, names: frozenset[str] = frozenset()) -> Vocabulary:
     """What the letters of these lines stand for. ``names``: those that the file itself defines."""
-    text = "\n".join(lines)
+    text = ENVIRONMENT.sub(" ", "\n".join(lines))
     for name in sorted(names, key=len, reverse=True):
         pattern = spelling(plain_name(name) or name).pattern
         text = re.sub(rf"(?<![A-Za-z0-9_\\])(?:{pattern})(?![A-Za-z0-9_])", " ", text)

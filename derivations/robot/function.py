@@ -20,10 +20,10 @@ from flint import fmpq
 from ...models.errors import InvalidInput
 from ..algebra.signs import without_squares
 from ..algebra.trig import Formula
+from ..dialects.names import plain_name
 from ..reading.evaluation import Evaluation
 from ..reading.matrices import Grid
-from ..reading.names import plain_name
-from ..reading.parser import Call, Name, Node, Number, Power, Product, Sum, Symbol
+from ..reading.nodes import Call, Name, Node, Number, Power, Product, Sum, Symbol
 
 Value: TypeAlias = "Node | list[Value]"
 

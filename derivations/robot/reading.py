@@ -13,7 +13,7 @@ from ...models.errors import InvalidInput
 from ...models.trees.own import OwnEquations
 from ...models.trees.system import TreeSystem
 from ..algebra.trig import Formula, constant
-from ..reading.names import GREEK, plain_name, spelling
+from ..dialects.names import GREEK, plain_name, spelling
 from ..reading.submission import Reader, Submission, opened
 from ..reading.tokens import SIGNS
 from ..steps.derivation import lagrange_rows

@@ -67,6 +67,7 @@ ROOMS = {
         [
             (".",),
             ("algebra",),
+            ("dialects",),
             ("steps",),
             ("reading.submission",),
             ("reading.forms",),

@@ -3,8 +3,8 @@
 import pytest
 from declared_mechanisms import body, mechanism
 
+from furiko.derivations.dialects.names import plain_name, splits
 from furiko.derivations.grading.grade import grade_text
-from furiko.derivations.reading.names import plain_name, splits
 from furiko.derivations.reading.submission import parse_submission
 from furiko.models.errors import InvalidInput
 

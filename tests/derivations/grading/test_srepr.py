@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 import sympy
 
-from furiko.derivations.reading.srepr import EXPECTED, from_srepr
+from furiko.derivations.dialects.srepr import EXPECTED, from_srepr
 from furiko.models import InvalidInput
 
 t, m, g = sympy.symbols("t m g", positive=True)

@@ -10,7 +10,7 @@ import re
 import warnings
 
 from ...models.errors import InvalidInput
-from .tokens import LONGEST_LINE
+from .lines import LONGEST_LINE
 
 STARTS = re.compile(r"\s*(?:Equality|Eq|Add|Mul|Pow|(?:Mutable|Immutable)DenseMatrix)\((?=.*\bSymbol\()", re.DOTALL)
 NAME = re.compile(r"[A-Za-zα-ωΑ-Ωϑϕ\\][\w\\{}^]{0,39}")
