@@ -77,7 +77,8 @@ def test_the_key_has_every_input(task, monkeypatch):
     pinocchio = [replace(task, engine=name) for name in ("pinocchio-aba", "pinocchio-crba")]  # of one package
     keys = {module._results_key(each) for each in (task, *others, *pinocchio)}
     assert len(keys) == 1 + len(others) + 2
-    assert len({module._facts_key(scene, count) for count in (20, 21)}) == 2
+    assert len({module._facts_key(scene, count, True) for count in (20, 21)}) == 2
+    assert module._facts_key(scene, 20, True) != module._facts_key(scene, 20, False)  # without derivatives
     before = module._results_key(task)
     monkeypatch.setattr(module, "package_foundation", lambda *_: b"another build")
     assert module._results_key(task) != before
