@@ -28,9 +28,10 @@ OF_TIME = re.compile(
     r"(?<=[A-Za-z0-9_}₀-₉\u0307\u0308'])(?<!sin)(?<!cos)(?<!tan)\s*(?:\\left\s*)?\(\s*t\s*(?:\\right\s*)?\)"
 )
 NUMBER = re.compile(r"\s*([0-9]{1,3}(?:\.[0-9]{0,8})?)\s*;?\s*(?:m\s*/\s*s(?:\^2|²|\*\*2))?\s*$")
+BLANKS = re.compile(r"\s{300}")  # nobody writes so many, and patterns may look at each of them again and again
 WHERE = re.compile(
-    r"(?:[,;.]|\\[,;]|\\q?quad|\s)*(?:\\q?quad|\\(?:text|mbox|textrm|mathrm)\s*\{\s*(?:where|with|mit|wobei|où|avec|ただし)\s*:?\s*\}|[,;]\s*(?:where|with))"
-    r"(?:\\[,; ]|\\q?quad|\s|,)*(?P<name>[^=<>&]{1,30}?)\s*(?::=|=|\\equiv|\\coloneqq)\s*(?P<value>[^=]+)$"
+    r"(?:[,;.]|\\[,;]|\\q?quad|\s){0,20}(?:\\q?quad|\\(?:text|mbox|textrm|mathrm)\s*\{\s*(?:where|with|mit|wobei|où|avec|ただし)\s*:?\s*\}|[,;]\s*(?:where|with))"
+    r"(?:\\[,; ]|\\q?quad|\s|,){0,20}(?P<name>[^=<>&]{1,30}?)\s*(?::=|=|\\equiv|\\coloneqq)\s*(?P<value>[^=]+)$"
 )
 
 
@@ -101,14 +102,18 @@ def _is_small(data: Mapping[str, Any]) -> bool:
 def _line(line: str, names: frozenset[str]) -> str:
     if "Symbol(" in line:
         return line
-    return in_brackets(program(pasted(line.translate(FULL_WIDTH)), names), names)
+    line = line.translate(FULL_WIDTH)
+    for change in (pasted, lambda x: program(x, names), lambda x: in_brackets(x, names)):
+        line = line if BLANKS.search(line) else change(line)
+    return line
 
 
 def _mapped(data: Mapping[str, Any], change: Callable[[str], str]) -> dict[str, Any]:
     """Each line of mathematics changed; what is none, or too long, is left for the reader to refuse."""
 
     def one(value: Any) -> Any:
-        return change(value) if isinstance(value, str) and len(value) <= LONGEST_LINE else value
+        fit = isinstance(value, str) and len(value) <= LONGEST_LINE and not BLANKS.search(value)
+        return change(value) if fit else value
 
     made = dict(data)
     for name in TABLES:

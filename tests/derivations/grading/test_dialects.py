@@ -143,13 +143,15 @@ def test_a_matrix_of_numbered_entries_needs_no_commas():
 @pytest.mark.parametrize(
     "text",
     [
+        PENDULUM + f"'{' ' * 19000}'",
+        PENDULUM + f"'a{',' * 19000}'",
         "system = 3\nlinks = 10000000000\n[equations]\n1 = 'a = 0'\n",
         PENDULUM + f"'{'Sin[' * 4000}'",
         PENDULUM + f"'{'pow(' * 4000}'",
         PENDULUM + f"'{'np.square(' * 1900}'",
         "system = 'simple-pendulum'\n[define]\n" + f"'{'M' * 5000}(q)' = '[1, 2]'\n[equations]\n1 = 'a = 0'",
     ],
-    ids=["links", "Sin", "pow", "square", "name"],
+    ids=["blanks", "commas", "links", "Sin", "pow", "square", "name"],
 )
 def test_a_hostile_file_is_refused_at_once(text):
     begun = time.process_time()
