@@ -62,7 +62,7 @@ def _in_balls(mechanism: SpatialMechanism, q: Floats, v: Floats, bits: int) -> l
     damping, stiffness = (mechanism.per_freedom(what).tolist() for what in ("damping", "stiffness"))
     gravity = mechanism.gravity.tolist()
     bias = zip(motion.velocity_terms(), motion.gravity_terms(gravity), strict=True)
-    stretches = [0.0] * n
+    stretches: list[Any] = [0.0] * n
     for placed in mechanism.joints:
         stretches[placed.at_v] = arb(float(q[placed.at_q])) - arb(placed.joint.springref)
     springs = [stiffness[j] * stretches[j] + damping[j] * arb(float(v[j])) for j in range(n)]

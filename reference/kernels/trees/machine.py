@@ -103,7 +103,7 @@ def written(lanes: int) -> Any:
     function = ir.Function(module, ir.FunctionType(ir.VoidType(), kinds), "run")
     _wide(function)
     builder = ir.IRBuilder(function.append_basic_block())
-    given = dict(zip((*ARRAYS, *COUNTS), function.args, strict=True))
+    given: dict[str, Any] = dict(zip((*ARRAYS, *COUNTS), function.args, strict=True))
     memory = Memory(builder, given["memory"], lanes)
     with _loop(builder, given["states"], lanes) as first:
         _read(builder, memory, given, first)

@@ -230,7 +230,7 @@ def nodes(mechanism: SpatialMechanism) -> list[Node]:
         rotation = rotation @ of_quaternion(body)
         for one in placed.get(index, ()):
             own, back, offset = joint_frame(one.joint)
-            anchor = place + rotation @ offset
+            anchor: Long = np.asarray(place + rotation @ offset, dtype=np.longdouble)
             node = Node(one, carrier, rotation @ own, anchor)
             (roots if carrier is None else carrier.children).append(node)
             carrier, rotation, place = node, back, -(back @ offset)
@@ -291,4 +291,4 @@ def weigh(node: Node, body: RigidBody, rotation: Long, place: Long) -> None:
     node.mass += mass
     node.moment = node.moment + mass * centre
     about = np.eye(3, dtype=np.longdouble) * (centre @ centre) - np.outer(centre, centre)
-    node.tensor = node.tensor + rotation @ tensor @ rotation.T + mass * about
+    node.tensor = np.asarray(node.tensor + rotation @ tensor @ rotation.T + mass * about, dtype=np.longdouble)
