@@ -89,8 +89,15 @@ def _limits(joint: Element, kind: str, compiler: Compiler) -> tuple[float, float
 def _coefficient(element: Element, attribute: str) -> float:
     """The linear coefficient of a spring or damper; coefficients of higher powers after it must be zero."""
     values = numbers(element, attribute, (1, 3), (0.0,))
-    if values[0] < 0 or values[1:].any():
-        raise element.wrong(f"{attribute}={element.get(attribute)!r}: one number, not negative, is needed")
+    if values[0] < 0:
+        raise element.wrong(f"{attribute}={element.get(attribute)!r}: a number that is not negative is needed")
+    if values[1:].any():
+        what = {"stiffness": "spring", "damping": "damper"}[attribute]
+        raise element.wrong(
+            f"{attribute}={element.get(attribute)!r}: a {what} that is not linear (the numbers after the first are "
+            f"coefficients of higher powers), which furiko does not have; write {attribute}='{values[0]:g}' to compare "
+            "the rest"
+        )
     return float(values[0])
 
 
