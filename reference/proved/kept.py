@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from ...models import DocumentSystem, Scene
+from ...models import AnyScene, DocumentSystem, Scene
 from ...models.writers.whole_file import write_whole
 from ..truth.end_points import PARTS, key
 from ..truth.quadruple import QuadrupleTrajectory
@@ -96,7 +96,7 @@ def proved(scene: Scene, digits: int = DIGITS, seconds: float | None = None) -> 
     return enclose(scene.system, scene.theta, scene.omega, times, digits, seconds=seconds)
 
 
-def entry(scene: Scene, found: Enclosed) -> dict[str, Any]:
+def entry(scene: AnyScene, found: Enclosed) -> dict[str, Any]:
     """What is kept of a proved motion, without its start."""
     import flint
 

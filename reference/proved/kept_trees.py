@@ -21,7 +21,7 @@ from ...models.errors import InvalidInput
 from ...models.writers.whole_file import write_whole
 from ..truth.tree_end_points import key, moves, times
 from .enclose import Enclosed, above, enclose
-from .kept import KEPT_DIGITS, READ_BITS, Proof, radii
+from .kept import READ_BITS, Proof, entry
 
 PATH = Path(__file__).parent.parent / "data" / "proved_tree_endpoints.json"
 DIGITS = 20  # doubles are held against them
@@ -69,26 +69,6 @@ def proved(scene: TreeScene, digits: int = DIGITS, seconds: float | None = None)
 def _kept() -> dict[str, dict[str, Any]]:
     found: dict[str, dict[str, Any]] = json.loads(PATH.read_text(encoding="utf-8")) if PATH.exists() else {}
     return found
-
-
-def entry(scene: TreeScene, found: Enclosed) -> dict[str, Any]:
-    """What is kept of a proved motion, without its start."""
-    import flint
-
-    with flint.ctx.workprec(found.bits + 64):
-        states = [
-            [ball.str(KEPT_DIGITS, more=True) for ball in (*q, *v)]
-            for q, v in zip(found.theta[1:], found.omega[1:], strict=True)
-        ]
-    return {
-        "scene": scene.name,
-        "times": found.times[1:].tolist(),
-        "states": states,
-        "radius": radii(states),
-        "bits": found.bits,
-        "steps": found.steps,
-        "seconds": round(found.seconds, 1),
-    }
 
 
 def main(names: Sequence[str]) -> None:
