@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..dialects.functions import whole_functions
 from ..dialects.table import translated
+from .declaration import PRESETS
 from .forms.hamilton import read_hamilton
 from .forms.stages import is_staged, read_stages
-from .submission import Submission, known_fields, opened, read_fields
+from .submission import WORDS, Submission, known_fields, opened, read_fields
 
 
 def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
@@ -16,10 +18,24 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     Raises InvalidInput, with the place, where it is none.
     """
     known_fields(data)
-    data = translated(data)
+    data = translated(whole_functions(data, *_shape(data)))
     reader = opened(data, slashes)
     if is_staged(data, reader.evaluation.space.n):
         return read_stages(data, reader)
     if "hamiltonian" in data or (reader.variable is not None and reader.variable.kind == "momentum"):
         return read_hamilton(data, reader)
     return read_fields(data, reader)
+
+
+def _shape(data: dict[str, Any]) -> tuple[int, list[str]]:
+    """How many coordinates these fields declare, 0 where that is not plain, and their names where bodies have them."""
+    system, bodies = data.get("system"), data.get("bodies")
+    if isinstance(system, str) and bodies is None and system in PRESETS:
+        bodies = PRESETS[system]
+    if isinstance(bodies, list):
+        names = [str(body.get("coordinate", "")) for body in bodies if isinstance(body, dict)]
+        return len(names), names
+    links = data.get("links")
+    if links is None and isinstance(system, str) and system in WORDS:
+        links = WORDS[system][1]
+    return (links if type(links) is int else 0), []
