@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..dialects.blocks import rows_of_blocks
 from ..dialects.functions import whole_functions
 from ..dialects.table import translated
+from ..dialects.times import with_times
 from .declaration import PRESETS
 from .forms.hamilton import read_hamilton
 from .forms.stages import is_staged, read_stages
@@ -18,8 +20,9 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     Raises InvalidInput, with the place, where it is none.
     """
     known_fields(data)
-    data = translated(whole_functions(data, *_shape(data)))
-    reader = opened(data, slashes)
+    data, constants = with_times(rows_of_blocks(whole_functions(data, *_shape(data))))
+    data = translated(data)
+    reader = opened(data, slashes, constants)
     if is_staged(data, reader.evaluation.space.n):
         return read_stages(data, reader)
     if "hamiltonian" in data or (reader.variable is not None and reader.variable.kind == "momentum"):

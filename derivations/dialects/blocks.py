@@ -1,0 +1,206 @@
+r"""Several equations in one text, as pages print them: gather, cases, a brace before an array, \qquad, "and".
+
+What names a term (\underbrace), numbers an equation or remarks on it (\text{…}) is taken away; a text that is then
+several equations becomes as many rows. What can be cut in two ways is left as it is, for the reader to refuse.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from .lines import LONGEST_LINE
+
+COMMENT = re.compile(r"(?<!\\)%[^\n]*")
+NUMBERED = re.compile(r"\\(?:tag|label)\*?\s*\{[^{}]{0,60}\}|\\(?:nonumber|notag|displaystyle)(?![A-Za-z])")
+NAMED = re.compile(r"\\(?P<which>underbrace|overbrace|underline|overline|textcolor\s*\{\w{1,20}\}|color\s*\{\w{1,20}\}\s*(?=\{))\s*(?=\{)")
+UNDER = re.compile(r"\s*[_^]\s*(?=\{)")
+SO = r"\\(?:therefore|because|Rightarrow|implies|Longrightarrow|longrightarrow|Leftrightarrow|iff|to)(?![A-Za-z])"
+LEADS = re.compile(rf"^(?P<before>(?:\s|&|\\[,;:! ]|\\q?quad(?![A-Za-z])|[∴⇒→])*)(?P<so>(?:(?:{SO}|[∴⇒→])(?:\s|\\[,;:! ]|\\q?quad(?![A-Za-z]))*)+)")
+REMARK = re.compile(r"\\(?:text|textrm|textit|textbf|mbox|mathrm|intertext)\s*\{(?P<inner>[^{}$\\]{0,80})\}")
+AND = re.compile(r"\s*(?:and|und|et|y|e|en|oraz|och|及び|および|と|,|;|&)\s*")
+FUNCTIONS = re.compile(r"\s*(?:sin|cos|tan|sgn|sign|diag|const|[A-Za-z]{1,3})\s*")
+SYSTEM = re.compile(
+    r"(?:\\left\s*(?:\\\{|\\lbrace|\.)\s*)?\\begin\s*\{(?P<of>cases|array|aligned|alignedat|gathered|split|matrix)\}"
+    r"(?:\s*\{[clr|@{}\s0-9]{0,20}\})?(?P<inner>.*?)\\end\s*\{(?P=of)\}(?:\s*\\right\s*(?:\.|\\\}|\\rbrace))?",
+    re.DOTALL,
+)
+ROW_ENDS = re.compile(r"\\\\(?:\s*\[[^\[\]]{1,12}\])?")
+BETWEEN = re.compile(r"[,;.]?\s*(?:\\q?quad(?![A-Za-z])\s*)+(?:[,;]\s*)?|[,;]\s+")
+WORDS = re.compile(r"(?<=[\w)\]}'])\s*[,;]?\s+(?:and|und|et)\s+(?=[\w(\\θφϕψα])")
+PLACEHOLDER = "⁂"  # stands for "and": in no formula
+WHERE = re.compile(r"^(?:\s|\\[,; ]|\\q?quad)*(?:where|with|wobei|mit|où|avec|\\(?:text|mbox|textrm|mathrm)\s*\{\s*(?:where|with|wobei|mit|où|avec|ただし)|(?:for|für|pour)\b)")
+CONTINUES = re.compile(r"^(?:\s|&|\{\}|\\[,;:! ]|\\q?quad(?![A-Za-z])|\\(?:left|right|[bB]igg?[lrm]?)(?=\s*[.])\s*\.)*(?:[+−–-]|\\(?:cdot|times)(?![A-Za-z])|=)")
+BRACKETS = {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}
+ARROW = re.compile(r"(?<=\S)\s*(?:->|→|:>|\\\[Rule\])\s*")
+RULES = re.compile(r"^\s*\{+\s*(?P<inner>[^{}]*(?:->|→)[^{}]*)\}+\s*$", re.DOTALL)
+MODEL = re.compile(r"^\s*(?:partial\s+)?model\s+\w+.*?\bequation\b(?P<rows>.*?)\bend\s+\w+\s*;?\s*$", re.DOTALL)
+MOST_ROWS = 16
+MOST_NAMED = 60
+
+
+def rows_of_blocks(data: dict[str, Any]) -> dict[str, Any]:
+    """The fields with a row for each equation of a text that has several."""
+    made = dict(data)
+    for name in ("equations", "solved"):
+        table = data.get(name)
+        if not isinstance(table, dict | list):
+            continue
+        entries = list(table.items()) if isinstance(table, dict) else [(str(k), x) for k, x in enumerate(table, 1)]
+        if len(entries) > MOST_ROWS or not all(isinstance(line, str) and len(line) <= LONGEST_LINE for _, line in entries):
+            continue
+        found = [(label, row) for label, line in entries for row in equations_in(line)]
+        if len(found) == len(entries):
+            made[name] = dict(found)
+        elif len(found) <= MOST_ROWS:
+            made[name] = {str(k): row for k, (_, row) in enumerate(found, 1)}
+    return made
+
+
+def equations_in(line: str) -> list[str]:
+    """The equations of a text; the text as it stands where it is one, or where it may be cut in two ways."""
+    if "Symbol(" in line:
+        return [line]
+    model = MODEL.match(line)
+    if model:
+        return [row.strip() for row in model["rows"].split(";") if row.strip()]
+    rules = RULES.match(line)
+    if rules:
+        line = ARROW.sub(" = ", rules["inner"])
+    if "\\" in line:
+        line = _without_remarks(line)
+        line = SYSTEM.sub(lambda found: _of_system(found), line)
+    bare = _led(line)
+    pieces = _pieces(bare)
+    return [_led(piece) for piece in pieces] if len(pieces) > 1 else [bare]
+
+
+def _without_remarks(line: str) -> str:
+    line = COMMENT.sub("", line)
+    line = _unnamed(NUMBERED.sub(" ", line))
+
+    def remark(found: re.Match[str]) -> str:
+        inner = found["inner"]
+        if re.search(r"[_^]\s*$", line[: found.start()]):  # an index
+            return found[0]
+        if AND.fullmatch(inner):
+            return PLACEHOLDER
+        is_word = not FUNCTIONS.fullmatch(inner) and re.search(r"[^\W\d_]{3}|\(\d+\)", inner) and "=" not in inner
+        return " " if is_word and not WHERE.match(found[0]) else found[0]
+
+    return REMARK.sub(remark, line)
+
+
+def _unnamed(line: str) -> str:
+    r"""\underbrace{X}_{Y} as X."""
+    for _ in range(MOST_NAMED):
+        found = NAMED.search(line)
+        end = _group_ends(line, found.end()) if found else -1
+        if found is None or end < 0:
+            return line
+        if found["which"] == "overline" or found["which"] == "underline":  # may be part of a name
+            return line
+        name = UNDER.match(line, end)
+        behind = _group_ends(line, name.end()) if name else end
+        if behind < 0:
+            return line
+        inner = line[found.end() + 1 : end - 1]
+        line = f"{line[: found.start()]} {inner} {line[behind:]}"
+    return line
+
+
+def _group_ends(line: str, at: int) -> int:
+    """Behind the brace that closes the one at ``at``; -1 where there is none."""
+    depth = 0
+    for place in range(at, len(line)):
+        if line[place] in "{}" and line[place - 1 : place] != "\\":
+            depth += 1 if line[place] == "{" else -1
+            if depth == 0:
+                return place + 1
+    return -1
+
+
+def _of_system(found: re.Match[str]) -> str:
+    """A brace before equations is none of a matrix: its rows have an equals sign each."""
+    rows = [row for row in ROW_ENDS.split(found["inner"]) if re.sub(r"[&\s]", "", row)]
+    if len(rows) > 1 and all(row.count("=") == 1 for row in rows):
+        return " \\\\ ".join(row.replace("&", " ") for row in rows)
+    return found[0]
+
+
+def _led(line: str) -> str:
+    """Without "therefore" in front."""
+    return LEADS.sub(lambda found: found["before"], line)
+
+
+def _pieces(line: str) -> list[str]:
+    """The equations; the line alone where that is not certain."""
+    for cut in (_at_row_ends, _at_spaces, _at_words, _at_lines):
+        pieces = cut(line)
+        if len(pieces) > 1 and all(piece.count("=") == 1 and not WHERE.match(piece) for piece in pieces):
+            return pieces
+    return [line]
+
+
+def _at_row_ends(line: str) -> list[str]:
+    pieces = [re.sub(r"\\(?:begin|end)\s*\{(?:align|gather|eqnarray|equation|multline|aligned|gathered|split|cases|flalign|alignat)\*?\}"
+                     r"(?:\{\d\})?", " ", piece) for piece in _cut(line, ROW_ENDS)]  # fmt: skip
+    rows: list[str] = []
+    for piece in (p for p in pieces if re.sub(r"[&\s.$]|\\[,;]", "", p)):
+        # A row that goes on begins with a sign; the sides of an equals sign in two columns are eqnarray's
+        if rows and CONTINUES.match(piece) and not _is_done(rows[-1]):
+            rows[-1] += " " + re.sub(r"^((?:\s|&)*)", r"\1", piece)
+        else:
+            rows.append(piece)
+    return [re.sub(r"&", " ", row) for row in rows]
+
+
+def _is_done(row: str) -> bool:
+    """Whether a row has both its sides and a full stop."""
+    return "=" in row and re.search(r"[,;.](?:\s|\\[,;:! ]|\$)*$", row) is not None
+
+
+def _at_spaces(line: str) -> list[str]:
+    return [piece for part in _cut(line, BETWEEN) for piece in part.split(PLACEHOLDER) if piece.strip(" $.,;")]
+
+
+def _at_words(line: str) -> list[str]:
+    return [piece for part in _cut(line, WORDS) for piece in part.split(PLACEHOLDER) if piece.strip(" $.,;")]
+
+
+def _at_lines(line: str) -> list[str]:
+    """Lines with an equation each; those that go on in the next have an open bracket or a sign there."""
+    if "\\" in line:
+        return [line]
+    rows: list[str] = []
+    for piece in _cut(line, re.compile(r"\n\s*|;\s*\n?")):
+        if not piece.strip():
+            continue
+        if rows and (CONTINUES.match(piece) or re.search(r"[-+*/=]\s*$", rows[-1])):
+            rows[-1] += " " + piece
+        else:
+            rows.append(piece)
+    return rows
+
+
+def _cut(line: str, separator: re.Pattern[str]) -> list[str]:
+    """The parts between separators outside brackets and matrices."""
+    depth, pieces, start, at = 0, [], 0, 0
+    inside = re.compile(r"\\(?P<which>begin|end)\s*\{(?:[pbBvV]?(?:small)?matrix|array|cases)\}")
+    while at < len(line):
+        begun = inside.match(line, at)
+        if begun:
+            depth += 1 if begun["which"] == "begin" else -1
+            at = begun.end()
+            continue
+        found = separator.match(line, at) if depth == 0 else None
+        if found and found.end() > at:
+            pieces.append(line[start:at])
+            start = at = found.end()
+            continue
+        if line[at] == "\\" and line[at + 1 : at + 2] in ("{", "}", "\\"):
+            at += 2
+            continue
+        depth += BRACKETS.get(line[at], 0)
+        at += 1
+    return [*pieces, line[start:]]

@@ -1,0 +1,128 @@
+r"""Explicit time: a support that moves as y_s = a cos Ωt, a torque F cos ωt, in a mechanism that a file declares.
+
+With ``[define] y_s = 'a\cos\Omega t'`` cos Ωt is -y_s''/(a Ω²) and sin Ωt is -y_s'/(a Ω): identities, so that rows with
+them mean what they say. Where y_s itself stands in the true rows, as behind a spring, the same function would have two
+names; that is refused. Cosines in a drive, which may be any function of time, are quantities of their own.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from ...models.errors import InvalidInput
+from .names import WRITTEN, plain_name
+
+_SPACE = r"(?:\s|\\[,;:! ])*"
+_NAME = r"(?:\\(?:Omega|omega|gamma|nu|beta|alpha|lambda|sigma)|[ΩωγνβαλσA-Za-z])(?:_?\{?[0-9A-Za-z]\}?)?"
+_ANGLE = rf"(?P<rate>{_NAME}){_SPACE}(?:\*|\\cdot(?![A-Za-z])|·|⋅)?{_SPACE}t"
+PHASE = re.compile(
+    rf"(?:(?<![A-Za-z\\])(?:np\.|math\.|Math\.)?|\\)(?P<wave>cos|sin){_SPACE}"
+    rf"(?:(?:\\left)?[(\{{\[]{_SPACE}{_ANGLE}{_SPACE}(?:\\right)?[)\}}\]]"
+    rf"|{_ANGLE.replace('P<rate>', 'P<bare>')}(?![A-Za-z0-9_]))"
+)
+FIELDS = ("equations", "solved")
+ENERGIES = ("lagrangian", "kinetic", "potential", "hamiltonian")
+LONGEST = 20_000
+
+
+def with_times(data: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
+    """The fields with rates and quantities in place of cosines of time, and the names of constants that these need."""
+    bodies, define = data.get("bodies"), data.get("define", {})
+    if not isinstance(bodies, list) or len(bodies) > 8 or not all(isinstance(b, dict) for b in bodies):
+        return data, []
+    if not isinstance(define, dict) or not _has_phase([data.get(f) for f in (*FIELDS, *ENERGIES)]):
+        return data, []
+    given = {plain_name(str(b.get("coordinate", ""))): b for b in bodies if b.get("motion") == "given"}
+    waves: dict[tuple[str, str], str] = {}
+    constants: list[str] = []
+    kept = {}
+    for name, line in define.items():
+        coordinate = plain_name(str(name).removesuffix("(t)"))
+        if coordinate not in given or not isinstance(line, str):
+            kept[name] = line
+            continue
+        amplitude, found = _motion(name, line)
+        if any("spring" in b for b in bodies):
+            raise InvalidInput(f"define.{name}: with a spring in the mechanism, leave cosines out; write {coordinate}'' "
+                               f"and {coordinate} in the rows")  # fmt: skip
+        rate = found["rate"] or found["bare"]
+        written = str(given[coordinate]["coordinate"]).replace("\\", "")
+        second, first = f"(-{written}''/(({amplitude})*{rate}^2))", f"({written}'/(({amplitude})*{rate}))"
+        other = "sin" if found["wave"] == "cos" else "cos"
+        first = f"(-{first})" if other == "sin" else first
+        for wave, text in ((found["wave"], second), (other, first)):
+            if (wave, plain_name(rate)) in waves:
+                raise InvalidInput(f"define.{name}: two motions with one frequency; write the rows with {coordinate}''")
+            waves[wave, plain_name(rate) or ""] = text
+        constants += [*_names_in(amplitude), rate]
+    moved = bool(waves)
+    waves |= _of_drives(bodies, waves, constants)
+    if moved and any(_has_phase([data.get(f)]) for f in ENERGIES):
+        raise InvalidInput("lagrangian: a cosine of time; write it with the support's own coordinate and rate, or give "
+                           "the rows in [equations]")  # fmt: skip
+    made = {f: _mapped(data[f], waves, f) for f in (*FIELDS, *ENERGIES) if f in data}
+    made["define"] = {name: _mapped(line, waves, f"define.{name}") for name, line in kept.items()}
+    made["bodies"] = [
+        {k: _mapped(v, waves, f"bodies: {k}") if k == "drive" else v for k, v in b.items()} for b in bodies
+    ]
+    if "define" not in data:
+        del made["define"]
+    return data | made, list(dict.fromkeys(constants))
+
+
+def _motion(name: str, line: str) -> tuple[str, re.Match[str]]:
+    """The amplitude and the cosine of a given motion."""
+    found = [m for m in PHASE.finditer(line)]
+    bare = line.strip().rstrip(" ;.,")
+    if len(found) != 1 or not bare.endswith(found[0][0].strip()):
+        raise InvalidInput(f"define.{name}: a given motion is read as an amplitude times a cosine or sine, as in "
+                           f"{name} = \"a*cos(w*t)\"; write other motions as {name}'' in the rows")  # fmt: skip
+    before = line[: found[0].start()].strip()
+    before = re.sub(rf"(?:\*|\\cdot|·|\\,|{_SPACE})$", "", before).strip().rstrip("*").strip()
+    amplitude = {"": "1", "-": "(-1)", "+": "1"}.get(before, before)
+    if re.search(r"(?<=[^\s(])\s*[+−-]", amplitude):
+        raise InvalidInput(f"define.{name}: a sum; a given motion is read as an amplitude times a cosine or sine")
+    return amplitude, found[0]
+
+
+def _of_drives(bodies: list[Any], known: Mapping[tuple[str, str], str], constants: list[str]) -> dict[tuple[str, str], str]:
+    """A quantity for each cosine in a drive."""
+    made: dict[tuple[str, str], str] = {}
+    for body in bodies:
+        for found in PHASE.finditer(str(body.get("drive", ""))[:200]):
+            rate = found["rate"] or found["bare"]
+            key = (found["wave"], plain_name(rate) or "")
+            if key not in known and key not in made:
+                made[key] = f"{found['wave'][0]}wave{len(made) + 1}"
+    constants += made.values()
+    return made
+
+
+def _names_in(text: str) -> list[str]:
+    return [m[0] for m in WRITTEN.finditer(re.sub(r"\\[dt]?frac|[0-9.]+", " ", text))]
+
+
+def _has_phase(values: list[Any]) -> bool:
+    lines = [x for v in values for x in (v.values() if isinstance(v, dict) else v if isinstance(v, list) else [v])]
+    return any(isinstance(x, str) and len(x) <= LONGEST and PHASE.search(x) for x in lines)
+
+
+def _mapped(value: Any, waves: Mapping[tuple[str, str], str], where: str) -> Any:
+    if isinstance(value, dict):
+        return {k: _mapped(v, waves, f"{where}.{k}") for k, v in value.items()}
+    if isinstance(value, list):
+        return [_mapped(v, waves, where) for v in value]
+
+    def one(found: re.Match[str]) -> str:
+        rate = found["rate"] or found["bare"]
+        text = waves.get((found["wave"], plain_name(rate) or ""))
+        if text is None:
+            raise InvalidInput(
+                f"{where}: column {found.start() + 1}: {found[0].strip()[:30]} is a function of time; say what moves so: "
+                "drive = \"F*cos(w*t)\" at a joint, or a support with motion = 'given' and [define] x_s = \"a*cos(w*t)\""
+            )
+        return f" {text} "
+
+    return PHASE.sub(one, value) if isinstance(value, str) and len(value) <= LONGEST else value
