@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from .lines import LONGEST_LINE
+from .lines import BLANKS, LONGEST_LINE
 
 COMMENT = re.compile(r"(?<!\\)%[^\n]*")
 NUMBERED = re.compile(r"\\(?:tag|label)\*?\s*\{[^{}]{0,60}\}|\\(?:nonumber|notag|displaystyle)(?![A-Za-z])")
@@ -31,6 +31,11 @@ WORDS = re.compile(r"(?<=[\w)\]}'])\s*[,;]?\s+(?:and|und|et)\s+(?=[\w(\\θφϕψ
 PLACEHOLDER = "⁂"  # stands for "and": in no formula
 WHERE = re.compile(r"^(?:\s|\\[,; ]|\\q?quad)*(?:where|with|wobei|mit|où|avec|\\(?:text|mbox|textrm|mathrm)\s*\{\s*(?:where|with|wobei|mit|où|avec|ただし)|(?:for|für|pour)\b)")
 CONTINUES = re.compile(r"^(?:\s|&|\{\}|\\[,;:! ]|\\q?quad(?![A-Za-z])|\\(?:left|right|[bB]igg?[lrm]?)(?=\s*[.])\s*\.)*(?:[+−–-]|\\(?:cdot|times)(?![A-Za-z])|=)")
+BARE = re.compile(r"^(?:\s|\\[,; ]|&)*\\?[A-Za-zΔδα-ω]+(?:_?\{?\w{1,4}\}?)?\s*:?=")  # Δ = …
+LAGRANGE = re.compile(
+    r"^(?:\s|&|\$)*(?:\\[dt]?frac\s*\{\s*(?:\\mathrm\s*\{\s*d\s*\}|\\rm d|d)\s*\}\s*\{\s*(?:\\mathrm\s*\{\s*d\s*\}|\\rm d|d)\s*t\s*\}|d\s*/\s*dt)"
+    r"[^=]{0,40}?(?:\\partial|∂)[^=]{1,160}?(?:\\partial|∂)[^=]{1,80}?[-−][^=]{0,40}?(?:\\partial|∂)[^=]{1,80}?(?:\\partial|∂)[^=+]{1,60}?=(?=[^=]+=[^=]*$)"
+)
 BRACKETS = {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}
 ARROW = re.compile(r"(?<=\S)\s*(?:->|→|:>|\\\[Rule\])\s*")
 RULES = re.compile(r"^\s*\{+\s*(?P<inner>[^{}]*(?:->|→)[^{}]*)\}+\s*$", re.DOTALL)
@@ -59,7 +64,7 @@ def rows_of_blocks(data: dict[str, Any]) -> dict[str, Any]:
 
 def equations_in(line: str) -> list[str]:
     """The equations of a text; the text as it stands where it is one, or where it may be cut in two ways."""
-    if "Symbol(" in line:
+    if "Symbol(" in line or BLANKS.search(line):
         return [line]
     model = MODEL.match(line)
     if model:
@@ -70,9 +75,9 @@ def equations_in(line: str) -> list[str]:
     if "\\" in line:
         line = _without_remarks(line)
         line = SYSTEM.sub(lambda found: _of_system(found), line)
-    bare = _led(line)
+    bare = LAGRANGE.sub(" ", _led(line))  # what stands behind its second sign is the row
     pieces = _pieces(bare)
-    return [_led(piece) for piece in pieces] if len(pieces) > 1 else [bare]
+    return [LAGRANGE.sub(" ", _led(piece)) for piece in pieces] if len(pieces) > 1 else [bare]
 
 
 def _without_remarks(line: str) -> str:
@@ -137,8 +142,9 @@ def _pieces(line: str) -> list[str]:
     """The equations; the line alone where that is not certain."""
     for cut in (_at_row_ends, _at_spaces, _at_words, _at_lines):
         pieces = cut(line)
-        if len(pieces) > 1 and all(piece.count("=") == 1 and not WHERE.match(piece) for piece in pieces):
-            return pieces
+        if len(pieces) > 1 and all(LAGRANGE.sub(" ", piece).count("=") == 1 and not WHERE.match(piece) for piece in pieces):
+            said = [BARE.match(piece) is not None for piece in pieces]
+            return [line] if any(said) and not said[0] else pieces  # a row, and what a letter in it is
     return [line]
 
 

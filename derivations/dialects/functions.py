@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ...models.errors import InvalidInput
+from .lines import BLANKS
 from .names import plain_name
 from .statements import function_of, is_program, split
 
@@ -193,7 +194,7 @@ def whole_functions(data: dict[str, Any], count: int, coordinates: Sequence[str]
     """The fields with rows in place of a function. ``count``: the angles; ``coordinates``: as they are declared."""
     table = data.get("equations")
     entries = list(table.values()) if isinstance(table, dict) else table if isinstance(table, list) else []
-    if len(entries) != 1 or not isinstance(entries[0], str) or not is_program(entries[0]) or not 1 <= count <= 8:
+    if len(entries) != 1 or not isinstance(entries[0], str) or BLANKS.search(entries[0]) or not is_program(entries[0]) or not 1 <= count <= 8:
         return data
     define = data.get("define", {})
     if not isinstance(define, dict) or not all(isinstance(v, str) for v in define.values()):

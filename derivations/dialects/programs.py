@@ -20,6 +20,10 @@ STD = re.compile(r"(?<![A-Za-z_])(?:std::|Math\.|cmath\.|ca\.|casadi\.|cs\.)(?=[
 RATE = r"(?:omega|w|ω)[_]?[0-9]{0,2}"
 OF_RATE = re.compile(rf"(?<![A-Za-z_\\])d(?P<x>{RATE})(?:_?dt)?(?![A-Za-z0-9_(/])")
 
+METHOD = re.compile(r"\.(?P<name>sin|cos|tan|sqrt|abs|powi|powf|pow)\s{0,4}\((?P<of>\s{0,4}[0-9.]{0,4}\s{0,4})\)")
+RECEIVER = re.compile(r"[A-Za-z_]\w{0,40}(?:\[\d\])?$")
+KEYWORDS = re.compile(r"(?m)^\s*(?:(?:const|let|var|mut|auto|double|float|f64)\s+){1,3}(?=\w+\s*(?::\s*\w+\s*)?=)")
+
 
 def program(line: str, names: frozenset[str]) -> str:
     """The line without comments, and with ^ for powers. ``names``: the author's own."""
@@ -32,6 +36,8 @@ def program(line: str, names: frozenset[str]) -> str:
         line = FORTRAN_FUNCTION.sub(" ", line)
         line = STD.sub(lambda found: " " * len(found[0]), line)
         line = OF_RATE.sub(lambda found: found[0] if found[0] in names else padded(f"{found['x']}'", found), line)
+        line = KEYWORDS.sub(lambda found: " " * len(found[0]), line)
+        line = _methods(line)
     return _squares(_powers(line))
 
 
@@ -50,6 +56,38 @@ def _powers(line: str) -> str:
             line = line[: found.start()] + written.rjust(end + 1 - found.start()) + line[end + 1 :]
             at = found.start()
     return line
+
+
+def _methods(line: str) -> str:
+    """x.sin() of Rust and its kin as sin(x), x.powi(2) as (x)^2."""
+    for _ in range(MOST_FUNCTIONS):
+        found = METHOD.search(line)
+        start = _receiver(line, found.start()) if found else -1
+        if found is None or start < 0:
+            return line
+        of, inner = found["of"].strip().removesuffix(".0").rstrip("."), line[start : found.start()]
+        if found["name"].startswith("pow"):
+            made = f"({inner})^{of}" if of.isdigit() else None
+        else:
+            made = f"{found['name']}({inner})" if not of else None
+        if made is None:
+            return line
+        line = f"{line[:start]}({made}){line[found.end() :]}"
+    return line
+
+
+def _receiver(line: str, end: int) -> int:
+    """Where the name or the bracket that ends here begins; -1 where there is none."""
+    if line[end - 1 : end] != ")":
+        name = RECEIVER.search(line[max(0, end - 44) : end])
+        return end - len(name[0]) if name else -1
+    depth = 0
+    for at in range(end - 1, max(-1, end - LONGEST_ARGUMENT), -1):
+        depth += (line[at] == ")") - (line[at] == "(")
+        if depth == 0:
+            called = re.search(r"[A-Za-z_.]{1,40}$", line[max(0, at - 40) : at])
+            return at - len(called[0]) if called else at
+    return -1
 
 
 def _squares(line: str) -> str:

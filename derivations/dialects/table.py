@@ -13,12 +13,13 @@ from typing import Any
 
 from .bracketed import in_brackets
 from .given_names import shorter_names
-from .lines import FULL_WIDTH, LONGEST_LINE
+from .lines import BLANKS, FULL_WIDTH, LONGEST_LINE
 from .names import GREEK, base_and_index, plain_name
 from .pasted import pasted
 from .programs import program
 from .rates import named_rates, suffixed
 from .short_waves import short_waves
+from .sums import sums
 
 TABLES = ("define", "positions", "velocities", "momenta", "equations", "solved")
 ENERGIES = ("kinetic", "potential", "lagrangian", "hamiltonian")
@@ -28,7 +29,6 @@ OF_TIME = re.compile(
     r"(?<=[A-Za-z0-9_}₀-₉\u0307\u0308'])(?<!sin)(?<!cos)(?<!tan)\s*(?:\\left\s*)?\(\s*t\s*(?:\\right\s*)?\)"
 )
 NUMBER = re.compile(r"\s*([0-9]{1,3}(?:\.[0-9]{0,8})?)\s*;?\s*(?:m\s*/\s*s(?:\^2|²|\*\*2))?\s*$")
-BLANKS = re.compile(r"\s{300}")  # nobody writes so many, and patterns may look at each of them again and again
 WHERE = re.compile(
     r"(?:[,;.]|\\[,;]|\\q?quad|\s){0,20}(?:\\q?quad|\\(?:text|mbox|textrm|mathrm)\s*\{\s*(?:where|with|mit|wobei|où|avec|ただし)\s*:?\s*\}|[,;]\s*(?:where|with))"
     r"(?:\\[,; ]|\\q?quad|\s|,){0,20}(?P<name>[^=<>&]{1,30}?)\s*(?::=|=|\\equiv|\\coloneqq)\s*(?P<value>[^=]+)$"
@@ -58,14 +58,14 @@ def known_of(data: Mapping[str, Any]) -> Known:
     return Known(tuple(coordinates), quantities, tuple(drives), data.get("angles") == "relative")
 
 
-def translated(data: dict[str, Any]) -> dict[str, Any]:
-    """The fields of a derivation with all their mathematics in the reader's notation."""
+def translated(data: dict[str, Any], count: int = 0) -> dict[str, Any]:
+    """The fields of a derivation with all their mathematics in the reader's notation. ``count``: its angles, if known."""
     if not _is_small(data):
         return data
     known = known_of(data)
     define = data.get("define")
     names = frozenset(map(str, define)) if isinstance(define, dict) else frozenset()
-    made = _mapped(data, lambda line: _line(line, names))
+    made = _mapped(data, lambda line: _line(sums(line, count), names))
     if known.coordinates:
         made = _mapped(made, lambda line: OF_TIME.sub(lambda found: " " * len(found[0]), line))
     made = shorter_names(_with_any_gravity(made), _mapped)

@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ...models.errors import InvalidInput
+from .lines import BLANKS, LONGEST_LINE
 from .names import WRITTEN, plain_name
 
 _SPACE = r"(?:\s|\\[,;:! ])*"
@@ -24,7 +25,6 @@ PHASE = re.compile(
 )
 FIELDS = ("equations", "solved")
 ENERGIES = ("lagrangian", "kinetic", "potential", "hamiltonian")
-LONGEST = 20_000
 
 
 def with_times(data: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
@@ -106,7 +106,7 @@ def _names_in(text: str) -> list[str]:
 
 def _has_phase(values: list[Any]) -> bool:
     lines = [x for v in values for x in (v.values() if isinstance(v, dict) else v if isinstance(v, list) else [v])]
-    return any(isinstance(x, str) and len(x) <= LONGEST and PHASE.search(x) for x in lines)
+    return any(_is_plain(x) and PHASE.search(x) for x in lines)
 
 
 def _mapped(value: Any, waves: Mapping[tuple[str, str], str], where: str) -> Any:
@@ -125,4 +125,8 @@ def _mapped(value: Any, waves: Mapping[tuple[str, str], str], where: str) -> Any
             )
         return f" {text} "
 
-    return PHASE.sub(one, value) if isinstance(value, str) and len(value) <= LONGEST else value
+    return PHASE.sub(one, value) if _is_plain(value) else value
+
+
+def _is_plain(value: object) -> bool:
+    return isinstance(value, str) and len(value) <= LONGEST_LINE and not BLANKS.search(value)

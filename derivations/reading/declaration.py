@@ -184,6 +184,7 @@ def _body(
 ) -> Joined:  # fmt: skip
     names = [b.get("name", f"body {k}") for k, b in enumerate(bodies, 1)]
     on = body.get("on", names[place - 1] if place else "support")
+    on = "support" if on in ("world", "ground") and on not in names else on
     if on != "support" and on not in names[:place]:
         raise InvalidInput(f"bodies {place + 1}: on: {on!r:.40} is no body before it; give its name, or 'support'")
     joint, along = body.get("joint", "hinge"), body.get("along", "right")

@@ -20,8 +20,9 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     Raises InvalidInput, with the place, where it is none.
     """
     known_fields(data)
-    data, constants = with_times(rows_of_blocks(whole_functions(data, *_shape(data))))
-    data = translated(data)
+    count, coordinates = _shape(data)
+    data, constants = with_times(rows_of_blocks(whole_functions(data, count, coordinates)))
+    data = translated(data, count)
     reader = opened(data, slashes, constants)
     if is_staged(data, reader.evaluation.space.n):
         return read_stages(data, reader)

@@ -211,12 +211,23 @@ class _Tokenizer:
             return self.symbol(at, match.end(), command)
         if command in ADVICE:
             fail(at, f"{command} is not read; {ADVICE[command]}")
+        if self.words.declared:
+            fail(at, f"{command[:30]} is not known here; {self.declared_names()}")
         known = [*COMMAND_OPERATORS, *FUNCTIONS, "\\frac", "\\dot", "\\ddot", "\\begin{bmatrix}"]
         known += [k for k in self.words.letters if k[0] == "\\"]
         return fail(
             at,
             f"the LaTeX command {command[:30]} is not known here{nearest(command, known)}; "
             f"say what it is, as in [define] '{command[:20]}' = \"…\"",
+        )
+
+    def declared_names(self) -> str:
+        """What is known where a file declares its mechanism, and what may be missing there."""
+        words = {*self.names, *self.words.fixed, *self.words.numbers} - {"pi"}
+        own = ", ".join(sorted(w for w in words if w.isascii() and w[0] != "\\")[:24])
+        return (
+            f"known are {own} of [[bodies]] and [define], their rates, cos and sin. Say in [define] what it is, or which "
+            "body has it; ropes, closed loops, turning frames and springs between two bodies cannot be declared"
         )
 
     def matrix(self, at: int, found: re.Match[str]) -> tuple[Token, int]:
@@ -364,6 +375,8 @@ class _Tokenizer:
         shown = WORD.match(line, at)
         what = shown[0][:30] if shown else line[at]
         known = [*self.words.words, *names]
+        if self.words.declared:
+            fail(at, f"{what!r} is not known here{nearest(what, known) if shown else ''}; {self.declared_names()}")
         return fail(
             at,
             f"{what!r} is not known here{nearest(what, known) if shown else ''}; "

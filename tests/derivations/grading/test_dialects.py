@@ -5,6 +5,7 @@ import time
 
 import pytest
 
+from furiko.derivations.dialects.sums import sums
 from furiko.derivations.grading.grade import grade_text
 from furiko.models.errors import InvalidInput
 
@@ -158,3 +159,42 @@ def test_a_hostile_file_is_refused_at_once(text):
     with pytest.raises(InvalidInput):
         grade_text(text)
     assert time.process_time() - begun < 2.0  # what a hostile input may cost at most, here as anywhere
+
+
+# Each says l θ̈ + g sin θ = 0, by hand
+PRINTED = {
+    "Rust": "let alpha = -g * theta.sin() / l;",
+    "Rust, powers": "let alpha = -g * (2.0 * theta / 2.0).sin() * l.powi(2) / (l * 1.0).powi(3);",
+    "JavaScript": "const alpha = -g * Math.sin(theta) / l;",
+    "Lagrange's operator in front": r"\frac{d}{dt}\left(\frac{\partial L}{\partial\dot\theta}\right) - \frac{\partial L}{\partial\theta} = l\ddot\theta + g\sin\theta = 0",
+    "a sum over the links": r"\sum_{i=1}^{1} l_i\ddot\theta_i + g\sin\theta_1 = 0",
+    "a sum to n": r"\sum\limits_{k=1}^n \left(l_{k}\ddot\theta_k + g \sin\theta_k\right) = 0",
+    "another slash": "θ̈ = − g sin θ ∕ l",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("how", PRINTED)
+def test_a_pendulum_as_programs_and_lectures_print_it(how):
+    assert grade_text(f"{PENDULUM}'''{PRINTED[how]}'''").verdict == "correct"
+    line = re.sub(r"(?<![A-Za-z.\\])g(?![A-Za-z])", "2*g", PRINTED[how], count=1)
+    assert line != PRINTED[how]
+    assert grade_text(f"{PENDULUM}'''{line}'''").verdict == "wrong"
+
+
+def test_sums_go_as_far_as_a_product_and_no_farther():
+    assert sums(r"\sum_{i=1}^{2} m_i x_i + c", 2).replace(" ", "") == "((m_{1}x_{1})+(m_{2}x_{2}))+c"
+    nested = sums(r"\sum_{i=1}^{2} m_i \sum_{j=1}^{i} y_{j}", 2).replace(" ", "")
+    assert nested == "((m_{1}((y_{1})))+(m_{2}((y_{1})+(y_{2}))))"
+    assert sums(r"\sum_{i=1}^{2} l_i i = 0", 2).replace(" ", "") == "((l_{1}i)+(l_{2}i))=0"  # i: refused by the reader
+    assert sums(r"\sum_{i=1}^{8} \sum_{j=1}^{8} \sum_{k=1}^{8} \sum_{h=1}^{8} x_{i}x_{j}x_{k}x_{h}", 8).count("\\sum") > 1
+
+
+def test_an_operator_with_one_equals_sign_says_nothing_of_the_right_side():
+    line = r"\frac{d}{dt}\frac{\partial L}{\partial\dot\theta} - \frac{\partial L}{\partial\theta} = l\ddot\theta + g\sin\theta"
+    with pytest.raises(InvalidInput, match="partial is not read"):
+        grade_text(f"{PENDULUM}'''{line}'''")
+
+
+def test_what_is_not_known_where_bodies_are_declared_is_asked_for():
+    with pytest.raises(InvalidInput, match="springs between two bodies cannot be declared"):
+        grade_text(ONE.format("x") + "[equations]\n1 = \"m l x'' = -k x\"")
