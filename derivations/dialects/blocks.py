@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
+from ...models.errors import InvalidInput
 from .lines import BLANKS, LONGEST_LINE
 
 COMMENT = re.compile(r"(?<!\\)%[^\n]*")
@@ -39,6 +40,10 @@ LAGRANGE = re.compile(
 BRACKETS = {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}
 ARROW = re.compile(r"(?<=\S)\s*(?:->|→|:>|\\\[Rule\])\s*")
 RULES = re.compile(r"^\s*\{+\s*(?P<inner>[^{}]*(?:->|→)[^{}]*)\}+\s*$", re.DOTALL)
+LIST = re.compile(r"^\s*\{(?P<inner>[^{}]*==[^{}]*)\}\s*$", re.DOTALL)
+TWO_EQUALS = re.compile(r"(?<![=<>!])==(?!=)")
+BULLET = re.compile(r"(?m)^\s*(?:[•▪‣◦∙]\s*|\(?[0-9]{1,2}[.)]\s+)")
+NUMBER = re.compile(r"(?:(?P<far>\s{2,}|\t|\\q?quad\s*)|\s)\((?:[0-9]{1,3}(?:\.[0-9]{1,3})?[a-z]?)\)\s*$")
 MODEL = re.compile(r"^\s*(?:partial\s+)?model\s+\w+.*?\bequation\b(?P<rows>.*?)\bend\s+\w+\s*;?\s*$", re.DOTALL)
 MOST_ROWS = 16
 MOST_NAMED = 60
@@ -69,15 +74,33 @@ def equations_in(line: str) -> list[str]:
     model = MODEL.match(line)
     if model:
         return [row.strip() for row in model["rows"].split(";") if row.strip()]
+    if "───" in line:
+        raise InvalidInput("column 1: an expression printed on several lines; print it by str(…), srepr(…) or latex(…)")
     rules = RULES.match(line)
     if rules:
         line = ARROW.sub(" = ", rules["inner"])
+    listed = LIST.match(line)
+    if listed and all(len(TWO_EQUALS.findall(part)) == 1 for part in _cut(listed["inner"], re.compile(","))):
+        line = TWO_EQUALS.sub("= ", listed["inner"])
     if "\\" in line:
         line = _without_remarks(line)
         line = SYSTEM.sub(lambda found: _of_system(found), line)
+    line = BULLET.sub("", line)
     bare = LAGRANGE.sub(" ", _led(line))  # what stands behind its second sign is the row
     pieces = _pieces(bare)
-    return [LAGRANGE.sub(" ", _led(piece)) for piece in pieces] if len(pieces) > 1 else [bare]
+    rows = [LAGRANGE.sub(" ", _led(piece)) for piece in pieces] if len(pieces) > 1 else [bare]
+    return [_without_number(row) for row in rows]
+
+
+def _without_number(row: str) -> str:
+    """The row without its number, (12), which stands apart behind it."""
+    found = NUMBER.search(row)
+    if found is None or "=" not in row:
+        return row
+    if not found["far"]:
+        raise InvalidInput(f"{found[0].strip()} at the end: the number of the equation, or a factor? Leave it out, or "
+                           "write * before it")  # fmt: skip
+    return row[: found.start()]
 
 
 def _without_remarks(line: str) -> str:

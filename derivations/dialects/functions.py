@@ -17,7 +17,7 @@ from .names import plain_name
 from .statements import function_of, is_program, split
 
 WORDS = re.compile(
-    r"(?<![\w.'\"])(?P<name>[A-Za-z_]\w*)(?P<of>(?:\.[A-Za-z_]\w*)*)(?P<at>\s*\[\s*['\"]?[\w:\s-]{1,24}['\"]?\s*\]|\(\s*\d\s*\))?"
+    r"(?<![\w.'\"])(?P<name>[A-Za-z_α-ωΑ-Ωϕ][A-Za-z0-9_α-ωΑ-Ωϕ₀-₉]*)(?P<of>(?:\.[A-Za-z_]\w*)*)(?P<at>\s*\[\s*['\"]?[\w:\s-]{1,24}['\"]?\s*\]|\(\s*\d\s*\))?"
 )
 MODULES = ("np", "numpy", "math", "Math", "std", "sp", "sympy", "jnp", "torch", "cmath")
 FUNCTIONS = (
@@ -67,13 +67,15 @@ class _Follower:
     labels: dict[int, str] = field(default_factory=dict)
     lines: dict[str, str] = field(default_factory=dict)
     parameters: tuple[str, ...] = ()
+    base: int = 0  # of what stands in square brackets
     prefix: str = "val"  # of the names of lines; no name of the author's begins so
 
     def assign(self, target: str, text: str) -> None:
         """Follow one assignment."""
         entry = re.fullmatch(r"(?P<name>\w{1,40})\s*(?P<open>[\[(])\s*(?P<k>\d)\s*[\])]", target.strip())
         if entry:
-            self.put_entry(entry["name"], int(entry["k"]) - (entry["open"] == "("), self.value(text))
+            first = 1 if entry["open"] == "(" else self.base
+            self.put_entry(entry["name"], int(entry["k"]) - first, self.value(text))
             return
         names = _names(target)
         if len(names) == 1 and not target.strip().endswith(","):
@@ -101,7 +103,7 @@ class _Follower:
         self.here[name] = [*values, value]
 
     def put(self, name: str, value: Any) -> None:
-        if not re.fullmatch(r"[A-Za-z_]\w{0,40}", name):
+        if not re.fullmatch(r"[A-Za-z_α-ωΑ-Ωϕ][A-Za-z0-9_α-ωΑ-Ωϕ₀-₉]{0,40}", name):
             raise InvalidInput(f"{name[:40]!r}: a name is needed on the left of an assignment; entries are not changed")
         if isinstance(value, Place):
             self.labels.setdefault(value.at, name)
@@ -153,6 +155,7 @@ class _Follower:
     def expression(self, text: str) -> str:
         """The text with what its names stand for."""
         text = re.sub(r"\.(?=[*/^])", "", text)
+        text = re.sub(r"(?<=[\w)\]])\.dot\s*\(", "@(", text)
         return WORDS.sub(lambda found: self.written(self.word(found)), text)
 
     def word(self, found: re.Match[str]) -> Any:
@@ -165,14 +168,14 @@ class _Follower:
             if name in self.parameters and (of or re.search(r"['\"]", at)):
                 return of[1:] if of else re.sub(r"\W", "", at)
             if name in self.parameters and at and self.is_state(name):
-                return _entry([Place(k) for k in range(self.size)], at, name)
+                return _entry([Place(k) for k in range(self.size)], at, name, self.base)
             if name in self.parameters and self.is_state(name):
                 return [Place(k) for k in range(self.size)]
             return found[0]
         value = self.here[name]
         if of in (".T", ".sin", ".cos"):
             raise InvalidInput(f"{found[0][:40]!r}: write the function before its argument, and no .T")
-        return _entry(value, at, name) if at else value
+        return _entry(value, at, name, self.base) if at else value
 
     def is_state(self, name: str) -> bool:
         """Whether a parameter is the state: it is no time, and the first besides that."""
@@ -216,6 +219,10 @@ def _rows(text: str, count: int, coordinates: Sequence[str], define: Mapping[str
             follower.here |= {name: Place(k) for k, name in enumerate(names)}
             follower.labels |= dict(enumerate(names))
     assigned, last = list(function.assigned), function.returned
+    if last in function.parameters:  # du of Julia, dydt[] of C
+        follower.parameters = tuple(p for p in follower.parameters if p != last)
+        places = [int(m[1]) for target, _ in assigned if (m := re.match(rf"{last}\s*\[\s*(\d)\s*\]$", target))]
+        follower.base = 1 if min(places, default=0) == 1 else 0
     if assigned and assigned[-1][0] == last:
         last = assigned.pop()[1]
     for target, value in assigned:
@@ -338,19 +345,19 @@ def _is_quantity(name: str) -> bool:
     return re.fullmatch(r"(?:[mMlLgGIJkb]|lc|Lc)_?\d?", name) is not None
 
 
-def _entry(value: Any, at: str, name: str) -> Any:
+def _entry(value: Any, at: str, name: str, base: int = 0) -> Any:
     """x[0], x(1), x[:2] of a list."""
     inner = at[1:-1].strip()
     if isinstance(value, list):
         if re.fullmatch(r"-?\d", inner):
-            k = int(inner) - (at[0] == "(")
-            if -len(value) <= k < len(value):
+            k = int(inner) - (1 if at[0] == "(" else base)
+            if (not base or k >= 0) and -len(value) <= k < len(value):
                 return value[k]
         part = re.fullmatch(r"(\d?)\s*:\s*(\d?)", inner)
-        if part and at[0] == "[":
+        if part and at[0] == "[" and not base:
             return value[int(part[1]) if part[1] else None : int(part[2]) if part[2] else None]
     elif isinstance(value, str) and re.fullmatch(r"\d", inner):
-        return Entry(value, int(inner) - (at[0] == "("))
+        return Entry(value, int(inner) - (1 if at[0] == "(" else base))
     if at[0] == "(":
         raise InvalidInput(f"{name}{at[:20]}: this is no entry of the state; write * for a product")
     raise InvalidInput(f"{name}{at[:20]}: this entry is not followed; write out what it is")

@@ -13,6 +13,7 @@ from ...models.errors import InvalidInput
 
 STARTS = re.compile(
     r"\s*(?:(?:#|//|%)[^\n]{0,200}\n\s*){0,8}(?:def\s|class\s|function\b|import\s|from\s+\w+\s+import|(?:pub\s+)?fn\s"
+    r"|(?:static\s+|inline\s+){0,2}(?:int|void)\s+\w+\s*\("
     r"|(?:(?:const|let|var)\s+)?\w{1,24}\s*=\s*(?:lambda\b|@\s*\(|\([\w\s,\[\]]{0,80}\)\s*=>))"
 )
 MOST_STATEMENTS = 200
@@ -22,8 +23,8 @@ BLOCK_COMMENT = re.compile(r"/\*(?:[^*]|\*(?!/)){0,2000}\*/")
 GOES_ON = re.compile(r"\.\.\.[^\n]{0,200}\n|(?<!\\)\\\n")
 NESTED = re.compile(r"(?<![\w.])(?:if|elif|else|for|while|switch|try|with|match|loop)\b")
 HEAD = re.compile(
-    r"(?:(?:export|async|pub|static|private|public)\s+){0,3}(?:def|fn|function)\b\s*"
-    r"(?:(?:\[[^\]]{0,80}\]|(?P<out>\w{1,24}))\s*=\s*)?(?P<name>\w{0,40})\s*\((?P<arguments>.{0,400}?)\)"
+    r"(?:(?:export|async|pub|static|private|public)\s+){0,3}(?:inline\s+)?(?:def|fn|function|(?:int|void)(?=\s+\w+\s*\())\b\s*"
+    r"(?:(?:\[[^\]]{0,80}\]|(?P<out>\w{1,24}))\s*=\s*)?(?P<name>\w{0,40})!?\s*\((?P<arguments>.{0,400}?)\)"
     r"\s*(?:->\s*[^{:]{1,60})?\s*[:{]?\s*(?P<rest>.*)$",
     re.DOTALL,
 )
@@ -74,14 +75,20 @@ def function_of(text: str) -> Function:
             parameters, assigned, out = _parameters(head["arguments"]), [], head["out"] or ""
             is_open = head["name"] != "__init__"
             line = head["rest"].strip()
-        if not is_open or not line or line in ("end", "}", "});"):
+        if not is_open or not line or line in ("}", "});") or (line == "end" and not _filled(assigned, parameters)):
             continue
         returned = re.match(r"return\b\s*(.*)$", line, re.DOTALL)
+        filled = _filled(assigned, parameters)
+        if filled and (returned or line == "end") and not (returned and re.search(r"[,\[(]", returned[1])):
+            functions.append(Function(parameters, tuple(assigned), filled))
+            is_open, out = False, ""
+            continue
         if returned:
             functions.append(Function(parameters, tuple(assigned), returned[1].strip()))
             is_open, out = False, ""
             continue
         assigned += _assignments(line)
+    out = out or _filled(assigned, parameters)
     if out and is_open:
         functions.append(Function(parameters, tuple(assigned), out))
     if len(functions) != 1:
@@ -89,6 +96,14 @@ def function_of(text: str) -> Function:
             f"{len(functions)} functions that return something; give the text of the one with the equations of motion"
         )
     return functions[0]
+
+
+def _filled(assigned: list[tuple[str, str]], parameters: tuple[str, ...]) -> str:
+    """The parameter whose entries are assigned, du[1] = …; an empty text where there is none."""
+    if len([name for name in parameters if name not in ("t", "time")]) < 2:
+        return ""  # it is the state itself
+    found = [m[1] for target, _ in assigned if (m := re.match(r"(\w+)\s*\[\s*\d\s*\]$", target))]
+    return next((name for name in found if name in parameters), "")
 
 
 def _assignments(line: str) -> list[tuple[str, str]]:
@@ -108,7 +123,9 @@ def _assignments(line: str) -> list[tuple[str, str]]:
 
 def _parameters(text: str) -> tuple[str, ...]:
     """Names without types and values; what is taken apart at once, [a, b], as it stands."""
-    bare = [re.sub(r"^&?mut\s+|[:=].*$", "", part.strip(), flags=re.DOTALL).strip() for part in split(text, ",")]
+    bare = [re.sub(r"^&?mut\s+|(?<!:)[:=](?!:).*$", "", part.strip(), flags=re.DOTALL).strip() for part in split(text, ",")]
+    bare = [re.sub(r"^.*[\s&*](\w+)(?:\s*\[\d?\])?$", r"\1", part, flags=re.DOTALL) if part[:1] != "[" else part
+            for part in bare]  # double y[4], const state_type &x
     return tuple(name for name in bare if name and name not in ("self", "this", "*", "/"))
 
 

@@ -34,6 +34,12 @@ WHERE = re.compile(
     r"(?:\\[,; ]|\\q?quad|\s|,){0,20}(?P<name>[^=<>&]{1,30}?)\s*(?::=|=|\\equiv|\\coloneqq)\s*(?P<value>[^=]+)$"
 )
 
+SAID = re.compile(r"\b(?:where|with|mit|wobei|où|avec)\b[^=]{0,60}=|ただし[^=]{0,60}=")
+ALSO = re.compile(
+    r"(?:[,;]|\\[,;]|\band\b|\\text\s*\{\s*and\s*\})(?:\\[,; ]|\\q?quad|\s|and\b|\\text\s*\{\s*and\s*\}){0,12}"
+    r"(?P<name>\\?[A-Za-zΔδα-ω]{1,12}(?:\s*_\s*\{?\w{1,4}\}?)?)\s*(?::=|=)\s*(?P<value>[^=]+)$"
+)
+
 
 @dataclass(frozen=True)
 class Known:
@@ -133,6 +139,12 @@ def _said_behind(data: dict[str, Any]) -> dict[str, Any]:
     found: dict[str, str] = {}
 
     def without(line: str) -> str:
+        for _ in range(8):  # where s = …, c = …: the last of several first
+            last = ALSO.search(line)
+            if last is None or not SAID.search(line[: last.start()]) or plain_name(last["name"]) is None:
+                break
+            found.setdefault(last["name"].strip(), last["value"].rstrip(" .,;\n"))
+            line = line[: last.start()]
         match = WHERE.search(line)
         name = plain_name(match["name"]) if match else None
         if match is None or name is None or "=" not in line[: match.start()]:

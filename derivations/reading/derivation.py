@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from ..dialects.blocks import rows_of_blocks
 from ..dialects.functions import whole_functions
 from ..dialects.table import translated
 from ..dialects.times import with_times
+from ..dialects.vectors import with_vectors
 from .declaration import PRESETS
 from .forms.hamilton import read_hamilton
 from .forms.stages import is_staged, read_stages
 from .submission import WORDS, Submission, known_fields, opened, read_fields
+
+MOST_POSITIONS = 16
 
 
 def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
@@ -21,7 +25,8 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     """
     known_fields(data)
     count, coordinates = _shape(data)
-    data, constants = with_times(rows_of_blocks(whole_functions(data, count, coordinates)))
+    data = with_vectors(_with_positions(rows_of_blocks(whole_functions(data, count, coordinates))), count)
+    data, constants = with_times(data)
     data = translated(data, count)
     reader = opened(data, slashes, constants)
     if is_staged(data, reader.evaluation.space.n):
@@ -29,6 +34,18 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     if "hamiltonian" in data or (reader.variable is not None and reader.variable.kind == "momentum"):
         return read_hamilton(data, reader)
     return read_fields(data, reader)
+
+
+def _with_positions(data: dict[str, Any]) -> dict[str, Any]:
+    """The fields with the positions as definitions, where an energy is written in these."""
+    positions, define = data.get("positions"), data.get("define", {})
+    energies = [data[name] for name in ("kinetic", "potential", "lagrangian") if isinstance(data.get(name), str)]
+    if not isinstance(positions, dict) or not isinstance(define, dict) or len(positions) > MOST_POSITIONS:
+        return data
+    if not any(re.search(rf"(?<![A-Za-z\\\\]){name[:1]}\s*\}}?\s*_?\{{?[0-9a-z]", text) for name in map(str, positions)
+               if name[:1] in "xy" for text in energies):  # fmt: skip
+        return data
+    return data | {"define": {**positions, **define}}
 
 
 def _shape(data: dict[str, Any]) -> tuple[int, list[str]]:
