@@ -15,12 +15,20 @@ from .lines import BLANKS, LONGEST_LINE
 COMMENT = re.compile(r"(?<!\\)%[^\n]*")
 NUMBERED = re.compile(r"\\(?:tag|label)\*?\s*\{[^{}]{0,60}\}|\\(?:nonumber|notag|displaystyle)(?![A-Za-z])")
 NAMED = re.compile(r"\\(?P<which>underbrace|overbrace|underline|overline|textcolor\s*\{\w{1,20}\}|color\s*\{\w{1,20}\}\s*(?=\{))\s*(?=\{)")
+SUM_SIGN = re.compile(r"[+−–-]")
+SUM_BEFORE = re.compile(r"(?:^|[=+(&\[]|\\\\)(?:\s|\\[,;:! ])*$")
+SUM_BEHIND = re.compile(r"(?:\s|\\[,;:! ])*(?:$|[-+−=)&,;.\]]|\\\\|\\end|\\q?quad)")
 UNDER = re.compile(r"\s*[_^]\s*(?=\{)")
 SO = r"\\(?:therefore|because|Rightarrow|implies|Longrightarrow|longrightarrow|Leftrightarrow|iff|to)(?![A-Za-z])"
 LEADS = re.compile(rf"^(?P<before>(?:\s|&|\\[,;:! ]|\\q?quad(?![A-Za-z])|[∴⇒→])*)(?P<so>(?:(?:{SO}|[∴⇒→])(?:\s|\\[,;:! ]|\\q?quad(?![A-Za-z]))*)+)")
 REMARK = re.compile(r"\\(?:text|textrm|textit|textbf|mbox|mathrm|intertext)\s*\{(?P<inner>[^{}$\\]{0,80})\}")
-AND = re.compile(r"\s*(?:and|und|et|y|e|en|oraz|och|及び|および|と|,|;|&)\s*")
-FUNCTIONS = re.compile(r"\s*(?:sin|cos|tan|sgn|sign|diag|const|[A-Za-z]{1,3})\s*")
+INDEX_BEFORE = re.compile(r"[_^]\s*$")
+_GAP = r"(?:\s|\\[,;:! ]|&|\\q?quad(?![A-Za-z]))"
+ROW_STARTS = re.compile(rf"(?:^|\\\\|\}}|⁂){_GAP}{{0,20}}$")
+HEAD_ENDS = re.compile(r"\s{0,9}(?::|&|\\q?quad(?![A-Za-z]))")
+APART = re.compile(rf"(?:[,;.&]|\\q?quad){_GAP}{{0,20}}$")
+ROW_STOPS = re.compile(rf"{_GAP}{{0,20}}[.,;]?{_GAP}{{0,20}}(?:$|\\\\|\\end|\\q?quad)")
+AND = re.compile(r"\s*(?:and|und|et|oraz|och|及び|および|と|,|;|&)\s*")
 SYSTEM = re.compile(
     r"(?:\\left\s*(?:\\\{|\\lbrace|\.)\s*)?\\begin\s*\{(?P<of>cases|array|aligned|alignedat|gathered|split|matrix)\}"
     r"(?:\s*\{[clr|@{}\s0-9]{0,20}\})?(?P<inner>.*?)\\end\s*\{(?P=of)\}(?:\s*\\right\s*(?:\.|\\\}|\\rbrace))?",
@@ -42,7 +50,8 @@ ARROW = re.compile(r"(?<=\S)\s*(?:->|→|:>|\\\[Rule\])\s*")
 RULES = re.compile(r"^\s*\{+\s*(?P<inner>[^{}]*(?:->|→)[^{}]*)\}+\s*$", re.DOTALL)
 LIST = re.compile(r"^\s*\{(?P<inner>[^{}]*==[^{}]*)\}\s*$", re.DOTALL)
 TWO_EQUALS = re.compile(r"(?<![=<>!])==(?!=)")
-BULLET = re.compile(r"(?m)^\s*(?:[•▪‣◦∙]\s*|\(?[0-9]{1,2}[.)]\s+)")
+BULLET = re.compile(r"(?m)^\s*[•▪‣◦]\s*")
+COUNTED = re.compile(r"(?m)^\s*\(?(?P<k>[0-9]{1,2})\)\s+(?=\S)")
 NUMBER = re.compile(r"(?:(?P<far>\s{2,}|\t|\\q?quad\s*)|\s)\((?:[0-9]{1,3}(?:\.[0-9]{1,3})?[a-z]?)\)\s*$")
 MODEL = re.compile(r"^\s*(?:partial\s+)?model\s+\w+.*?\bequation\b(?P<rows>.*?)\bend\s+\w+\s*;?\s*$", re.DOTALL)
 MOST_ROWS = 16
@@ -86,6 +95,12 @@ def equations_in(line: str) -> list[str]:
         line = _without_remarks(line)
         line = SYSTEM.sub(lambda found: _of_system(found), line)
     line = BULLET.sub("", line)
+    counted = [int(m["k"]) for m in COUNTED.finditer(line)]
+    if len(counted) > 1 and counted == list(range(counted[0], counted[0] + len(counted))):
+        line = COUNTED.sub("", line)
+    elif counted and counted[0] > 1 and COUNTED.match(line):
+        raise InvalidInput(f"({counted[0]}) in front: the number of the equation, or a factor? Leave it out, or write * "
+                           "behind it")  # fmt: skip
     bare = LAGRANGE.sub(" ", _led(line))  # what stands behind its second sign is the row
     pieces = _pieces(bare)
     rows = [LAGRANGE.sub(" ", _led(piece)) for piece in pieces] if len(pieces) > 1 else [bare]
@@ -108,13 +123,16 @@ def _without_remarks(line: str) -> str:
     line = _unnamed(NUMBERED.sub(" ", line))
 
     def remark(found: re.Match[str]) -> str:
-        inner = found["inner"]
-        if re.search(r"[_^]\s*$", line[: found.start()]):  # an index
+        inner, before, behind = found["inner"], line[: found.start()], line[found.end() :]
+        if INDEX_BEFORE.search(before):
             return found[0]
         if AND.fullmatch(inner):
             return PLACEHOLDER
-        is_word = not FUNCTIONS.fullmatch(inner) and re.search(r"[^\W\d_]{3}|\(\d+\)", inner) and "=" not in inner
-        return " " if is_word and not WHERE.match(found[0]) else found[0]
+        # A word that stands apart, at an end of its row; any other may be a name, and a factor
+        heads = ROW_STARTS.search(before) and (inner.rstrip().endswith(":") or HEAD_ENDS.match(behind))
+        tails = APART.search(before) and ROW_STOPS.match(behind)
+        is_word = re.search(r"[^\W\d_]{3}|\(\d+\)", inner) and "=" not in inner and not WHERE.match(found[0])
+        return " " if is_word and (heads or tails) else found[0]
 
     return REMARK.sub(remark, line)
 
@@ -133,6 +151,8 @@ def _unnamed(line: str) -> str:
         if behind < 0:
             return line
         inner = line[found.end() + 1 : end - 1]
+        if len(_cut(inner.strip()[1:], SUM_SIGN)) > 1 and not (SUM_BEFORE.search(line[: found.start()]) and SUM_BEHIND.match(line, behind)):
+            return line  # 2\\underbrace{a + b}: whether the brace binds as a bracket does is the author's secret
         line = f"{line[: found.start()]} {inner} {line[behind:]}"
     return line
 

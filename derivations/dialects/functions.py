@@ -37,6 +37,7 @@ FUNCTIONS = (
     "pi",
 )
 ARRAY = re.compile(r"^(?:np\.|numpy\.|jnp\.)?(?:array|asarray|hstack|concatenate|r_|vec!|list|tuple)?\s*(?=[\[(])")
+TIMES = ("t", "time", "_", "_t")  # what solvers give besides the state
 ADVICE = "return the rates and the accelerations in the state's order, as in return w1, w2, a1, a2"
 
 
@@ -81,6 +82,10 @@ class _Follower:
         if len(names) == 1 and not target.strip().endswith(","):
             self.put(names[0], self.value(text))
             return
+        if text.strip() in self.parameters and not self.is_state(text.strip()):  # M, m, l, g = p
+            for name in names:
+                self.here.pop(name, None)
+            return
         value = self.value(text)
         if isinstance(value, str) and not _is_list(value):
             value = [Entry(value, k) for k in range(len(names))]
@@ -103,7 +108,7 @@ class _Follower:
         self.here[name] = [*values, value]
 
     def put(self, name: str, value: Any) -> None:
-        if not re.fullmatch(r"[A-Za-z_α-ωΑ-Ωϕ][A-Za-z0-9_α-ωΑ-Ωϕ₀-₉]{0,40}", name):
+        if not re.fullmatch(r"(?:self\.)?[A-Za-z_α-ωΑ-Ωϕ][A-Za-z0-9_α-ωΑ-Ωϕ₀-₉]{0,40}", name):
             raise InvalidInput(f"{name[:40]!r}: a name is needed on the left of an assignment; entries are not changed")
         if isinstance(value, Place):
             self.labels.setdefault(value.at, name)
@@ -112,7 +117,7 @@ class _Follower:
                 if isinstance(one, Place):
                     self.labels.setdefault(one.at, f"{name}{k}")
         if isinstance(value, str):
-            if value.strip() == name or re.fullmatch(r"[0-9.eE+-]+", value.strip()) and _is_quantity(name):
+            if value.strip() == name or re.fullmatch(r"[0-9.]+(?:[eE][+-]?[0-9]+)?", value.strip()) and _is_quantity(name):
                 self.here.pop(name, None)  # m1 = p['m1'], g = 9.81: what is right for every value is right for it
                 return
             if not re.fullmatch(r"[A-Za-z]\w*|[0-9.]+", value.strip()):
@@ -163,7 +168,7 @@ class _Follower:
         if name in MODULES or (name in FUNCTIONS and name not in self.here and not of):
             return found[0]
         if name in ("self", "this") and of:
-            return of[1:] + at
+            return self.here.get("self" + of, of[1:]) if not at else of[1:] + at
         if name not in self.here:
             if name in self.parameters and (of or re.search(r"['\"]", at)):
                 return of[1:] if of else re.sub(r"\W", "", at)
@@ -179,7 +184,7 @@ class _Follower:
 
     def is_state(self, name: str) -> bool:
         """Whether a parameter is the state: it is no time, and the first besides that."""
-        others = [p for p in self.parameters if p not in ("t", "time", "tau", "_", "_t")]
+        others = [p for p in self.parameters if p not in TIMES]
         return bool(others) and others[0] == name
 
     def written(self, value: Any) -> str:
@@ -219,7 +224,8 @@ def _rows(text: str, count: int, coordinates: Sequence[str], define: Mapping[str
             follower.here |= {name: Place(k) for k, name in enumerate(names)}
             follower.labels |= dict(enumerate(names))
     assigned, last = list(function.assigned), function.returned
-    if last in function.parameters:  # du of Julia, dydt[] of C
+    others = [name for name in function.parameters if name not in TIMES]
+    if last in others and len(others) > 1:  # du of Julia, dydt[] of C
         follower.parameters = tuple(p for p in follower.parameters if p != last)
         places = [int(m[1]) for target, _ in assigned if (m := re.match(rf"{last}\s*\[\s*(\d)\s*\]$", target))]
         follower.base = 1 if min(places, default=0) == 1 else 0

@@ -21,6 +21,8 @@ LONGEST_PROGRAM = 20_000  # characters
 STRINGS = re.compile(r'"""(?:[^"]|"(?!"")){0,2000}"""|\'\'\'(?:[^\']|\'(?!\'\')){0,2000}\'\'\'')
 BLOCK_COMMENT = re.compile(r"/\*(?:[^*]|\*(?!/)){0,2000}\*/")
 GOES_ON = re.compile(r"\.\.\.[^\n]{0,200}\n|(?<!\\)\\\n")
+DOWNWARDS = re.compile(r"(?<![\w])(?:g|G|gravity)\s*[:=]\s*-\s*[0-9]")
+PLAIN_VALUE = re.compile(r"[\s\w.,()\[\]+-]*")
 NESTED = re.compile(r"(?<![\w.])(?:if|elif|else|for|while|switch|try|with|match|loop)\b")
 HEAD = re.compile(
     r"(?:(?:export|async|pub|static|private|public)\s+){0,3}(?:inline\s+)?(?:def|fn|function|(?:int|void)(?=\s+\w+\s*\())\b\s*"
@@ -55,6 +57,8 @@ def function_of(text: str) -> Function:
     """The one function of a text that returns something. Raises InvalidInput where that is not plain."""
     if len(text) > LONGEST_PROGRAM:
         raise InvalidInput(f"this program is longer than {LONGEST_PROGRAM} characters; give the function alone")
+    if DOWNWARDS.search(text):
+        raise InvalidInput("g is a negative number here; give it without its sign, and the sign in the rows")
     lines = _lines(text)
     if len(lines) > MOST_STATEMENTS:
         raise InvalidInput(f"this program has more than {MOST_STATEMENTS} lines; give the function alone")
@@ -62,6 +66,7 @@ def function_of(text: str) -> Function:
     parameters: tuple[str, ...] = ()
     assigned: list[tuple[str, str]] = []
     out, is_open = "", False
+    outside: list[tuple[str, str]] = []  # what a module or __init__ says of a quantity, as in self.I = self.m*self.l**2/3
     for line in lines:
         found = ANONYMOUS.match(line)
         if found:
@@ -75,6 +80,9 @@ def function_of(text: str) -> Function:
             parameters, assigned, out = _parameters(head["arguments"]), [], head["out"] or ""
             is_open = head["name"] != "__init__"
             line = head["rest"].strip()
+        if not is_open and not functions and line and (said := ASSIGNED.match(KEYWORDS.sub("", line))):
+            if not PLAIN_VALUE.fullmatch(said["value"].replace("self.", "")):
+                outside.append((said["target"].strip(), said["value"].strip()))
         if not is_open or not line or line in ("}", "});") or (line == "end" and not _filled(assigned, parameters)):
             continue
         returned = re.match(r"return\b\s*(.*)$", line, re.DOTALL)
@@ -95,7 +103,10 @@ def function_of(text: str) -> Function:
         raise InvalidInput(
             f"{len(functions)} functions that return something; give the text of the one with the equations of motion"
         )
-    return functions[0]
+    only = functions[0]
+    used = " ".join([*(value for _, value in only.assigned), only.returned])
+    kept = [(t, v) for t, v in outside if re.fullmatch(r"(?:self\.)?\w+", t) and re.search(rf"(?<![\w.]){re.escape(t)}\b", used)]
+    return Function(only.parameters, (*kept, *only.assigned), only.returned)
 
 
 def _filled(assigned: list[tuple[str, str]], parameters: tuple[str, ...]) -> str:

@@ -43,6 +43,9 @@ def with_times(data: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
         if coordinate not in given or not isinstance(line, str):
             kept[name] = line
             continue
+        if given[coordinate].get("joint") != "slide" or given[coordinate].get("along") == "link":
+            raise InvalidInput(f"define.{name}: a given motion is put in for a slide that is fixed in direction; here write "
+                               f"the rows with {coordinate} and its rates")  # fmt: skip
         amplitude, found = _motion(name, line)
         if any("spring" in b for b in bodies):
             raise InvalidInput(f"define.{name}: with a spring in the mechanism, leave cosines out; write {coordinate}'' "

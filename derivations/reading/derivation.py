@@ -11,6 +11,7 @@ from ..dialects.table import translated
 from ..dialects.times import with_times
 from ..dialects.vectors import with_vectors
 from .declaration import PRESETS
+from .forces import constraint_forces
 from .forms.hamilton import read_hamilton
 from .forms.stages import is_staged, read_stages
 from .submission import WORDS, Submission, known_fields, opened, read_fields
@@ -28,7 +29,8 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     data = with_vectors(_with_positions(rows_of_blocks(whole_functions(data, count, coordinates))), count)
     data, constants = with_times(data)
     data = translated(data, count)
-    reader = opened(data, slashes, constants)
+    forces = constraint_forces(data, count)
+    reader = opened(data, slashes, [*constants, *forces], forces=forces)
     if is_staged(data, reader.evaluation.space.n):
         return read_stages(data, reader)
     if "hamiltonian" in data or (reader.variable is not None and reader.variable.kind == "momentum"):
@@ -45,7 +47,7 @@ def _with_positions(data: dict[str, Any]) -> dict[str, Any]:
     if not any(re.search(rf"(?<![A-Za-z\\\\]){name[:1]}\s*\}}?\s*_?\{{?[0-9a-z]", text) for name in map(str, positions)
                if name[:1] in "xy" for text in energies):  # fmt: skip
         return data
-    return data | {"define": {**positions, **define}}
+    return data | {"define": {**define, **positions}}
 
 
 def _shape(data: dict[str, Any]) -> tuple[int, list[str]]:

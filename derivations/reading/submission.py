@@ -26,6 +26,7 @@ from ..steps.mechanism import Origin
 from ..steps.stages import STAGES, Stages
 from .declaration import PRESETS, declared
 from .evaluation import Evaluation
+from .forces import eliminated
 from .layout import LEFT_SIDE, equations_of, laid_out
 from .matrices import Grid, added
 from .meaning import Meaning, momentum_symbols, own_symbols
@@ -158,11 +159,13 @@ def read_fields(data: dict[str, Any], reader: Reader) -> Submission:
     return reader.submission(rows, lagrangian)
 
 
-def opened(data: dict[str, Any], slashes: int = 0, constants: Sequence[str] = (), *, has_signs: bool = False) -> Reader:
+def opened(data: dict[str, Any], slashes: int = 0, constants: Sequence[str] = (), *, has_signs: bool = False,
+           forces: Sequence[str] = ()) -> Reader:  # fmt: skip
     """A reader for the lines of these fields: mechanism, convention and the file's own names are read.
 
     ``constants``: names of quantities besides those that a declared mechanism has; ``has_signs``: signs of rates
-    are read in every line of a declared mechanism.
+    are read in every line of a declared mechanism; ``forces``: of constraints, names among the constants, which the
+    rows are rid of.
     """
     texts = list(_texts(data))
     own = declared(data, texts, constants, has_signs=has_signs or any(SIGNS.search(text) for text in texts))
@@ -176,7 +179,8 @@ def opened(data: dict[str, Any], slashes: int = 0, constants: Sequence[str] = ()
         letter = variable(texts, n, momenta=has_momenta(data), taken=names | _letters(names))
         words = with_variable(vocabulary(texts, n, names), letter)
         momenta = momentum_symbols(letter, n)
-        meaning = Meaning(kind, Space.general(n, (*own_symbols(n), *momenta)), momenta=momenta)
+        space = Space.general(n, (*own_symbols(n), *forces, *momenta))
+        meaning = Meaning(kind, space, {name: space.own(name) for name in forces}, momenta=momenta)
     else:
         letter, words = own.variable, with_variable(own.words, own.variable)
         n = len(own.mechanism.bodies)
@@ -186,6 +190,7 @@ def opened(data: dict[str, Any], slashes: int = 0, constants: Sequence[str] = ()
         frozenset(name for name in ("angles", "from", "sense") if name in data), "\n".join(texts),
         None if own is None else own.mechanism, letter,
     )  # fmt: skip
+    reader.forces = tuple(forces)
     reader.define(defined)
     return reader
 
@@ -260,6 +265,7 @@ class Reader:
         self.defined: list[tuple[str, str]] = []
         self.doubtful: list[str] = []
         self.weightless = False
+        self.forces: tuple[str, ...] = ()
         self.typesetter = Typesetter(words)
 
     def submission(self, rows: tuple[tuple[str, Formula], ...], lagrangian: Formula | None) -> Submission:
@@ -350,6 +356,7 @@ class Reader:
         if not isinstance(table, dict) or not table:
             raise InvalidInput(f'{name}: a table of rows is needed, as in 1 = "m1*l1^2*a1 = -m1*g*l1*sin(t1)"')
         most = n if self.variable is None and len(table) != 2 * n else 2 * n  # of first order: two for each angle
+        most = n + len(self.forces) if self.forces and name == "equations" else most
         if len(table) > most:
             raise InvalidInput(f"{name}: {len(table)} rows for {n} angles; one row for each angle is needed")
         rows: list[tuple[str, Formula]] = []
@@ -361,6 +368,8 @@ class Reader:
             rows += zip(labels, found, strict=True)
             if len(rows) > most:
                 raise InvalidInput(f"{where}: {len(rows)} rows for {n} angles; one row for each angle is needed")
+        if self.forces and name == "equations":
+            return eliminated(self.evaluation.space, rows, self.forces)
         if len(rows) > n and (self.variable is None or self.variable.kind == "rate"):
             rows = [(label, f) for label, f in rows if f]  # θ̇ = ω, where both are the rate
             if len(rows) > n:

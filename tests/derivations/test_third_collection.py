@@ -15,7 +15,7 @@ from furiko.models.errors import InvalidInput
 HERE = Path(__file__).parent / "third_collection"
 INDEX = tomllib.loads((HERE / "index.toml").read_text(encoding="utf-8"))
 PROOFS = prove_pasted.PROOFS
-# Nine of ten, as of the first collection; all are read today, and one more refusal is to be looked at, not hidden
+# Nine of ten, as of the first collection; of 55 that describe a planar open mechanism, 50 are read today
 READ_AS_PRINTED = 0.9
 
 
@@ -67,7 +67,14 @@ def test_none_is_misjudged(name):
         assert found[1]
 
 
+@pytest.mark.parametrize("name", [name for name, entry in INDEX.items() if "outside" in entry])
+def test_what_cannot_be_declared_is_refused_and_says_so(name):
+    with pytest.raises(InvalidInput, match="cannot be declared|is not known; give one of"):
+        grade(HERE / f"{name}.toml")
+
+
 @pytest.mark.slow
 def test_nine_of_ten_are_read_as_printed():
-    read = [name for name in INDEX if judged(name) is not None]
-    assert len(read) >= READ_AS_PRINTED * len(INDEX), f"{len(read)} of {len(INDEX)} are read as printed"
+    inside = [name for name, entry in INDEX.items() if "outside" not in entry]
+    read = [name for name in inside if judged(name) is not None]
+    assert len(read) >= READ_AS_PRINTED * len(inside), f"{len(read)} of {len(inside)} are read as printed"

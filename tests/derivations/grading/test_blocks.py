@@ -36,6 +36,12 @@ SAME = {
     "therefore": rf"{A} \\ \therefore\; {B}",
     "rules": "{{x''[t] -> m Sin[θ[t]] (l θ'[t]^2 + g Cos[θ[t]])/(M + m Sin[θ[t]]^2), "
              "θ''[t] -> -Sin[θ[t]] (m l θ'[t]^2 Cos[θ[t]] + (M + m) g)/(l (M + m Sin[θ[t]]^2))}}",
+    "a list of Mathematica's": "{(M+m) x''[t] + m l θ''[t] Cos[θ[t]] - m l θ'[t]^2 Sin[θ[t]] == 0, "
+                               "l θ''[t] + x''[t] Cos[θ[t]] + g Sin[θ[t]] == 0}",
+    "bullets": "• (M+m) ẍ + m l (θ̈ cos θ − θ̇² sin θ) = 0\n• l θ̈ + ẍ cos θ + g sin θ = 0",
+    "numbers behind": "(M+m) x'' + m l θ'' cos θ - m l θ'^2 sin θ = 0    (12)\nl θ'' + x'' cos θ = -g sin θ    (2)",
+    "with two abbreviations": r"(M+m)\ddot x + mlc\ddot\theta - mls\dot\theta^2 = 0 \\ "
+                              r"l\ddot\theta + \ddot x c + gs = 0, \quad \text{with } s = \sin\theta, \; c = \cos\theta",
     "Modelica": """model CartPole "pole on a cart"
   Real x, v, theta, w;
 equation
@@ -57,6 +63,7 @@ def test_both_rows_of_a_cart_and_a_bob(how):
 @pytest.mark.parametrize("how", SAME)
 def test_and_with_another_gravity_they_are_wrong(how):
     text = SAME[how].replace(r"g\sin", r"2g\sin").replace("g sin", "2 g sin").replace("g*sin", "2*g*sin")
+    text = text.replace("+ gs", "+ 2gs").replace("g Sin[θ[t]] == 0", "2 g Sin[θ[t]] == 0")
     text = text.replace("(M + m) g", "2 (M + m) g")
     assert text != SAME[how]
     assert grade_text(CART.format(text)).verdict == "wrong"
@@ -81,3 +88,33 @@ def test_a_matrix_and_what_stands_behind_where_are_not_cut():
     said = r"I\ddot\theta = -mgd\sin\theta, \quad\text{where } I = I_G + md^2"
     assert equations_in(said) == [said]
     assert equations_in("f(a, b) = c") == ["f(a, b) = c"]
+
+
+def test_a_number_close_behind_a_row_may_be_a_factor():
+    with pytest.raises(InvalidInput, match="number of the equation, or a factor"):
+        equations_in("l θ'' = -g sin θ (2)")
+
+
+def test_an_expression_on_several_lines_says_how_to_print_it():
+    with pytest.raises(InvalidInput, match="str"):
+        equations_in("  d\n───(θ(t))\n dt")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        r"M\ddot x = 2\underbrace{F + N}_{\text{pull}}",  # does the brace bind?
+        r"M\ddot x = -\underbrace{F + N}_{\text{pull}}",
+        r"\text{mass}\,\ddot x = F",
+        r"M \mathrm{tanh}(x) = F",
+        r"M \text{load} = F",
+    ],
+)
+def test_a_brace_or_a_word_that_may_be_part_of_the_mathematics_stays(text):
+    assert equations_in(text) == [text]
+
+
+def test_numbers_in_front_are_numbers_where_they_count():
+    assert equations_in("(1) x = y\n(2) z = w") == ["x = y", "z = w"]
+    with pytest.raises(InvalidInput, match="number of the equation, or a factor"):
+        equations_in("(2) x = y")

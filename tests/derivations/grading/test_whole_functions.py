@@ -52,6 +52,28 @@ dy = [v; w; A \\ [p.m*p.l*w^2*sin(th); p.g*sin(th)]];
 end""",
     "JavaScript": """const f = (t, [x, th, v, w]) => [v, w, m*Math.sin(th)*(l*w*w - g*Math.cos(th))/(M + m*Math.sin(th)**2),
   (g*Math.sin(th) - m*Math.sin(th)*(l*w*w - g*Math.cos(th))/(M + m*Math.sin(th)**2)*Math.cos(th))/l];""",
+    "Julia, in place": """function cartpole!(du, u, p, t)
+    x, θ, v, ω = u
+    M, m, l, g = p
+    du[1] = v
+    du[2] = ω
+    du[3] = m*sin(θ)*(l*ω^2 - g*cos(θ))/(M + m*sin(θ)^2)
+    du[4] = (g*sin(θ) - du[3]*cos(θ))/l
+end""",
+    "C": """static void rhs(double t, const double y[], double dydt[]) {
+  const double theta = y[1], v = y[2], w = y[3]; /* y[0] is x */
+  double s = sin(theta), c = cos(theta), x = y[0];
+  dydt[0] = v;
+  dydt[1] = w;
+  dydt[2] = m*s*(l*w*w - g*c)/(M + m*pow(s, 2)); // cart
+  dydt[3] = (g*s - dydt[2]*c)/l;
+}""",
+    "the inverse's product": """def f(t, z):
+    x, th, v, w = z
+    A = np.array([[M + m, m*l*np.cos(th)], [np.cos(th), l]])
+    b = np.array([m*l*w**2*np.sin(th), g*np.sin(th)])
+    acc = np.linalg.inv(A).dot(b)
+    return [v, w, acc[0], acc[1]]""",
     "a name more than once": """def f(t, y):
     x, theta, v, w = y
     a = l*w**2 - g*np.cos(theta)
@@ -73,8 +95,45 @@ def test_and_with_gravity_the_other_way_it_is_wrong(how):
     text = text.replace(
         "b = np.array([self.m*self.l*w**2*np.sin(theta), g", "b = np.array([self.m*self.l*w**2*np.sin(theta), -g"
     )
+    text = text.replace("np.sin(th), g*", "np.sin(th), -g*")
     assert text != SAME[how]
     assert grade_text(CART.format(text)).verdict == "wrong"
+
+
+ROD = """system = 'mechanism'
+[[bodies]]
+coordinate = 'theta'
+mass = 'm'
+length = 'l'
+centre = 'l/2'
+inertia = 'm*l^2/12'
+[equations]
+1 = '''
+{}
+'''
+"""
+INSIDE = """class Rod:
+    def __init__(self, m, l):
+        self.m, self.l = m, l
+        self.I = self.m*self.l**2/{}
+    def rhs(self, t, y):
+        theta, w = y
+        return w, -self.m*g*self.l/2*np.sin(theta)/self.I"""
+
+
+def test_what_is_said_outside_of_the_function_counts():
+    assert grade_text(ROD.format(INSIDE.format(3))).verdict == "correct"
+    assert grade_text(ROD.format(INSIDE.format(12))).verdict == "wrong"
+    module = "I = m*l**2/3\ndef f(y, t):\n    theta, w = y\n    return [w, -m*g*l/2*sin(theta)/I]"
+    assert grade_text(ROD.format("import math\n" + module)).verdict == "correct"
+    assert grade_text(ROD.format("import math\n" + module.replace("/3", "/12"))).verdict == "wrong"
+
+
+@pytest.mark.parametrize("text", ["import math\ng = -9.81\n{}", "{}"])
+def test_a_negative_g_is_refused(text):
+    body = "def f(y, t, g=-9.8):\n    theta, w = y\n    return [w, 3*g/(2*l)*sin(theta)]"
+    with pytest.raises(InvalidInput, match="without its sign"):
+        grade_text(ROD.format(text.format(body if "=" not in text else body.replace("=-9.8", ""))))
 
 
 TWO = "system = 'double-pendulum'\n[equations]\n1 = '''{}'''\n"
