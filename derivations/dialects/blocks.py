@@ -14,13 +14,18 @@ from .lines import BLANKS, LONGEST_LINE
 
 COMMENT = re.compile(r"(?<!\\)%[^\n]*")
 NUMBERED = re.compile(r"\\(?:tag|label)\*?\s*\{[^{}]{0,60}\}|\\(?:nonumber|notag|displaystyle)(?![A-Za-z])")
-NAMED = re.compile(r"\\(?P<which>underbrace|overbrace|underline|overline|textcolor\s*\{\w{1,20}\}|color\s*\{\w{1,20}\}\s*(?=\{))\s*(?=\{)")
+NAMED = re.compile(
+    r"\\(?P<which>underbrace|overbrace|underline|overline|textcolor\s*\{\w{1,20}\}|color\s*\{\w{1,20}\}\s*(?=\{))\s*(?=\{)"
+)
 SUM_SIGN = re.compile(r"[+−–-]")
 SUM_BEFORE = re.compile(r"(?:^|[=+(&\[]|\\\\)(?:\s|\\[,;:! ])*$")
 SUM_BEHIND = re.compile(r"(?:\s|\\[,;:! ])*(?:$|[-+−=)&,;.\]]|\\\\|\\end|\\q?quad)")
 UNDER = re.compile(r"\s*[_^]\s*(?=\{)")
 SO = r"\\(?:therefore|because|Rightarrow|implies|Longrightarrow|longrightarrow|Leftrightarrow|iff|to)(?![A-Za-z])"
-LEADS = re.compile(rf"^(?P<before>(?:\s|&|\\[,;:! ]|\\q?quad(?![A-Za-z])|[∴⇒→])*)(?P<so>(?:(?:{SO}|[∴⇒→])(?:\s|\\[,;:! ]|\\q?quad(?![A-Za-z]))*)+)")
+LEADS = re.compile(
+    rf"^(?P<before>(?:\s|&|\\[,;:! ]|\\q?quad(?![A-Za-z])|[∴⇒→])*)"
+    rf"(?P<so>(?:(?:{SO}|[∴⇒→])(?:\s|\\[,;:! ]|\\q?quad(?![A-Za-z]))*)+)"
+)
 REMARK = re.compile(r"\\(?:text|textrm|textit|textbf|mbox|mathrm|intertext)\s*\{(?P<inner>[^{}$\\]{0,80})\}")
 INDEX_BEFORE = re.compile(r"[_^]\s*$")
 _GAP = r"(?:\s|\\[,;:! ]|&|\\q?quad(?![A-Za-z]))"
@@ -38,12 +43,22 @@ ROW_ENDS = re.compile(r"\\\\(?:\s*\[[^\[\]]{1,12}\])?")
 BETWEEN = re.compile(r"[,;.]?\s*(?:\\q?quad(?![A-Za-z])\s*)+(?:[,;]\s*)?|[,;]\s+")
 WORDS = re.compile(r"(?<=[\w)\]}'])\s*[,;]?\s+(?:and|und|et)\s+(?=[\w(\\θφϕψα])")
 PLACEHOLDER = "⁂"  # stands for "and": in no formula
-WHERE = re.compile(r"^(?:\s|\\[,; ]|\\q?quad)*(?:where|with|wobei|mit|où|avec|\\(?:text|mbox|textrm|mathrm)\s*\{\s*(?:where|with|wobei|mit|où|avec|ただし)|(?:for|für|pour)\b)")
-CONTINUES = re.compile(r"^(?:\s|&|\{\}|\\[,;:! ]|\\q?quad(?![A-Za-z])|\\(?:left|right|[bB]igg?[lrm]?)(?=\s*[.])\s*\.)*(?:[+−–-]|\\(?:cdot|times)(?![A-Za-z])|=)")
+WHERE = re.compile(
+    r"^(?:\s|\\[,; ]|\\q?quad)*(?:where|with|wobei|mit|où|avec|(?:for|für|pour)\b"
+    r"|\\(?:text|mbox|textrm|mathrm)\s*\{\s*(?:where|with|wobei|mit|où|avec|ただし))"
+)
+CONTINUES = re.compile(
+    r"^(?:\s|&|\{\}|\\[,;:! ]|\\q?quad(?![A-Za-z])|\\(?:left|right)\s*\.)*"
+    r"(?:[+−–-]|\\(?:cdot|times)(?![A-Za-z])|=)"
+)
 BARE = re.compile(r"^(?:\s|\\[,; ]|&)*\\?[A-Za-zΔδα-ω]+(?:_?\{?\w{1,4}\}?)?\s*:?=")  # Δ = …
+_D = r"(?:\\mathrm\s*\{\s*d\s*\}|\\rm d|d)"
+_PARTIAL = r"(?:\\partial|∂)"
+_TO_RATE = rf"[^=]{{0,40}}?{_PARTIAL}[^=]{{1,160}}?{_PARTIAL}[^=]{{1,80}}?"
+_TO_COORDINATE = rf"[-−][^=]{{0,40}}?{_PARTIAL}[^=]{{1,80}}?{_PARTIAL}[^=+]{{1,60}}?="
 LAGRANGE = re.compile(
-    r"^(?:\s|&|\$)*(?:\\[dt]?frac\s*\{\s*(?:\\mathrm\s*\{\s*d\s*\}|\\rm d|d)\s*\}\s*\{\s*(?:\\mathrm\s*\{\s*d\s*\}|\\rm d|d)\s*t\s*\}|d\s*/\s*dt)"
-    r"[^=]{0,40}?(?:\\partial|∂)[^=]{1,160}?(?:\\partial|∂)[^=]{1,80}?[-−][^=]{0,40}?(?:\\partial|∂)[^=]{1,80}?(?:\\partial|∂)[^=+]{1,60}?=(?=[^=]+=[^=]*$)"
+    rf"^(?:\s|&|\$)*(?:\\[dt]?frac\s*\{{\s*{_D}\s*\}}\s*\{{\s*{_D}\s*t\s*\}}|d\s*/\s*dt)"
+    rf"{_TO_RATE}{_TO_COORDINATE}(?=[^=]+=[^=]*$)"
 )
 BRACKETS = {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}
 ARROW = re.compile(r"(?<=\S)\s*(?:->|→|:>|\\\[Rule\])\s*")
@@ -66,7 +81,9 @@ def rows_of_blocks(data: dict[str, Any]) -> dict[str, Any]:
         if not isinstance(table, dict | list):
             continue
         entries = list(table.items()) if isinstance(table, dict) else [(str(k), x) for k, x in enumerate(table, 1)]
-        if len(entries) > MOST_ROWS or not all(isinstance(line, str) and len(line) <= LONGEST_LINE for _, line in entries):
+        if len(entries) > MOST_ROWS or not all(
+            isinstance(line, str) and len(line) <= LONGEST_LINE for _, line in entries
+        ):
             continue
         found = [(label, row) for label, line in entries for row in equations_in(line)]
         if len(found) == len(entries):
@@ -93,14 +110,14 @@ def equations_in(line: str) -> list[str]:
         line = TWO_EQUALS.sub("= ", listed["inner"])
     if "\\" in line:
         line = _without_remarks(line)
-        line = SYSTEM.sub(lambda found: _of_system(found), line)
+        line = SYSTEM.sub(_of_system, line)
     line = BULLET.sub("", line)
     counted = [int(m["k"]) for m in COUNTED.finditer(line)]
     if len(counted) > 1 and counted == list(range(counted[0], counted[0] + len(counted))):
         line = COUNTED.sub("", line)
     elif counted and counted[0] > 1 and COUNTED.match(line):
-        raise InvalidInput(f"({counted[0]}) in front: the number of the equation, or a factor? Leave it out, or write * "
-                           "behind it")  # fmt: skip
+        raise InvalidInput(f"({counted[0]}) in front: the number of the equation, or a factor? Leave it out, or write "
+                           "* behind it")  # fmt: skip
     bare = LAGRANGE.sub(" ", _led(line))  # what stands behind its second sign is the row
     pieces = _pieces(bare)
     rows = [LAGRANGE.sub(" ", _led(piece)) for piece in pieces] if len(pieces) > 1 else [bare]
@@ -151,7 +168,9 @@ def _unnamed(line: str) -> str:
         if behind < 0:
             return line
         inner = line[found.end() + 1 : end - 1]
-        if len(_cut(inner.strip()[1:], SUM_SIGN)) > 1 and not (SUM_BEFORE.search(line[: found.start()]) and SUM_BEHIND.match(line, behind)):
+        if len(_cut(inner.strip()[1:], SUM_SIGN)) > 1 and not (
+            SUM_BEFORE.search(line[: found.start()]) and SUM_BEHIND.match(line, behind)
+        ):
             return line  # 2\\underbrace{a + b}: whether the brace binds as a bracket does is the author's secret
         line = f"{line[: found.start()]} {inner} {line[behind:]}"
     return line
@@ -185,14 +204,17 @@ def _pieces(line: str) -> list[str]:
     """The equations; the line alone where that is not certain."""
     for cut in (_at_row_ends, _at_spaces, _at_words, _at_lines):
         pieces = cut(line)
-        if len(pieces) > 1 and all(LAGRANGE.sub(" ", piece).count("=") == 1 and not WHERE.match(piece) for piece in pieces):
+        if len(pieces) > 1 and all(
+            LAGRANGE.sub(" ", piece).count("=") == 1 and not WHERE.match(piece) for piece in pieces
+        ):
             said = [BARE.match(piece) is not None for piece in pieces]
             return [line] if any(said) and not said[0] else pieces  # a row, and what a letter in it is
     return [line]
 
 
 def _at_row_ends(line: str) -> list[str]:
-    pieces = [re.sub(r"\\(?:begin|end)\s*\{(?:align|gather|eqnarray|equation|multline|aligned|gathered|split|cases|flalign|alignat)\*?\}"
+    pieces = [re.sub(r"\\(?:begin|end)\s*\{(?:align|gather|eqnarray|equation|multline|aligned|gathered|split|cases"
+                     r"|flalign|alignat)\*?\}"
                      r"(?:\{\d\})?", " ", piece) for piece in _cut(line, ROW_ENDS)]  # fmt: skip
     rows: list[str] = []
     for piece in (p for p in pieces if re.sub(r"[&\s.$]|\\[,;]", "", p)):

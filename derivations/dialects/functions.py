@@ -99,7 +99,7 @@ class _Follower:
         if name in self.parameters:
             raise InvalidInput(f"{name}[{at}]: the state itself is changed; give each value a name of its own")
         values = self.here.get(name)
-        if not isinstance(values, list) or any(isinstance(v, Place) for v in values) and len(values) == self.size:
+        if not isinstance(values, list) or (any(isinstance(v, Place) for v in values) and len(values) == self.size):
             values = []
         if at != len(values):
             raise InvalidInput(f"{name}: entry {at} is filled before those in front of it; fill them in order")
@@ -117,7 +117,9 @@ class _Follower:
                 if isinstance(one, Place):
                     self.labels.setdefault(one.at, f"{name}{k}")
         if isinstance(value, str):
-            if value.strip() == name or re.fullmatch(r"[0-9.]+(?:[eE][+-]?[0-9]+)?", value.strip()) and _is_quantity(name):
+            if value.strip() == name or (
+                re.fullmatch(r"[0-9.]+(?:[eE][+-]?[0-9]+)?", value.strip()) and _is_quantity(name)
+            ):
                 self.here.pop(name, None)  # m1 = p['m1'], g = 9.81: what is right for every value is right for it
                 return
             if not re.fullmatch(r"[A-Za-z]\w*|[0-9.]+", value.strip()):
@@ -163,7 +165,7 @@ class _Follower:
         text = re.sub(r"(?<=[\w)\]])\.dot\s*\(", "@(", text)
         return WORDS.sub(lambda found: self.written(self.word(found)), text)
 
-    def word(self, found: re.Match[str]) -> Any:
+    def word(self, found: re.Match[str]) -> Any:  # noqa: PLR0911 -- one for each kind of word
         name, of, at = found["name"], found["of"], (found["at"] or "").strip()
         if name in MODULES or (name in FUNCTIONS and name not in self.here and not of):
             return found[0]
@@ -178,8 +180,8 @@ class _Follower:
                 return [Place(k) for k in range(self.size)]
             return found[0]
         value = self.here[name]
-        if of in (".T", ".sin", ".cos"):
-            raise InvalidInput(f"{found[0][:40]!r}: write the function before its argument, and no .T")
+        if of:
+            raise InvalidInput(f"{found[0][:40]!r}: this is not followed; write functions before arguments, and no .T")
         return _entry(value, at, name, self.base) if at else value
 
     def is_state(self, name: str) -> bool:
@@ -202,7 +204,13 @@ def whole_functions(data: dict[str, Any], count: int, coordinates: Sequence[str]
     """The fields with rows in place of a function. ``count``: the angles; ``coordinates``: as they are declared."""
     table = data.get("equations")
     entries = list(table.values()) if isinstance(table, dict) else table if isinstance(table, list) else []
-    if len(entries) != 1 or not isinstance(entries[0], str) or BLANKS.search(entries[0]) or not is_program(entries[0]) or not 1 <= count <= 8:
+    if (
+        len(entries) != 1
+        or not isinstance(entries[0], str)
+        or BLANKS.search(entries[0])
+        or not is_program(entries[0])
+        or not 1 <= count <= 8
+    ):
         return data
     define = data.get("define", {})
     if not isinstance(define, dict) or not all(isinstance(v, str) for v in define.values()):
@@ -220,9 +228,9 @@ def _rows(text: str, count: int, coordinates: Sequence[str], define: Mapping[str
     follower.parameters = tuple(p for p in function.parameters if not p.startswith("["))
     for parameter in function.parameters:
         if parameter.startswith("["):
-            names = split(parameter[1:-1], ",")
-            follower.here |= {name: Place(k) for k, name in enumerate(names)}
-            follower.labels |= dict(enumerate(names))
+            taken_apart = split(parameter[1:-1], ",")
+            follower.here |= {name: Place(k) for k, name in enumerate(taken_apart)}
+            follower.labels |= dict(enumerate(taken_apart))
     assigned, last = list(function.assigned), function.returned
     others = [name for name in function.parameters if name not in TIMES]
     if last in others and len(others) > 1:  # du of Julia, dydt[] of C
@@ -255,11 +263,11 @@ def _rows(text: str, count: int, coordinates: Sequence[str], define: Mapping[str
 def _needed(lines: Mapping[str, str], text: str) -> dict[str, str]:
     """The lines that the text uses, or that one of these does, in order."""
     kept: dict[str, str] = {}
-    for name, line in reversed(lines.items()):
+    for name, line in reversed(list(lines.items())):
         if re.search(rf"\b{name}\b", text):
             kept[name] = line
             text += " " + line
-    return dict(reversed(kept.items()))
+    return dict(reversed(list(kept.items())))
 
 
 def _paired(returned: Any, count: int) -> tuple[list[tuple[int, int]], Any]:

@@ -11,7 +11,8 @@ _GREEK = "|".join(sorted(GREEK, key=len, reverse=True))
 _LETTER = rf"(?:{_GREEK}|[A-Za-z]|[{''.join(GREEK.values())}])"
 _INDEX = r"(?:_(?:\([0-9A-Za-z]{1,3}\)|\{\s*[0-9A-Za-z]{1,3}\s*\}|[0-9A-Za-z]))?"
 INVISIBLE = str.maketrans(
-    dict.fromkeys("\u2061\u2062\u2064\u200b\u200d\u2009\u202f\u00a0\ufeff", " ") | {"〖": "(", "〗": ")", "∕": "/", "⁄": "/", "∗": "*", "＊": "*"}
+    dict.fromkeys("\u2061\u2062\u2064\u200b\u200d\u2009\u202f\u00a0\ufeff", " ")
+    | {"〖": "(", "〗": ")", "∕": "/", "⁄": "/", "∗": "*", "＊": "*"}
 )
 UNBRACED = re.compile(
     rf"\\(?:mathbf|boldsymbol|bm|vec|mathrm|mathit|pmb)\s*(?P<x>\\(?:{_GREEK})(?![A-Za-z])|(?<=\s)[A-Za-z](?![A-Za-z]))"

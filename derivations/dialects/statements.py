@@ -53,7 +53,7 @@ def is_program(text: str) -> bool:
     return STARTS.match(text) is not None
 
 
-def function_of(text: str) -> Function:
+def function_of(text: str) -> Function:  # noqa: PLR0912 -- one for each way to say what is returned
     """The one function of a text that returns something. Raises InvalidInput where that is not plain."""
     if len(text) > LONGEST_PROGRAM:
         raise InvalidInput(f"this program is longer than {LONGEST_PROGRAM} characters; give the function alone")
@@ -66,8 +66,11 @@ def function_of(text: str) -> Function:
     parameters: tuple[str, ...] = ()
     assigned: list[tuple[str, str]] = []
     out, is_open = "", False
-    outside: list[tuple[str, str]] = []  # what a module or __init__ says of a quantity, as in self.I = self.m*self.l**2/3
-    for line in lines:
+    outside: list[
+        tuple[str, str]
+    ] = []  # what a module or __init__ says of a quantity, as in self.I = self.m*self.l**2/3
+    for statement in lines:
+        line = statement
         found = ANONYMOUS.match(line)
         if found:
             names = _parameters(found["python"] or found["matlab"] or found["js"] or "")
@@ -80,9 +83,8 @@ def function_of(text: str) -> Function:
             parameters, assigned, out = _parameters(head["arguments"]), [], head["out"] or ""
             is_open = head["name"] != "__init__"
             line = head["rest"].strip()
-        if not is_open and not functions and line and (said := ASSIGNED.match(KEYWORDS.sub("", line))):
-            if not PLAIN_VALUE.fullmatch(said["value"].replace("self.", "")):
-                outside.append((said["target"].strip(), said["value"].strip()))
+        if not is_open and not functions:
+            outside += _said_outside(line)
         if not is_open or not line or line in ("}", "});") or (line == "end" and not _filled(assigned, parameters)):
             continue
         returned = re.match(r"return\b\s*(.*)$", line, re.DOTALL)
@@ -105,8 +107,20 @@ def function_of(text: str) -> Function:
         )
     only = functions[0]
     used = " ".join([*(value for _, value in only.assigned), only.returned])
-    kept = [(t, v) for t, v in outside if re.fullmatch(r"(?:self\.)?\w+", t) and re.search(rf"(?<![\w.]){re.escape(t)}\b", used)]
+    kept = [
+        (t, v)
+        for t, v in outside
+        if re.fullmatch(r"(?:self\.)?\w+", t) and re.search(rf"(?<![\w.]){re.escape(t)}\b", used)
+    ]
     return Function(only.parameters, (*kept, *only.assigned), only.returned)
+
+
+def _said_outside(line: str) -> list[tuple[str, str]]:
+    """An assignment that is more than a name or a number."""
+    said = ASSIGNED.match(KEYWORDS.sub("", line))
+    if said is None or PLAIN_VALUE.fullmatch(said["value"].replace("self.", "")):
+        return []
+    return [(said["target"].strip(), said["value"].strip())]
 
 
 def _filled(assigned: list[tuple[str, str]], parameters: tuple[str, ...]) -> str:
@@ -134,9 +148,13 @@ def _assignments(line: str) -> list[tuple[str, str]]:
 
 def _parameters(text: str) -> tuple[str, ...]:
     """Names without types and values; what is taken apart at once, [a, b], as it stands."""
-    bare = [re.sub(r"^&?mut\s+|(?<!:)[:=](?!:).*$", "", part.strip(), flags=re.DOTALL).strip() for part in split(text, ",")]
-    bare = [re.sub(r"^.*[\s&*](\w+)(?:\s*\[\d?\])?$", r"\1", part, flags=re.DOTALL) if part[:1] != "[" else part
-            for part in bare]  # double y[4], const state_type &x
+    bare = [
+        re.sub(r"^&?mut\s+|(?<!:)[:=](?!:).*$", "", part.strip(), flags=re.DOTALL).strip() for part in split(text, ",")
+    ]
+    bare = [
+        re.sub(r"^.*[\s&*](\w+)(?:\s*\[\d?\])?$", r"\1", part, flags=re.DOTALL) if part[:1] != "[" else part
+        for part in bare
+    ]  # double y[4], const state_type &x
     return tuple(name for name in bare if name and name not in ("self", "this", "*", "/"))
 
 

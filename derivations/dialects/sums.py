@@ -1,8 +1,8 @@
 r"""Sums over links, written out: \sum_{i=1}^{2} m_i g y_i becomes (m_{1} g y_{1} + m_{2} g y_{2}).
 
 A sum goes as far as the product that stands behind it, as it does in print: to the next plus or minus, or to the
-bracket that ends it. Only subscripts, and the bounds of sums within it, are counted; any other use of the letter is left
-for the reader to refuse.
+bracket that ends it. Only subscripts, and the bounds of sums within it, are counted; any other use of the letter is
+left for the reader to refuse.
 """
 
 from __future__ import annotations

@@ -65,7 +65,10 @@ def known_of(data: Mapping[str, Any]) -> Known:
 
 
 def translated(data: dict[str, Any], count: int = 0) -> dict[str, Any]:
-    """The fields of a derivation with all their mathematics in the reader's notation. ``count``: its angles, if known."""
+    """The fields of a derivation with all their mathematics in the reader's notation.
+
+    ``count``: its angles, 0 where that is not known.
+    """
     if not _is_small(data):
         return data
     known = known_of(data)

@@ -44,12 +44,12 @@ def with_times(data: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
             kept[name] = line
             continue
         if given[coordinate].get("joint") != "slide" or given[coordinate].get("along") == "link":
-            raise InvalidInput(f"define.{name}: a given motion is put in for a slide that is fixed in direction; here write "
-                               f"the rows with {coordinate} and its rates")  # fmt: skip
+            raise InvalidInput(f"define.{name}: a given motion is put in for a slide that is fixed in direction; "
+                               f"here write the rows with {coordinate} and its rates")  # fmt: skip
         amplitude, found = _motion(name, line)
         if any("spring" in b for b in bodies):
-            raise InvalidInput(f"define.{name}: with a spring in the mechanism, leave cosines out; write {coordinate}'' "
-                               f"and {coordinate} in the rows")  # fmt: skip
+            raise InvalidInput(f"define.{name}: with a spring in the mechanism, leave cosines out; write "
+                               f"{coordinate}'' and {coordinate} in the rows")  # fmt: skip
         rate = found["rate"] or found["bare"]
         written = str(given[coordinate]["coordinate"]).replace("\\", "")
         second, first = f"(-{written}''/(({amplitude})*{rate}^2))", f"({written}'/(({amplitude})*{rate}))"
@@ -77,7 +77,7 @@ def with_times(data: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
 
 def _motion(name: str, line: str) -> tuple[str, re.Match[str]]:
     """The amplitude and the cosine of a given motion."""
-    found = [m for m in PHASE.finditer(line)]
+    found = list(PHASE.finditer(line))
     bare = line.strip().rstrip(" ;.,")
     if len(found) != 1 or not bare.endswith(found[0][0].strip()):
         raise InvalidInput(f"define.{name}: a given motion is read as an amplitude times a cosine or sine, as in "
@@ -90,7 +90,9 @@ def _motion(name: str, line: str) -> tuple[str, re.Match[str]]:
     return amplitude, found[0]
 
 
-def _of_drives(bodies: list[Any], known: Mapping[tuple[str, str], str], constants: list[str]) -> dict[tuple[str, str], str]:
+def _of_drives(
+    bodies: list[Any], known: Mapping[tuple[str, str], str], constants: list[str]
+) -> dict[tuple[str, str], str]:
     """A quantity for each cosine in a drive."""
     made: dict[tuple[str, str], str] = {}
     for body in bodies:
@@ -123,8 +125,8 @@ def _mapped(value: Any, waves: Mapping[tuple[str, str], str], where: str) -> Any
         text = waves.get((found["wave"], plain_name(rate) or ""))
         if text is None:
             raise InvalidInput(
-                f"{where}: column {found.start() + 1}: {found[0].strip()[:30]} is a function of time; say what moves so: "
-                "drive = \"F*cos(w*t)\" at a joint, or a support with motion = 'given' and [define] x_s = \"a*cos(w*t)\""
+                f"{where}: column {found.start() + 1}: {found[0].strip()[:30]} is a function of time; say what moves "
+                'so: drive = "F*cos(w*t)" at a joint, or a support with motion = \'given\' and [define] x_s = "a*cos(w*t)"'
             )
         return f" {text} "
 

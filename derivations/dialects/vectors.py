@@ -12,8 +12,12 @@ from typing import Any
 from .names import base_and_index, plain_name
 
 FONT = r"(?:\\(?:mathbf|boldsymbol|bm|vec|mathrm|underline)\s*)?"
-TRANSPOSE = r"\s*\^\s*(?:\{?\s*(?:\\(?:mathsf|mathrm|rm|text|sf)\s*\{?\s*)?(?:T|t|\\top|\\intercal)\s*\}{0,2}(?![A-Za-z])|ᵀ)|\s*ᵀ"
-LISTED = re.compile(r"\\begin\{[a-zA-Z]*(?:matrix|array)\}(?:\{[clr|]*\})?(?P<matrix>.*?)\\end\{[a-zA-Z]*(?:matrix|array)\}|[(\[](?P<list>[^()\[\]]*)[)\]]", re.DOTALL)
+TRANSPOSE = r"\s*\^\s*(?:\{?\s*(?:\\(?:mathsf|mathrm|rm|text|sf)\s*\{?\s*)?(?:T|t|\\top|\\intercal)"
+TRANSPOSE += r"\s*\}{0,2}(?![A-Za-z])|ᵀ)|\s*ᵀ"
+LISTED = re.compile(
+    r"\\begin\{[a-zA-Z]*(?:matrix|array)\}(?:\{[clr|]*\})?(?P<matrix>.*?)\\end\{[a-zA-Z]*(?:matrix|array)\}|[(\[](?P<list>[^()\[\]]*)[)\]]",
+    re.DOTALL,
+)
 LETTER = re.compile(rf"^\s*{FONT}\{{?\s*(?P<x>\\?[A-Za-z]+|[θϕφq])\s*\}}?\s*(?:\(t\))?\s*$")
 
 
@@ -29,7 +33,11 @@ def with_vectors(data: dict[str, Any], count: int) -> dict[str, Any]:
         letter = LETTER.match(str(name)[:40])
         names = _listed(line) if letter and isinstance(line, str) and len(line) < 400 else []
         x = plain_name(letter["x"]) if letter else None
-        if x and len(names) == count and [base_and_index(n) for n in names] == [(x, str(k)) for k in range(1, count + 1)]:
+        if (
+            x
+            and len(names) == count
+            and [base_and_index(n) for n in names] == [(x, str(k)) for k in range(1, count + 1)]
+        ):
             kept.pop(name)
             letters.append(letter["x"] if letter else "")
     for field in energies:
@@ -53,7 +61,9 @@ def _listed(line: str) -> list[str]:
 def _row(line: str, x: str, count: int) -> str:
     r"""\dot{x}^T as a row of rates, and \dot{\mathbf x} as the reader's \dot x."""
     letter = re.escape(x)
-    over = rf"\\dot\s*(?:\{{\s*{FONT}\s*\{{?\s*{letter}\s*\}}?\s*\}}|{FONT}\s*\{{?\s*{letter}(?![A-Za-z_])\s*\}}?)(?!\s*_)"
+    over = (
+        rf"\\dot\s*(?:\{{\s*{FONT}\s*\{{?\s*{letter}\s*\}}?\s*\}}|{FONT}\s*\{{?\s*{letter}(?![A-Za-z_])\s*\}}?)(?!\s*_)"
+    )
     row = r"\begin{bmatrix} " + " & ".join(rf"\dot{{{x}}}_{k}" for k in range(1, count + 1)) + r" \end{bmatrix}"
     line = re.sub(rf"{over}(?:{TRANSPOSE})", lambda _: row, line)
     if row in line:

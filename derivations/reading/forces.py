@@ -1,7 +1,8 @@
 r"""Newton's equations with the forces of constraints: one row more for each force, which is then eliminated.
 
-``M ẍ = T sin θ``, ``m (ẍ + …) = -T sin θ``, ``m (…) = T cos θ - m g``: three rows for two coordinates and the rod's force T.
-A force is a letter T, N, R, S, H, V, P or F, with an index or none, which neither the mechanism nor the file defines.
+``M ẍ = T sin θ``, ``m (ẍ + …) = -T sin θ``, ``m (…) = T cos θ - m g``: three rows for two coordinates and the rod's
+force T. A force is a letter T, N, R, S, H, V, P or F, with an index or none, which neither the mechanism nor the file
+defines.
 """
 
 from __future__ import annotations
@@ -40,7 +41,9 @@ def constraint_forces(data: dict[str, Any], count: int) -> list[str]:
     return sorted(forces) if len(forces) == extra else []
 
 
-def eliminated(space: Space, rows: Sequence[tuple[str, Formula]], forces: Iterable[str]) -> tuple[tuple[str, Formula], ...]:
+def eliminated(
+    space: Space, rows: Sequence[tuple[str, Formula]], forces: Iterable[str]
+) -> tuple[tuple[str, Formula], ...]:
     """The rows without the forces. Raises InvalidInput where one is in no row, or not linear."""
     left = list(rows)
     for force in forces:

@@ -179,7 +179,7 @@ class _Tokenizer:
             return self.command(at)
         return self.word(at)
 
-    def command(self, at: int) -> tuple[Token, int]:  # noqa: PLR0911 -- one for each kind
+    def command(self, at: int) -> tuple[Token, int]:  # noqa: PLR0911, PLR0912 -- one for each kind
         line = self.line
         matrix = MATRIX.match(line, at)
         if matrix:
@@ -226,8 +226,8 @@ class _Tokenizer:
         words = {*self.names, *self.words.fixed, *self.words.numbers} - {"pi"}
         own = ", ".join(sorted(w for w in words if w.isascii() and w[0] != "\\")[:24])
         return (
-            f"known are {own} of [[bodies]] and [define], their rates, cos and sin. Say in [define] what it is, or which "
-            "body has it; ropes, closed loops, turning frames and springs between two bodies cannot be declared"
+            f"known are {own} of [[bodies]] and [define], their rates, cos and sin. Say in [define] what it is, or "
+            "which body has it; ropes, closed loops, turning frames and springs between two bodies cannot be declared"
         )
 
     def matrix(self, at: int, found: re.Match[str]) -> tuple[Token, int]:

@@ -1,4 +1,4 @@
-"""Derivations pasted whole, as programs, pages and forums have them: blocks, functions, explicit time. None misjudged."""
+"""Derivations pasted whole, as programs, pages and forums have them: none is misjudged."""
 
 import tomllib
 from functools import cache
@@ -69,7 +69,7 @@ def test_none_is_misjudged(name):
 
 @pytest.mark.parametrize("name", [name for name, entry in INDEX.items() if "outside" in entry])
 def test_what_cannot_be_declared_is_refused_and_says_so(name):
-    with pytest.raises(InvalidInput, match="cannot be declared|is not known; give one of"):
+    with pytest.raises(InvalidInput, match=r"cannot be declared|is not known; give one of"):
         grade(HERE / f"{name}.toml")
 
 

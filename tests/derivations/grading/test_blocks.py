@@ -1,3 +1,4 @@
+# ruff: noqa: E501 -- formulas stand on one line, as on their pages
 r"""Several equations in one text are cut into rows; what may be cut in two ways, or is an implication, is refused."""
 
 import pytest

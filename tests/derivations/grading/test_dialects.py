@@ -1,3 +1,4 @@
+# ruff: noqa: E501 -- formulas stand on one line, as on their pages
 """What programs and computer algebra print is read as what it means there; what may mean two things is refused."""
 
 import re
@@ -85,7 +86,7 @@ drive = '\tau_2'
 'G(q)' = '''\begin{bmatrix} (m_1+m_2)gl_1c_1+m_2gl_2c_{12}\\ m_2gl_2c_{12}\end{bmatrix}'''
 [equations]
 1 = '''\boldsymbol{M}(\boldsymbol q)\ddot{\boldsymbol q}+\boldsymbol{C}(\boldsymbol q,\dot{\boldsymbol q})\dot{\boldsymbol q}+\boldsymbol{G}(\boldsymbol q)=\boldsymbol\tau'''
-"""  # noqa: E501 -- as papers have it
+"""
 
 
 def test_a_robot_in_vectors_with_the_short_waves_of_robotics():
@@ -101,7 +102,7 @@ def test_a_robot_in_vectors_with_the_short_waves_of_robotics():
         (ONE.format("theta_1") + "[equations]\n1 = 'm*l^2*theta_1\\'\\' + c_1*theta_1\\' + m*g*l*sin(theta_1) = 0'"
          .replace("'m*", '"m*').replace("= 0'", '= 0"').replace("\\'", "'"), "'c' is not known here"),
         # a right-hand side alone is no row, though it has the other row's acceleration
-        ("system = 'double-pendulum'\n[equations]\n1 = 'a2*l2/l1*cos(t1-t2)'\n2 = '-a1*l1/l2 - g*sin(t2)'", "equals sign"),  # noqa: E501
+        ("system = 'double-pendulum'\n[equations]\n1 = 'a2*l2/l1*cos(t1-t2)'\n2 = '-a1*l1/l2 - g*sin(t2)'", "equals sign"),
         ("system = 'double-pendulum'\n[equations]\n1 = 'l1*a1 + w^2*sin(t1) = 0'\n2 = 'a2 = 0'", "has no index"),
         (PENDULUM + r"'\sum_{k=1}^3 l \ddot\theta = 0'", "write the sum out"),
         (ONE.format("theta") + '[equations]\n1 = "l*theta\'\' + m\'*sin(theta) = 0"', "which is no coordinate"),
@@ -186,7 +187,9 @@ def test_sums_go_as_far_as_a_product_and_no_farther():
     nested = sums(r"\sum_{i=1}^{2} m_i \sum_{j=1}^{i} y_{j}", 2).replace(" ", "")
     assert nested == "((m_{1}((y_{1})))+(m_{2}((y_{1})+(y_{2}))))"
     assert sums(r"\sum_{i=1}^{2} l_i i = 0", 2).replace(" ", "") == "((l_{1}i)+(l_{2}i))=0"  # i: refused by the reader
-    assert sums(r"\sum_{i=1}^{8} \sum_{j=1}^{8} \sum_{k=1}^{8} \sum_{h=1}^{8} x_{i}x_{j}x_{k}x_{h}", 8).count("\\sum") > 1
+    assert (
+        sums(r"\sum_{i=1}^{8} \sum_{j=1}^{8} \sum_{k=1}^{8} \sum_{h=1}^{8} x_{i}x_{j}x_{k}x_{h}", 8).count("\\sum") > 1
+    )
 
 
 def test_an_operator_with_one_equals_sign_says_nothing_of_the_right_side():

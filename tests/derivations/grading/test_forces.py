@@ -1,3 +1,4 @@
+# ruff: noqa: E501 -- formulas stand on one line, as on their pages
 """Newton's equations with a rod's force: by hand, the cart pulled by T sin θ, the bob by T along the rod, its weight down."""
 
 import pytest
@@ -47,7 +48,9 @@ def test_a_pendulum_with_two_tensions():
             r"m_2(l_2\dot\theta_2^2 + l_1\ddot\theta_1\sin(\theta_1-\theta_2) + l_1\dot\theta_1^2\cos(\theta_1-\theta_2)) = T_2 - m_2 g\cos\theta_2")  # fmt: skip
 
     def of(rows):
-        return grade_text("system = 'double-pendulum'\n[equations]\n" + "\n".join(f"{k} = '''{r}'''" for k, r in enumerate(rows, 1)))
+        return grade_text(
+            "system = 'double-pendulum'\n[equations]\n" + "\n".join(f"{k} = '''{r}'''" for k, r in enumerate(rows, 1))
+        )
 
     assert of(rows).verdict == "correct"
     assert of((rows[0].replace("- T_2", "+ T_2"), *rows[1:])).verdict == "wrong"

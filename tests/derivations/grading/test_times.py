@@ -1,3 +1,4 @@
+# ruff: noqa: E501 -- formulas stand on one line, as on their pages
 r"""Explicit time: a support that moves as a cos Ωt, a torque F cos ωt. By hand, θ from the downward vertical:
 
 l θ̈ + (g + ÿ) sin θ = 0 of a support that moves up by y, l θ̈ + ẍ cos θ + g sin θ = 0 to the right by x.

@@ -1,3 +1,4 @@
+# ruff: noqa: E501 -- formulas stand on one line, as on their pages
 """A function of a program, pasted whole: its text is followed and never run; what is not plain is refused."""
 
 import pytest

@@ -4,11 +4,10 @@
 import sympy as sp
 from mechanisms import (  # fmt: skip
     ANGLE,
-    CART,
-    RADIUS,
-    F,
     I1,
     I2,
+    RADIUS,
+    F,
     M,
     a1,
     a2,
@@ -86,7 +85,9 @@ def relative_energy():
     """T by the mass matrix, V as printed."""
     c2 = cos(th2)
     m12 = m2 * l2**2 + m2 * l1 * l2 * c2
-    kinetic = ((m1 + m2) * l1**2 + m2 * l2**2 + 2 * m2 * l1 * l2 * c2) * w1**2 / 2 + m12 * w1 * w2 + m2 * l2**2 * w2**2 / 2
+    kinetic = (
+        ((m1 + m2) * l1**2 + m2 * l2**2 + 2 * m2 * l1 * l2 * c2) * w1**2 / 2 + m12 * w1 * w2 + m2 * l2**2 * w2**2 / 2
+    )
     potential = -(m1 + m2) * g * l1 * cos(th1) - m2 * g * l2 * cos(th1 + th2)
     mechanism = bobs((l1, m1), (l2, m2), relative=True)
     return mechanism, lagrange(kinetic - potential, mechanism)
@@ -115,7 +116,9 @@ def from_places(mechanism):
     """L with T and V from the places of the bobs."""
     x1, y1 = l1 * sin(th1), -l1 * cos(th1)
     x2, y2 = x1 + l2 * sin(th2), y1 - l2 * cos(th2)
-    kinetic = sum(mass * (rate(p, mechanism) ** 2 + rate(q, mechanism) ** 2) / 2 for mass, p, q in ((m1, x1, y1), (m2, x2, y2)))
+    kinetic = sum(
+        mass * (rate(p, mechanism) ** 2 + rate(q, mechanism) ** 2) / 2 for mass, p, q in ((m1, x1, y1), (m2, x2, y2))
+    )
     return lagrange(kinetic - m1 * g * y1 - m2 * g * y2, mechanism)
 
 
@@ -132,9 +135,24 @@ def triple_sum():
 def triple_plain():
     m23 = m2 + m3
     return [
-        (m1 + m23) * l1 * a1 + m23 * l2 * a2 * C + m3 * l3 * a3 * cos(th1 - th3) + m23 * l2 * w2**2 * S + m3 * l3 * w3**2 * sin(th1 - th3) + (m1 + m23) * g * sin(th1),
-        m2 * l1 * a1 * C + m23 * l2 * a2 + m3 * l3 * a3 * cos(th2 - th3) - m23 * l1 * w1**2 * S + m3 * l3 * w3**2 * sin(th2 - th3) + m23 * g * sin(th2),
-        l1 * a1 * cos(th1 - th3) + l2 * a2 * cos(th2 - th3) + l3 * a3 - l1 * w1**2 * sin(th1 - th3) - l2 * w2**2 * sin(th2 - th3) + g * sin(th3),
+        (m1 + m23) * l1 * a1
+        + m23 * l2 * a2 * C
+        + m3 * l3 * a3 * cos(th1 - th3)
+        + m23 * l2 * w2**2 * S
+        + m3 * l3 * w3**2 * sin(th1 - th3)
+        + (m1 + m23) * g * sin(th1),
+        m2 * l1 * a1 * C
+        + m23 * l2 * a2
+        + m3 * l3 * a3 * cos(th2 - th3)
+        - m23 * l1 * w1**2 * S
+        + m3 * l3 * w3**2 * sin(th2 - th3)
+        + m23 * g * sin(th2),
+        l1 * a1 * cos(th1 - th3)
+        + l2 * a2 * cos(th2 - th3)
+        + l3 * a3
+        - l1 * w1**2 * sin(th1 - th3)
+        - l2 * w2**2 * sin(th2 - th3)
+        + g * sin(th3),
     ]
 
 
@@ -163,7 +181,10 @@ def cart_lambda():
 
 
 def cart_left():
-    return [(M + m) * xdd - m * l * c * al + b * xd + m * l * w**2 * s - u, -m * l * c * xdd + m * l**2 * al + c_ * w - m * g * l * s]
+    return [
+        (M + m) * xdd - m * l * c * al + b * xd + m * l * w**2 * s - u,
+        -m * l * c * xdd + m * l**2 * al + c_ * w - m * g * l * s,
+    ]
 
 
 def cart_eigen():
@@ -172,7 +193,10 @@ def cart_eigen():
 
 
 def julia():
-    return [xdd - m * s * (l * w**2 + g * c) / (M + m * s**2), al + (m * l * w**2 * s * c + (M + m) * g * s) / (l * (M + m * s**2))]
+    return [
+        xdd - m * s * (l * w**2 + g * c) / (M + m * s**2),
+        al + (m * l * w**2 * s * c + (M + m) * g * s) / (l * (M + m * s**2)),
+    ]
 
 
 h = m2 * l1 * lc2
@@ -183,11 +207,17 @@ G1 = (m1 * lc1 + m2 * l1) * g * sin(th1) + G2
 
 
 def acrobot():
-    return [M11 * a1 + M12 * a2 - h * sin(th2) * w2 * (2 * w1 + w2) + G1, M12 * a1 + (I2 + m2 * lc2**2) * a2 + h * sin(th2) * w1**2 + G2 - u]
+    return [
+        M11 * a1 + M12 * a2 - h * sin(th2) * w2 * (2 * w1 + w2) + G1,
+        M12 * a1 + (I2 + m2 * lc2**2) * a2 + h * sin(th2) * w1**2 + G2 - u,
+    ]
 
 
 def pendubot():
-    return [M11 * a1 + M12 * a2 - h * sin(th2) * w2 * (2 * w1 + w2) + G1 - tau, M12 * a1 + (I2 + m2 * lc2**2) * a2 - h * sin(th2) * w1**2 + G2]
+    return [
+        M11 * a1 + M12 * a2 - h * sin(th2) * w2 * (2 * w1 + w2) + G1 - tau,
+        M12 * a1 + (I2 + m2 * lc2**2) * a2 - h * sin(th2) * w1**2 + G2,
+    ]
 
 
 def pendubot_lagrangian():
@@ -219,7 +249,10 @@ def coupled():
     bodies = [Body(m, l * sin(q), -l * cos(q)) for q in (th1, th2)]
     true = Mechanism([(th1, w1, a1), (th2, w2, a2)], bodies, k * stretch**2 / 2, {})
     pull = k * sp.Symbol("a") * stretch
-    return true, [m * l**2 * a1 + m * g * l * sin(th1) + pull * cos(th1), m * l**2 * a2 + m * g * l * sin(th2) - pull * cos(th2)]
+    return true, [
+        m * l**2 * a1 + m * g * l * sin(th1) + pull * cos(th1),
+        m * l**2 * a2 + m * g * l * sin(th2) - pull * cos(th2),
+    ]
 
 
 phase, speed, size = sp.symbols("phase speed size")
@@ -238,7 +271,9 @@ def landau_3c():
 
 def driven():
     torque = l * F * cos(phase)
-    true = Mechanism([ANGLE], [Body(m, l * sin(th), -l * cos(th))], 0, {th: torque - b * l**2 * w}, phases={phase: speed})
+    true = Mechanism(
+        [ANGLE], [Body(m, l * sin(th), -l * cos(th))], 0, {th: torque - b * l**2 * w}, phases={phase: speed}
+    )
     omega2, beta, gamma = g / l, b / (2 * m), F / (m * g)
     return true, [al + 2 * beta * w + omega2 * s - gamma * omega2 * cos(phase)]
 
@@ -253,7 +288,10 @@ def hoop():
 def atwood():
     """The other end of the rope carries M, which is lifted as r grows."""
     bodies = [Body(m, r * sin(th), -r * cos(th)), Body(M, 0, r)]
-    return Mechanism([RADIUS, ANGLE], bodies, 0, {}), [(m + M) * rdd - m * r * w**2 - m * g * c + M * g, r * al + 2 * rd * w + g * s]
+    return Mechanism([RADIUS, ANGLE], bodies, 0, {}), [
+        (m + M) * rdd - m * r * w**2 - m * g * c + M * g,
+        r * al + 2 * rd * w + g * s,
+    ]
 
 
 def ladder():
@@ -265,7 +303,10 @@ def ladder():
 def compound():
     lost = links(False)
     return lost, [
-        (I1 + m1 * lc1**2 + m2 * l1**2) * a1 + m2 * l1 * lc2 * C * a2 + m2 * l1 * lc2 * S * w2**2 + (m1 * lc1 + m2 * l1) * g * sin(th1),
+        (I1 + m1 * lc1**2 + m2 * l1**2) * a1
+        + m2 * l1 * lc2 * C * a2
+        + m2 * l1 * lc2 * S * w2**2
+        + (m1 * lc1 + m2 * l1) * g * sin(th1),
         I2 * a2 + m2 * l1 * lc2 * C * a1 - m2 * l1 * lc2 * S * w1**2 + m2 * lc2 * g * sin(th2),
     ]
 
@@ -273,7 +314,10 @@ def compound():
 def tensions():
     """The second rod's tension from the fourth row, the first rod's left out with its own row."""
     second = m2 * (l2 * w2**2 + l1 * a1 * S + l1 * w1**2 * C) + m2 * g * cos(th2)
-    return [m1 * l1 * a1 + m1 * g * sin(th1) + second * S, m2 * (l2 * a2 + l1 * a1 * C - l1 * w1**2 * S) + m2 * g * sin(th2)]
+    return [
+        m1 * l1 * a1 + m1 * g * sin(th1) + second * S,
+        m2 * (l2 * a2 + l1 * a1 * C - l1 * w1**2 * S) + m2 * g * sin(th2),
+    ]
 
 
 def no_height():
