@@ -125,8 +125,8 @@ def _mapped(value: Any, waves: Mapping[tuple[str, str], str], where: str) -> Any
         text = waves.get((found["wave"], plain_name(rate) or ""))
         if text is None:
             raise InvalidInput(
-                f"{where}: column {found.start() + 1}: {found[0].strip()[:30]} is a function of time; say what moves "
-                'so: drive = "F*cos(w*t)" at a joint, or a support with motion = \'given\' and [define] x_s = "a*cos(w*t)"'
+                f"{where}: column {found.start() + 1}: {found[0].strip()[:30]} is a function of time; say what "
+                'moves so: drive = "F*cos(w*t)", or a support with motion = \'given\' and [define] x_s = "a*cos(w*t)"'
             )
         return f" {text} "
 
