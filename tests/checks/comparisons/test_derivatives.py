@@ -36,6 +36,7 @@ def test_an_engine_that_offers_an_inverse_alone_is_asked_for_that(run_cell, engi
     [
         ("TransposedDerivatives", ("derivative-transposed", "derivative-transposed", None)),
         ("NegatedDerivatives", ("derivative-sign", "derivative-sign", None)),
+        ("ExchangedDerivatives", ("derivatives-exchanged", "derivatives-exchanged", None)),
         ("HalfDerivativeByRates", (None, "factor-half", None)),
         ("RelativeDerivatives", ("angle-convention",) * 3),
         ("ForcesForDerivatives", ("derivative-of-forces", "derivative-of-forces", "mass-matrix-for-inverse")),
