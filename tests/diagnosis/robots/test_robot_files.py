@@ -147,6 +147,14 @@ def test_a_misreading_is_named_by_its_cause(tmp_path, name):
     assert found.engines[other]["status"] == "agrees"
 
 
+def test_the_one_unnamed_joint_that_is_read_is_the_first(tmp_path):
+    """Pinocchio calls it BisJoint_0, and has neither of the others: one cause, and no joint that the file has not."""
+    text = f"""<mujoco><worldbody><body pos="0 0 1"><joint axis="0 1 0"/>{INERTIAL}</body><body pos="1 0 1"><joint/>
+        {INERTIAL}</body><body pos="2 0 1"><freejoint/>{INERTIAL}</body></worldbody></mujoco>"""
+    found = diagnose(saved(tmp_path, "roots.xml", text))
+    assert [finding.cause for finding in found.findings] == ["first-root-only"], found.text()
+
+
 def test_two_misreadings_at_once_are_both_named(tmp_path):
     text = MISREAD["shown.xml"][0].replace("<mujoco>", '<mujoco><compiler settotalmass="6"/>')
     found = diagnose(saved(tmp_path, "two.xml", text))
