@@ -62,7 +62,7 @@ class MjcfRules:
     nested_class_inherits_nothing: bool = _mistake(
         "has a nested default class inherit nothing for an element that the class does not mention itself"
     )
-    frame_ignored: bool = _mistake("ignores <frame> and all that is inside")
+    frame_ignored: bool = _mistake("ignores <frame> and <replicate> and all that is inside")
 
 
 @dataclass(frozen=True)

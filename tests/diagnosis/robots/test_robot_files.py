@@ -155,6 +155,40 @@ def test_the_one_unnamed_joint_that_is_read_is_the_first(tmp_path):
     assert [finding.cause for finding in found.findings] == ["first-root-only"], found.text()
 
 
+REFUSED_FOR = {
+    "frame-ignored": (
+        f"""<mujoco><worldbody><replicate count="2" offset="0 0 1"><body name="a"><joint/>{INERTIAL}</body></replicate>
+        </worldbody></mujoco>""",
+        "no joint is left. Instead",
+    ),
+    "bare-bodies-lost": (
+        f"<mujoco><worldbody><body><freejoint/>{INERTIAL}</body></worldbody></mujoco>",
+        "refuses: MJCF parser: no body found",
+    ),
+    "include-not-followed": (
+        f"""<mujoco><include file="classes.xml"/><worldbody><body name="a" childclass="arm"><joint/>{INERTIAL}</body>
+        </worldbody></mujoco>""",
+        "childclass='arm': no <default> of that class. Instead",
+    ),
+}
+
+
+@pytest.mark.parametrize("cause", REFUSED_FOR)
+def test_a_refusal_has_the_mistake_that_leaves_nothing_to_read(tmp_path, cause):
+    """What Pinocchio says of these, "No such node (body)" and "unordered_map::at", tells nobody what to do."""
+    text, part = REFUSED_FOR[cause]
+    saved(
+        tmp_path,
+        "classes.xml",
+        '<mujoco><default><default class="arm"><joint axis="1 0 0"/></default></default></mujoco>',
+    )
+    found = diagnose(saved(tmp_path, "arm.xml", text))
+    assert found.engines["pinocchio-aba"]["status"] == "refused"
+    assert found.engines["mujoco"]["status"] == "agrees"
+    assert [finding.cause for finding in found.findings] == [cause], found.text()
+    assert part in found.findings[0].says
+
+
 def test_two_misreadings_at_once_are_both_named(tmp_path):
     text = MISREAD["shown.xml"][0].replace("<mujoco>", '<mujoco><compiler settotalmass="6"/>')
     found = diagnose(saved(tmp_path, "two.xml", text))
