@@ -30,6 +30,7 @@ from .wording import MOST_PLACES, Places, field_findings, instead, mistake_findi
 NEARLY_IN_FRAME = (
     "{engine} has the inertials of {bodies}, which are within {reach:g} of the body's frame, in that frame"
 )
+NO_MECHANISM = "{engine} holds a body whose axes are not at right angles: no mechanism to hold its numbers against"
 ALL_MEASURED = 4  # quantities: mass matrix, bias, accelerations without and with torques
 LONGEST_MESSAGE = 300  # characters of an engine's own message
 
@@ -141,6 +142,9 @@ def _compared(reader: RobotReader, engine: RobotEngine, question: Question) -> R
     named, left = _reading(reader, question, answer.holds)
     answer.left = len(left)
     answer.findings = [*named, *field_findings(reader.name, left, places_in(question.file.spatial))]
+    if any(finding.cause == "axis-not-normalised" for finding in named):
+        answer.status, answer.notes = "differs", (NO_MECHANISM.format(engine=reader.name),)
+        return answer
     try:
         answer.measured = tuple(
             measured(bound, acting(answer.holds, reader.leaves_to_caller), factorised=reader.factorises)

@@ -26,6 +26,7 @@ INSTEAD: Mapping[str, str] = {
     "bound_inertia_on_given_axes": "write the inertia that is meant into <inertial>",
     "bound_ignored": "write the mass and inertia that are meant into <inertial>",
     "upper_euler_as_lower": "write quat in place of euler",
+    "axis_not_normalised": "write quat in place of axisangle, or the axis with all its digits, of length one",
     "include_not_followed": "write the included elements into the file",
     "late_sections_ignored": "put <compiler> and <default> before <worldbody>",
     "bodies_in_frames_lost": "leave the <frame> out and write each body's own pose",

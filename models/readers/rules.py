@@ -40,6 +40,9 @@ class MjcfRules:
     )
     bound_ignored: bool = _mistake("ignores boundmass and boundinertia")
     upper_euler_as_lower: bool = _mistake("reads upper-case letters of eulerseq (fixed axes) as lower-case ones")
+    axis_not_normalised: bool = _mistake(
+        "takes the axis of axisangle as it is written, not of length one, and turns by a matrix that is no rotation"
+    )
     include_not_followed: bool = _mistake("does not follow <include>")
     late_sections_ignored: bool = _mistake("ignores <default> and <compiler> after <worldbody>")
     later_sections_ignored: bool = _mistake("of several <compiler> or <default> reads only the first")

@@ -189,6 +189,24 @@ def test_a_refusal_has_the_mistake_that_leaves_nothing_to_read(tmp_path, cause):
     assert part in found.findings[0].says
 
 
+@pytest.mark.parametrize("place", ["body", "inertial", "geom"])
+@pytest.mark.parametrize("axis", ["1 2 0", "0.71 0.71 0"])
+def test_an_axis_that_is_not_of_length_one_is_named_wherever_it_is(tmp_path, place, axis):
+    turned = f'axisangle="{axis} 40"'
+    inside = INERTIAL.replace("/>", f" {turned}/>") if place == "inertial" else INERTIAL
+    if place == "geom":
+        inside = f'<geom type="box" size=".1 .2 .3" {turned}/>'
+    b = f'<body name="b" pos="0 0 1" {turned if place == "body" else ""}><joint name="k" axis="1 0 0"/>{inside}</body>'
+    text = (
+        f"""<mujoco><worldbody><body name="a"><joint name="j" axis="0 1 0"/>{INERTIAL}{b}</body></worldbody></mujoco>"""
+    )
+    found = diagnose(saved(tmp_path, "axis.xml", text))
+    assert [finding.cause for finding in found.findings] == ["axis-not-normalised"], found.text()
+    assert "Instead, write quat" in found.findings[0].says
+    same = diagnose(saved(tmp_path, "unit.xml", text.replace(f'"{axis} 40"', '"0.6 0.8 0 40"')))
+    assert same.engines["pinocchio-aba"]["status"] == "agrees"
+
+
 def test_two_misreadings_at_once_are_both_named(tmp_path):
     text = MISREAD["shown.xml"][0].replace("<mujoco>", '<mujoco><compiler settotalmass="6"/>')
     found = diagnose(saved(tmp_path, "two.xml", text))
