@@ -24,6 +24,7 @@ from .measures import Measured, measured, worst
 from .misreadings import explain_reading
 from .numbers import FieldDifference, plain
 from .same_frame import frames_kept, moved_back, rounded
+from .same_names import called_as
 from .simulation import simulation_findings
 from .wording import MOST_PLACES, Places, field_findings, instead, mistake_finding
 
@@ -203,7 +204,8 @@ def _reading(
     how: dict[str, Any] = {"limits": question.limits, "ignored": reader.not_held, "mesh_axes": reader.mesh_axes}
 
     def left(reading: SpatialMechanism) -> list[FieldDifference]:
-        return field_differences(moved_back(holds, reading, reader.same_frame), reading, **how)
+        called = called_as(holds, reading)
+        return field_differences(moved_back(called, reading, reader.same_frame), reading, **how)
 
     if not left(file.spatial):
         return [], ()

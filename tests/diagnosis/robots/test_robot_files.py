@@ -207,6 +207,16 @@ def test_an_axis_that_is_not_of_length_one_is_named_wherever_it_is(tmp_path, pla
     assert same.engines["pinocchio-aba"]["status"] == "agrees"
 
 
+def test_what_is_unnamed_is_the_same_however_much_was_lost_before_it(tmp_path):
+    """Of the file's two joints without a name Pinocchio, which follows no <include>, has the second, as its first."""
+    saved(tmp_path, "part.xml", f'<mujoco><body name="a"><joint axis="0 1 0"/>{INERTIAL}</body></mujoco>')
+    text = f"""<mujoco><worldbody><include file="part.xml"/><body name="b" pos="1 0 0"><freejoint/>{INERTIAL}</body>
+        </worldbody></mujoco>"""
+    found = diagnose(saved(tmp_path, "scene.xml", text))
+    assert [finding.cause for finding in found.findings] == ["include-not-followed"], found.text()
+    assert "'furiko_joint_1': joint none" in found.findings[0].says
+
+
 def test_two_misreadings_at_once_are_both_named(tmp_path):
     text = MISREAD["shown.xml"][0].replace("<mujoco>", '<mujoco><compiler settotalmass="6"/>')
     found = diagnose(saved(tmp_path, "two.xml", text))
