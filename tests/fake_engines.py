@@ -342,6 +342,15 @@ class NegatedDerivatives(Right):
         return tuple(-found for found in super().derivatives(theta, omega))
 
 
+class ExchangedDerivatives(Right):
+    """Returns both in the other order."""
+
+    info = about("ExchangedDerivatives")
+
+    def derivatives(self, theta, omega):
+        return super().derivatives(theta, omega)[::-1]
+
+
 class HalfDerivativeByRates(Right):
     """Forgets the factor 2 of the derivative of a square."""
 

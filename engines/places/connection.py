@@ -173,7 +173,7 @@ class Connection:
         assert self._socket is not None
         while (content := self._frames.next()) is None:
             self._timed(end)
-            part = self._socket.recv(1 << 20)
+            part = self._socket.recv(1 << 16)
             if not part:
                 raise EOFError
             self._frames.add(part)

@@ -34,7 +34,7 @@ def serve(module: str, planar: str, tree: str = "-", reader: str = "-") -> None:
     while True:
         content = frames.next()
         if content is None:
-            part = os.read(source, 1 << 20)
+            part = os.read(source, 1 << 16)
             if not part:
                 return
             frames.add(part)

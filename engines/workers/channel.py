@@ -11,6 +11,7 @@ import socket
 
 from .frames import BrokenChannel, Frames, framed
 
+READ = 1 << 16  # bytes at a time: making room for a million takes longer than all the rest of a short message
 SEND_TIMEOUT = 30.0  # [s] for a job to be taken: an idle worker reads at once
 
 __all__ = ["SEND_TIMEOUT", "BrokenChannel", "Channel", "encode"]
@@ -57,7 +58,7 @@ class Channel:
         self.connection.close()
 
     def _read(self) -> None:
-        part = self.connection.recv(1 << 20)
+        part = self.connection.recv(READ)
         if not part:
             raise EOFError("the connection is closed")
         self._frames.add(part)

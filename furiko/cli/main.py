@@ -36,7 +36,7 @@ COMMANDS = {
     "grade": "Grade a derivation: correct, or which term is wrong and why.",
     "history": "Show a folder of runs as one page, with badges.",
     "lesson": "Write a web page for teaching: thirty mistakes in derivations.",
-    "map": "Draw when starts flip, how much they stretch, or how chaotic they are.",
+    "map": "Draw flip times, stretching or chaos over a square of starts.",
     "scenes": "List the scenes of the catalogue.",
     "stress": "Find where engines, integrators and formulas break.",
     "sweep": "Run a grid of scenes, engines and seeds; resumable, on all cores.",

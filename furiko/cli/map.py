@@ -45,7 +45,7 @@ KINDS = ("flips", "stretching", "lyapunov")
 @click.option("--out", type=click.Path(path_type=Path), default=FOLDER, show_default=True, help="Folder for the page.")
 @json_option
 def map(scene: str, kind: str, until: float, points: int, links: tuple[int, int], out: Path, as_json: bool) -> int:
-    """Draw when starts flip, how much they stretch, or how chaotic they are.
+    """Draw flip times, stretching or chaos over a square of starts.
 
     Two angles vary over the whole circle; the other angles, and all rates, are those of the scene's state, or zero.
     Writes map.html, map.png (one pixel a start) and map.csv (the values, highest angle first).

@@ -78,7 +78,7 @@ class Trajectory:
 
     @cached_property
     def error(self) -> Array:
-        """Estimated error at each time, shape (..., m): rad for angles, rates relative to the largest |ω|.
+        """Estimated error at each time, shape (..., m): rad for angles, rates relative to the fastest.
 
         From a second run of higher order and smaller steps, made when first asked for: twice the difference, and not
         less than the rounding of the result and of the steps, ε √steps. An estimate, not a bound; near 1 no digit is

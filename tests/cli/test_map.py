@@ -28,6 +28,7 @@ def test_a_map_of_flips_is_a_page_a_picture_and_numbers(tmp_path, capsys):
     assert "passes the upright" in (tmp_path / "map.html").read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["stretching", "lyapunov"])
 def test_maps_of_exponents(kind, tmp_path, capsys):
     assert run(["map", "double-pendulum", "--of", kind, "--points", "4", "--until", "1", "--out", str(tmp_path)]) == 0

@@ -75,7 +75,17 @@ def test_every_cause_that_can_be_named_is_told_and_planted():
         "coarse-time-step",
         "free-armature-in-body-axes",
     }
-    assert planted | hard_to_plant | of_several_links | OF_CODE | of_robots == set(CAUSES)
+    # Planted in engines' derivatives: tests/checks/comparisons/test_derivatives.py.
+    of_derivatives = {
+        "derivative-sign",
+        "derivative-transposed",
+        "derivative-of-forces",
+        "derivative-lacks-term",
+        "derivatives-of-others",
+        "derivatives-exchanged",
+        "mass-matrix-for-inverse",
+    }
+    assert planted | hard_to_plant | of_several_links | OF_CODE | of_robots | of_derivatives == set(CAUSES)
     assert set(IN_CODE) <= OF_CODE
     assert set(OF_ENGINES) | set(OF_READERS) | set(OF_RUNS) <= set(CAUSES)
 

@@ -36,6 +36,7 @@ def test_an_engine_that_offers_an_inverse_alone_is_asked_for_that(run_cell, engi
     [
         ("TransposedDerivatives", ("derivative-transposed", "derivative-transposed", None)),
         ("NegatedDerivatives", ("derivative-sign", "derivative-sign", None)),
+        ("ExchangedDerivatives", ("derivatives-exchanged", "derivatives-exchanged", None)),
         ("HalfDerivativeByRates", (None, "factor-half", None)),
         ("RelativeDerivatives", ("angle-convention",) * 3),
         ("ForcesForDerivatives", ("derivative-of-forces", "derivative-of-forces", "mass-matrix-for-inverse")),
@@ -43,7 +44,7 @@ def test_an_engine_that_offers_an_inverse_alone_is_asked_for_that(run_cell, engi
         ("DerivativesOfOtherRates", ("derivatives-of-others", "derivatives-of-others", None)),
     ],
 )
-@pytest.mark.parametrize("scene", ["rods-3", "n-leg-3"])
+@pytest.mark.parametrize("scene", ["rods-3", pytest.param("n-leg-3", marks=pytest.mark.slow)])
 def test_each_mistake_differs_with_its_cause_and_nothing_else_does(run_cell, engine, causes, scene):
     results = run_cell(f"fake_engines:{engine}", scene)
     expected = {part: ("differs" if cause else "agrees", cause) for part, cause in zip(PARTS, causes, strict=True)}

@@ -82,6 +82,7 @@ def linear(system):
     return mass, np.diag(levers * g)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("system", [ROD, RODS, LEGS, RodChain((0.3,) * 9)], ids=lambda s: f"{s.kind}-{s.n}")
 def test_about_hanging_it_is_the_exponential_of_a_matrix(system):
     linalg = pytest.importorskip("scipy.linalg")
@@ -98,6 +99,7 @@ def test_about_hanging_it_is_the_exponential_of_a_matrix(system):
     assert np.abs(long.exponents[1]).max() < 10 / 1e3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("system", [RODS, LEGS], ids=lambda s: s.kind)
 def test_all_exponents_together_keep_the_volume_of_phase_space(system):
     """Liouville: (θ, M ω) keeps its volume, so that (θ, ω) changes it by det M at the start over that at the end."""
@@ -111,6 +113,7 @@ def test_all_exponents_together_keep_the_volume_of_phase_space(system):
     assert (np.abs(found.logarithm.sum(-1) - (determinants[0] - determinants)) <= allowed).all()
 
 
+@pytest.mark.slow
 def test_the_double_pendulum_against_heyokas_variational_equations():
     heyoka = pytest.importorskip("heyoka")
     t1, t2, w1, w2 = names = heyoka.make_vars("t1", "t2", "w1", "w2")
@@ -143,6 +146,7 @@ def test_the_same_growth_as_the_literal_equations_give(system):
     assert found.logarithm[1] == pytest.approx(other.logarithm[-1], abs=0.05)  # what that settles to
 
 
+@pytest.mark.slow
 def test_the_double_pendulum_is_chaotic():
     """Chaos of a swinging double pendulum has the scale of √(g/l), and each exponent its negative."""
     found = furiko.lyapunov(DOUBLE, [2.0, 2.5], [0.0, 0.0], [0.0, 300.0], count=4)
@@ -151,6 +155,7 @@ def test_the_double_pendulum_is_chaotic():
     assert np.abs(found.exponents[1, 1:3]).max() < 0.1  # energy: two of them are zero in the limit
 
 
+@pytest.mark.slow
 def test_the_first_directions_do_not_depend_on_how_many_are_asked_for():
     times = np.linspace(0, 3, 4)
     whole = furiko.lyapunov(RODS, [1.0, 2.0, 0.5], [0.0] * 3, times, count=6)
@@ -159,6 +164,7 @@ def test_the_first_directions_do_not_depend_on_how_many_are_asked_for():
         np.testing.assert_allclose(part.logarithm, whole.logarithm[:, :count], atol=1e-10)
 
 
+@pytest.mark.slow
 def test_each_of_an_ensemble_is_as_if_alone_and_has_its_own_system():
     generator = np.random.default_rng(3)
     systems = [RodChain(generator.uniform(0.5, 1.5, 2)) for _ in range(11)]
@@ -175,6 +181,7 @@ def test_each_of_an_ensemble_is_as_if_alone_and_has_its_own_system():
     assert furiko.stretching(systems[0], np.zeros((0, 2)), np.zeros((0, 2)), times).logarithm.shape == (0, 3)
 
 
+@pytest.mark.slow
 def test_nothing_overflows_in_a_long_run():
     rate = own_rate(ROD)
     found = furiko.lyapunov(ROD, [math.pi], [0.0], [0.0, 20 / rate], rate=rate)

@@ -37,11 +37,11 @@ def test_a_terminal_is_told_and_a_pipe_is_not(tmp_path):
 
 def test_every_kernel_that_is_compiled_is_in_the_list():
     """The kernels that are called from Python; numba's dispatchers of all others are compiled into these."""
-    from furiko.reference.integration import taylor_compiled, taylor_lanes
+    from furiko.reference.integration import taylor_compiled, taylor_flips, taylor_lanes, taylor_tangents
 
     found = {
         name
-        for module in (forward_dynamics_compiled, taylor_compiled, taylor_lanes)
+        for module in (forward_dynamics_compiled, taylor_compiled, taylor_lanes, taylor_tangents, taylor_flips)
         for name, value in vars(module).items()
         if type(value).__name__ == "CPUDispatcher" and type(value._cache).__name__ == "FunctionCache"
     }
