@@ -30,7 +30,8 @@ from pathlib import Path
 from typing import Any
 
 TIMEOUT = 60.0  # [s] for one file, all engines together
-MODEL = re.compile(rb"<(mujoco|robot)[\s>]")  # and no <mujocoinclude>, which is a part of one
+MODEL = re.compile(rb"<(mujoco|robot)[\s>]")
+PART = b"<mujocoinclude"  # of a model, which includes it
 JOINT = (b"<joint", b"<freejoint")
 
 
@@ -78,7 +79,12 @@ def model_files(root: Path) -> Iterator[Path]:
             continue
         content = path.read_bytes()
         digest = hashlib.sha256(content).digest()
-        if digest in seen or MODEL.search(content) is None or not any(tag in content for tag in JOINT):
+        if (
+            digest in seen
+            or PART in content
+            or MODEL.search(content) is None
+            or not any(tag in content for tag in JOINT)
+        ):
             continue
         seen.add(digest)
         yield path
