@@ -3,8 +3,12 @@
     python benchmarks/robot_files.py WHEEL_OR_FOLDER … [--out results.jsonl] [--every N] [--first K]
 
 The wheels of the published sample are those of ``pip download --no-deps gymnasium==1.4.0 dm-control==1.0.50
-pybullet==3.2.7 example-robot-data==6.0.0 brax==0.14.2 drake==1.51.1``. Files with the same content are taken once; a
-file without any joint, or that names a file which is not there, is not counted as complete.
+pybullet==3.2.7 example-robot-data==6.0.0 brax==0.14.2 drake==1.51.1``; others that furiko was not made with are
+``gymnasium-robotics==1.4.2 metaworld==3.1.1 robosuite==1.5.2 safety-gymnasium==1.0.0 gym-aloha==0.1.5 gym-hil==0.1.14
+gym-xarm==0.1.1 genesis-world==1.4.5 mani-skill==3.0.1 myosuite==3.0.0 mjlab==1.6.0 playground==0.2.0 rtb-data==2.0.0
+dm-robotics-moma==0.10.0``. Files with the same content are taken once. Each source's own folder is given with
+``--meshes``, for its files include others beside their folder. A file without any joint, that others include only,
+or that names a file which is not there, is not counted as complete.
 """
 
 from __future__ import annotations
@@ -12,6 +16,7 @@ from __future__ import annotations
 import argparse
 import hashlib
 import json
+import re
 import resource
 import statistics
 import subprocess
@@ -25,7 +30,8 @@ from pathlib import Path
 from typing import Any
 
 TIMEOUT = 60.0  # [s] for one file, all engines together
-MODEL = (b"<mujoco", b"<robot")
+MODEL = re.compile(rb"<(mujoco|robot)[\s>]")
+PART = b"<mujocoinclude"  # of a model, which includes it
 JOINT = (b"<joint", b"<freejoint")
 
 
@@ -40,10 +46,10 @@ def main() -> None:
     chosen = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         roots = [unpacked(source, Path(folder)) for source in chosen.sources]
-        files = [file for root in roots for file in model_files(root)][chosen.first :: chosen.every]
+        files = [(file, root) for root in roots for file in model_files(root)][chosen.first :: chosen.every]
         rows = []
-        for number, file in enumerate(files[: chosen.limit or None], 1):
-            row = diagnosed(file)
+        for number, (file, root) in enumerate(files[: chosen.limit or None], 1):
+            row = diagnosed(file, root)
             rows.append(row)
             print(
                 f"{number}/{len(files)} {row['seconds']:.1f} s {row['outcome']:9} {row['says'][:100]} {file}",
@@ -73,16 +79,21 @@ def model_files(root: Path) -> Iterator[Path]:
             continue
         content = path.read_bytes()
         digest = hashlib.sha256(content).digest()
-        if digest in seen or not any(tag in content for tag in MODEL) or not any(tag in content for tag in JOINT):
+        if (
+            digest in seen
+            or PART in content
+            or MODEL.search(content) is None
+            or not any(tag in content for tag in JOINT)
+        ):
             continue
         seen.add(digest)
         yield path
 
 
-def diagnosed(path: Path) -> dict[str, Any]:
-    """What ``furiko diagnose --json`` says of one file."""
+def diagnosed(path: Path, root: Path) -> dict[str, Any]:
+    """What ``furiko diagnose --json`` says of one file, which may include others below ``root``."""
     start, spent = time.perf_counter(), processor_time()
-    command = [sys.executable, "-m", "furiko", "diagnose", str(path), "--json"]
+    command = [sys.executable, "-m", "furiko", "diagnose", str(path), "--meshes", str(root), "--json"]
     row: dict[str, Any] = {"file": str(path), "outcome": "hang", "says": ""}
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=TIMEOUT, check=False)

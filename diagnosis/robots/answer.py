@@ -14,7 +14,7 @@ from ...engines.model_files.robot import BoundRobot, RobotEngine, RobotReader
 from ...models import InvalidInput
 from ...models.errors import installing
 from ...models.readers.model_file import ModelFile, read_model
-from ...models.readers.rules import Rules, mistakes_in
+from ...models.readers.rules import Rules, mistakes_in, with_mistakes
 from ...models.spatial import components
 from ...models.spatial_mechanism import SpatialMechanism
 from ..finding import Finding
@@ -24,12 +24,14 @@ from .measures import Measured, measured, worst
 from .misreadings import explain_reading
 from .numbers import FieldDifference, plain
 from .same_frame import frames_kept, moved_back, rounded
+from .same_names import called_as
 from .simulation import simulation_findings
-from .wording import MOST_PLACES, Places, field_findings, mistake_finding
+from .wording import MOST_PLACES, Places, field_findings, instead, mistake_finding
 
 NEARLY_IN_FRAME = (
     "{engine} has the inertials of {bodies}, which are within {reach:g} of the body's frame, in that frame"
 )
+NO_MECHANISM = "{engine} holds a body whose axes are not at right angles: no mechanism to hold its numbers against"
 ALL_MEASURED = 4  # quantities: mass matrix, bias, accelerations without and with torques
 LONGEST_MESSAGE = 300  # characters of an engine's own message
 
@@ -49,6 +51,10 @@ class Question:
     def read(self, rules: Rules) -> SpatialMechanism:
         """The file, read with these mistakes."""
         return read_model(self.path, rules, self.meshes).spatial
+
+
+# Mistakes that lose elements, after which there may be no mechanism left, or classes that are not there.
+LOSING = ("include_not_followed", "frame_ignored", "bare_bodies_lost")
 
 
 @dataclass
@@ -94,12 +100,16 @@ def ask_robot(reader: RobotReader, question: Question) -> RobotAnswer:
             engine = reader.load(question.path, question.file.language, question.meshes)
         except ImportError as error:
             return RobotAnswer(reader.name, "missing", f"{installing(reader.package)} [{error}]")
-        except (ValueError, RuntimeError) as error:
-            return _refused(reader, " ".join(str(error).split())[:LONGEST_MESSAGE])
+        except (ValueError, RuntimeError, LookupError) as error:  # LookupError: Pinocchio, of a class that it has not
+            return _refused(reader, " ".join(str(error).split())[:LONGEST_MESSAGE], question)
         return _compared(reader, engine, question)
 
 
-def _refused(reader: RobotReader, message: str) -> RobotAnswer:
+def _refused(reader: RobotReader, message: str, question: Question) -> RobotAnswer:
+    """What an engine's refusal comes from: a mistake with which the file cannot be read, or what its message says."""
+    mistake = _unreadable_with(reader, message, question)
+    if mistake is not None:
+        return RobotAnswer(reader.name, "refused", message, [mistake])
     words = message.lower().removeprefix("error: ")
     of_file = "xml error" in words or words.startswith("mesh")  # whose message may advise another inertia
     inertia = not of_file and re.search(r"inertia\b|\bmass|eigenvalue", words) is not None
@@ -107,6 +117,20 @@ def _refused(reader: RobotReader, message: str) -> RobotAnswer:
         "inertia-rejected" if inertia else "file-refused", reader.name, None, None, f"{reader.name} refuses: {message}"
     )
     return RobotAnswer(reader.name, "refused", message, [finding])
+
+
+def _unreadable_with(reader: RobotReader, message: str, question: Question) -> Finding | None:
+    """The engine's known mistake with which furiko's own reader, too, finds no mechanism in the file."""
+    language = question.file.language
+    for flag in (lost for lost in LOSING if lost in reader.mistakes.get(language, ())):
+        try:
+            left = "" if question.read(with_mistakes(language, [flag])).joints else "no joint is left"
+        except InvalidInput as error:
+            left = str(error)
+        if left:
+            says = f"{reader.name} refuses: {message}. It {mistakes_in(language)[flag]}; read so: {left}"
+            return Finding(flag.replace("_", "-"), reader.name, None, None, says + instead(flag))
+    return None
 
 
 def _compared(reader: RobotReader, engine: RobotEngine, question: Question) -> RobotAnswer:
@@ -119,6 +143,9 @@ def _compared(reader: RobotReader, engine: RobotEngine, question: Question) -> R
     named, left = _reading(reader, question, answer.holds)
     answer.left = len(left)
     answer.findings = [*named, *field_findings(reader.name, left, places_in(question.file.spatial))]
+    if any(finding.cause == "axis-not-normalised" for finding in named):
+        answer.status, answer.notes = "differs", (NO_MECHANISM.format(engine=reader.name),)
+        return answer
     try:
         answer.measured = tuple(
             measured(bound, acting(answer.holds, reader.leaves_to_caller), factorised=reader.factorises)
@@ -177,7 +204,8 @@ def _reading(
     how: dict[str, Any] = {"limits": question.limits, "ignored": reader.not_held, "mesh_axes": reader.mesh_axes}
 
     def left(reading: SpatialMechanism) -> list[FieldDifference]:
-        return field_differences(moved_back(holds, reading, reader.same_frame), reading, **how)
+        called = called_as(holds, reading)
+        return field_differences(moved_back(called, reading, reader.same_frame), reading, **how)
 
     if not left(file.spatial):
         return [], ()

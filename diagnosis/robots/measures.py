@@ -13,7 +13,10 @@ from ...models.spatial_mechanism import Array, SpatialMechanism
 from ...reference.rounding.bounds import EPSILON
 from ...reference.rounding.spatial import Magnitudes, magnitudes
 from ...reference.truth.spatial import SpatialTruth, spatial_truth
-from .states import probe_states, random_torques
+from .states import STATES, probe_states, random_torques
+
+# Of so many freedoms one state moves each in a posture of its own; what is wrong in all postures shows in three.
+MANY, STATES_OF_MANY = 300, 3
 
 
 @dataclass(frozen=True)
@@ -44,12 +47,12 @@ def measured(bound: BoundRobot, mechanism: SpatialMechanism, *, factorised: bool
     """
     if not mechanism.nv:
         return []
-    q, v = probe_states(mechanism)
+    q, v = probe_states(mechanism, STATES if mechanism.nv <= MANY else STATES_OF_MANY)
     truths = [spatial_truth(mechanism, q[k], v[k]) for k in range(len(q))]
     units = magnitudes(mechanism, q, v)
     rows = [*_terms(bound, mechanism, truths, units)]
     matrix, bias = (np.array([getattr(t, name).float for t in truths]) for name in ("mass_matrix", "bias"))
-    if weightless_freedom(mechanism, matrix):
+    if weightless_freedom(mechanism, truths):
         return rows
     for quantity, torque in (
         ("accelerations", np.zeros_like(v)),
@@ -59,14 +62,15 @@ def measured(bound: BoundRobot, mechanism: SpatialMechanism, *, factorised: bool
     return rows
 
 
-def weightless_freedom(mechanism: SpatialMechanism, matrices: Array) -> str:
-    """The first joint that moves no mass in one of the states, ``matrices`` (B, nv, nv), or nothing.
+def weightless_freedom(mechanism: SpatialMechanism, truths: Sequence[SpatialTruth]) -> str:
+    """The first joint that moves no mass in one of the states, or nothing.
 
-    Its row of the mass matrix is zero, and no accelerations are determined there: they are not looked at.
+    Its entry of the mass matrix' diagonal encloses zero, and then its row is zero, for no body has a negative inertia;
+    accelerations are not determined there: they are not looked at.
     """
-    zero = (np.abs(matrices).max(axis=2) == 0).any(axis=0)
     freedoms = [placed.joint.name for placed in mechanism.joints for _ in range(placed.joint.freedoms)]
-    return next((name for name, none in zip(freedoms, zero, strict=True) if none), "")
+    diagonals = [truth.mass_matrix.balls.diagonal() for truth in truths]
+    return next((name for i, name in enumerate(freedoms) if any(0 in d[i] for d in diagonals)), "")
 
 
 def worst(measurements: Sequence[Measured]) -> Measured | None:

@@ -15,6 +15,7 @@ from ...models.readers.rules import Rules, with_mistakes
 from ...models.spatial_mechanism import SpatialMechanism
 from .fields import field_differences
 from .numbers import FieldDifference
+from .same_names import called_as
 
 Read = Callable[[Rules], SpatialMechanism]  # the file, read with these mistakes
 
@@ -69,7 +70,9 @@ class _Search:
         """What one mistake changes beside ``others``; nothing where the file cannot be read with it."""
         with_it = self._reading([*others, flag])
         without = self._reading([other for other in others if other != flag])
-        return [] if with_it is None or without is None else field_differences(with_it, without)
+        if with_it is None or without is None:
+            return []
+        return field_differences(called_as(with_it, without), without)
 
     def _smallest(self, flags: list[str]) -> list[str]:
         """The mistakes without which the reading is no longer the engine's."""

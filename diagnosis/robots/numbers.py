@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
@@ -37,11 +38,16 @@ class FieldDifference:
 
 
 def largest_length(links: Iterable[MovingLink]) -> float:
-    """The length [m] that distances are held against: of the whole mechanism, so that a tiny link is not over-read."""
+    """The length [m] that distances are held against: of the whole mechanism, so that a tiny link is not over-read.
+
+    Radii of gyration too: of one free body, whose mesh is centred to rounding, nothing else is a length.
+    """
     links = tuple(links)
     arms = [float(np.linalg.norm(seen.arm)) for link in links for seen in link.joints]
     centres = [float(np.linalg.norm(link.inertial.centre)) for link in links]
-    return max([*arms, *centres], default=0.0) or 1.0
+    weighed = [link.inertial for link in links if link.inertial.mass > 0]
+    radii = [math.sqrt(max(0.0, float(np.trace(inertial.tensor))) / 2 / inertial.mass) for inertial in weighed]
+    return max([*arms, *centres, *radii], default=0.0) or 1.0
 
 
 def joint_numbers(theirs: Joint, ours: Joint, limits: bool, ignored: frozenset[str]) -> Iterator[FieldDifference]:

@@ -26,6 +26,7 @@ INSTEAD: Mapping[str, str] = {
     "bound_inertia_on_given_axes": "write the inertia that is meant into <inertial>",
     "bound_ignored": "write the mass and inertia that are meant into <inertial>",
     "upper_euler_as_lower": "write quat in place of euler",
+    "axis_not_normalised": "write quat in place of axisangle, or the axis with all its digits, of length one",
     "include_not_followed": "write the included elements into the file",
     "late_sections_ignored": "put <compiler> and <default> before <worldbody>",
     "bodies_in_frames_lost": "leave the <frame> out and write each body's own pose",
@@ -37,7 +38,7 @@ INSTEAD: Mapping[str, str] = {
     "pos_of_last_joint_for_all": "put each joint into a body of its own",
     "armature_needs_actuator": "add an actuator to the joint, or set the armature in the engine",
     "nested_class_inherits_nothing": "repeat the element in the nested class",
-    "frame_ignored": "leave the <frame> out and write each body's own pose",
+    "frame_ignored": "write each body's own pose in place of <frame>, and the copies in place of <replicate>",
 }
 
 
@@ -57,11 +58,15 @@ def mistake_finding(engine: str, flag: str, says: str, changes: Sequence[FieldDi
     first = changes[0]
     line = places.of(first)
     at = f" ({line})" if line else ""
-    instead = INSTEAD.get(flag, "")
-    sentence = f"{engine} {says}: {_numbers(changes)}{at}" + (f". Instead, {instead}" if instead else "")
+    sentence = f"{engine} {says}: {_numbers(changes)}{at}" + instead(flag)
     return Finding(
         flag.replace("_", "-"), f"{engine}: {first.where}", _plain(first.found), _plain(first.expected), sentence
     )
+
+
+def instead(flag: str) -> str:
+    """What to write so that no engine makes this mistake, as the end of a sentence; nothing where that is not known."""
+    return f". Instead, {INSTEAD[flag]}" if flag in INSTEAD else ""
 
 
 def field_findings(engine: str, differences: Iterable[FieldDifference], places: Places) -> list[Finding]:

@@ -37,6 +37,7 @@ PINOCCHIO_MJCF = (
     "bound_inertia_on_given_axes",
     "bound_ignored",
     "upper_euler_as_lower",
+    "axis_not_normalised",
     "include_not_followed",
     "late_sections_ignored",
     "later_sections_ignored",

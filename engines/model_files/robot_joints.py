@@ -80,11 +80,18 @@ def _pairs(mechanism: SpatialMechanism, held: Sequence[HeldJoint]) -> tuple[dict
             used.update(theirs)
     ours = [i for i, p in enumerate(placed) if i not in found and _may_be_unnamed(mechanism, p)]
     theirs = [j for j in unnamed if j not in used]
-    if len(ours) == len(theirs):
-        found.update(zip(ours, theirs, strict=True))
+    if len(ours) >= len(theirs) and _same_kinds(mechanism, ours, [held[j] for j in theirs]):
+        found.update(zip(ours, theirs, strict=False))  # an engine that reads only the first bodies has the first joints
         used.update(theirs)
     lost = [i for i in range(len(placed)) if i not in found]
     return found, lost, [j for j in range(len(held)) if j not in used]
+
+
+def _same_kinds(mechanism: SpatialMechanism, ours: Sequence[int], theirs: Sequence[HeldJoint]) -> bool:
+    """Whether as many of our joints as there are of theirs, the first ones, are of the kinds of theirs."""
+    if len(ours) == len(theirs):
+        return True  # one for one: another kind is a finding
+    return all(mechanism.joints[i].joint.kind == joint.kind for i, joint in zip(ours, theirs, strict=False))
 
 
 def _may_be_unnamed(mechanism: SpatialMechanism, placed: PlacedJoint) -> bool:

@@ -56,7 +56,10 @@ class PinocchioRobot:
     def __init__(self, path: Path, language: str, folders: Sequence[Path] = ()) -> None:
         build = pinocchio.buildModelFromUrdf if language == "urdf" else pinocchio.buildModelFromMJCF
         with silenced():
-            self._model = build(str(path))
+            try:
+                self._model = build(str(path))
+            except (ValueError, RuntimeError) as error:  # where in Pinocchio's sources says nothing of the file
+                raise ValueError(str(error).rpartition("message:")[2].strip()) from None
         self._bodies = _body_frames(self._model)
         self._parts = tuple(self._all_parts())
 

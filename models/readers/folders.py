@@ -6,6 +6,7 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
+from .bounded_file import shown
 from .xml_file import Element
 
 LEVELS = 3  # a package's own folder is looked for in this many folders above the document's
@@ -23,30 +24,39 @@ class Folders:
     def __init__(self, path: Path, others: Sequence[Path] = ()) -> None:
         self.own = path.resolve().parent
         self._others = [other.resolve() for other in others]
+        self._found: dict[str, Path] = {}  # the folders of files found so far, by what elements call these
 
     def find(self, element: Element, name: str, folder: str = "", what: str = "file") -> Path:
-        """The file ``name`` in the model's ``folder``, or of that name in one of the others.
+        """The file ``name`` in the model's ``folder``, beside an included file that names it, or in the others.
 
-        Raises :class:`InvalidInput`, at ``element``, where it is nowhere, or only where nothing may be read.
+        MuJoCo looks in this order too: what an included file names may lie beside it, whatever ``folder`` is. Raises
+        :class:`InvalidInput`, at ``element``, where it is nowhere, or only where nothing may be read.
         """
-        shown = f"{what}={name[:80]!r}"
+        named = f"{what}={name[:80]!r}"
         try:
             wanted = (self.own / folder / name).resolve()
-            if _inside(wanted, (self.own, *self._others)) and os.path.isfile(wanted):
-                return wanted
+            included = self._found.get(element.file)
+            for path in (wanted, *(() if included is None else ((included / name).resolve(),))):
+                if _inside(path, (self.own, *self._others)) and os.path.isfile(path):
+                    return self._kept(path)
             for other in self._others:
                 for tail in (name, Path(name).name):
                     path = (other / tail).resolve()
                     if _inside(path, (other,)) and os.path.isfile(path):
-                        return path
+                        return self._kept(path)
         except (OSError, ValueError, RuntimeError) as error:
-            raise element.wrong(f"{shown}: {error}") from None
+            raise element.wrong(f"{named}: {error}") from None
         if not _inside(wanted, (self.own, *self._others)):
+            both = os.path.commonpath([self.own, wanted.parent])
             raise element.wrong(
-                f"{shown}: outside the model's own folder, where nothing is read; move it inside, or name its folder "
-                "with --meshes"
+                f"{named}: outside the model's own folder, where nothing is read; move it inside, or name its folder "
+                f"with --meshes: {both[-200:]} holds both"
             )
-        raise element.wrong(f"{shown}: cannot be read: there is no such file in the model's folder")
+        raise element.wrong(f"{named}: cannot be read: there is no such file in the model's folder")
+
+    def _kept(self, path: Path) -> Path:
+        self._found[shown(path)] = path.parent
+        return path
 
 
 def _inside(path: Path, folders: Sequence[Path]) -> bool:

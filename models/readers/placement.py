@@ -16,16 +16,17 @@ from .attributes import Array
 class Placement:
     """A frame's ``position`` (3,) [m] and ``quaternion`` (4,) (w, x, y, z), of any length but zero, in an outer frame.
 
-    ``a @ b`` is b, given in a, in a's outer frame.
+    ``a @ b`` is b, given in a, in a's outer frame. ``matrix`` (3, 3): what an engine turns by that has no rotation.
     """
 
     position: Array
     quaternion: Array
+    matrix: Array | None = None
 
     @property
     def pose(self) -> Pose:
         """The same with the rotation as a matrix."""
-        return Pose(from_quaternion(self.quaternion), self.position)
+        return Pose(from_quaternion(self.quaternion) if self.matrix is None else self.matrix, self.position)
 
     def __matmul__(self, other: Placement) -> Placement:
         return Placement(self.pose.point(other.position), product(self.quaternion, other.quaternion))
@@ -54,6 +55,13 @@ def about_axis(axis: Any, angle: float) -> Array:
         return NO_ROTATION
     direction = np.asarray(axis, dtype=np.float64) / math.hypot(*axis)
     return np.concatenate([[math.cos(angle / 2)], math.sin(angle / 2) * direction])
+
+
+def about_any_axis(axis: Any, angle: float) -> Array:
+    """Rodrigues' formula with ``axis`` (3,) as it is: a rotation matrix (3, 3) only where its length is one."""
+    a = np.asarray(axis, dtype=np.float64)
+    cosine, across = math.cos(angle), np.cross(np.eye(3), a)
+    return np.asarray(cosine * np.eye(3) + math.sin(angle) * across + (1 - cosine) * np.outer(a, a))
 
 
 def by_euler(angles: Any, sequence: str) -> Array:

@@ -40,6 +40,9 @@ class MjcfRules:
     )
     bound_ignored: bool = _mistake("ignores boundmass and boundinertia")
     upper_euler_as_lower: bool = _mistake("reads upper-case letters of eulerseq (fixed axes) as lower-case ones")
+    axis_not_normalised: bool = _mistake(
+        "takes the axis of axisangle as it is written, not of length one, and turns by a matrix that is no rotation"
+    )
     include_not_followed: bool = _mistake("does not follow <include>")
     late_sections_ignored: bool = _mistake("ignores <default> and <compiler> after <worldbody>")
     later_sections_ignored: bool = _mistake("of several <compiler> or <default> reads only the first")
@@ -62,7 +65,7 @@ class MjcfRules:
     nested_class_inherits_nothing: bool = _mistake(
         "has a nested default class inherit nothing for an element that the class does not mention itself"
     )
-    frame_ignored: bool = _mistake("ignores <frame> and all that is inside")
+    frame_ignored: bool = _mistake("ignores <frame> and <replicate> and all that is inside")
 
 
 @dataclass(frozen=True)

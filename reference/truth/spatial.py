@@ -10,7 +10,7 @@ rotation of its direction. The motion itself is in :mod:`.spatial_motion`.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -36,6 +36,26 @@ class BallArray:
     """An array of ``balls`` (python-flint's arb), each of which holds the true value."""
 
     balls: Array
+
+    @classmethod
+    def symmetric(cls, entries: Array, places: Sequence[tuple[int, int]], size: int) -> BallArray:
+        """The symmetric matrix (size, size) with these ``entries`` at ``places`` and zeros elsewhere.
+
+        Only the entries are rounded, and once: of three hundred free bodies all but one in three hundred are zero.
+        """
+        if not places:
+            return cls(np.full((size, size), arb(0), dtype=object))
+        rows, columns = np.array(places).T
+
+        def filled(values: Any, kind: Any, zero: Any) -> Any:
+            full = np.full((size, size), zero, dtype=kind)
+            full[rows, columns] = full[columns, rows] = values
+            return full
+
+        made = cls(filled(entries, object, arb(0)))
+        parts = [filled(part, np.float64, 0.0) for part in rounded(entries)]
+        made.__dict__["enclosure"] = Enclosure(*parts)  # where the property keeps it
+        return made
 
     @cached_property
     def enclosure(self) -> Enclosure:
@@ -78,11 +98,7 @@ class SpatialTruth:
             return list(found.values()), 0.0
 
         proved = self._proved(entries)
-        full = np.full(2 * (self.mechanism.nv,), arb(0), dtype=object)
-        if places:
-            rows, columns = np.array(places).T
-            full[rows, columns] = full[columns, rows] = proved
-        return BallArray(full)
+        return BallArray.symmetric(proved, places, self.mechanism.nv)
 
     @cached_property
     def velocity(self) -> BallArray:

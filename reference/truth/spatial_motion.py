@@ -31,6 +31,7 @@ Floats = NDArray[np.float64]
 Vector = tuple[Any, Any, Any]  # of balls
 IDENTITY = arb_mat([[1, 0, 0], [0, 1, 0], [0, 0, 1]])
 STILL = arb_mat(6, 1)
+FEW = 40  # entries alone are faster than a product of matrices where at most one in so many is not zero
 
 
 @dataclass(eq=False)
@@ -151,11 +152,19 @@ class Motion:
         """Every 𝕀 s_j of all that j moves, as a row, (nv, 6)."""
         return _rows([self.composites[b] * s for b, s in zip(self.moves, self.freedoms, strict=True)])
 
+    def _mass_entry(self, i: int, j: int) -> Any:
+        """Entry ij of M, where i moves what j moves, without the armature."""
+        return sum((self.partial[i, k] * self.momenta[j, k] for k in range(6)), arb(0))
+
     def mass_entries(self) -> dict[tuple[int, int], Any]:
         """The entries of M on and above its diagonal, with the armature on it, less those that are always zero."""
-        every = self.partial * self.momenta.transpose()  # right where i moves what j moves
         before = self._freedoms_before()
-        found = {(i, j): every[i, j] for j, those in enumerate(before) for i in those}
+        pairs = [(i, j) for j, those in enumerate(before) for i in (*those, j)]
+        if len(pairs) * FEW < len(before) ** 2:  # many trees beside each other: almost all entries are zero
+            every = {pair: self._mass_entry(*pair) for pair in pairs}
+        else:
+            every = self.partial * self.momenta.transpose()  # right where i moves what j moves
+        found = {(i, j): every[i, j] for i, j in pairs}
         return found | {(j, j): every[j, j] + armature for j, armature in enumerate(self.armature)}
 
     @cached_property

@@ -11,7 +11,7 @@ from ..attributes import Array, not_negative, number, numbers, word, yes
 from ..placement import Placement, to_z_axis
 from ..xml_file import Element
 from .assets import Assets
-from .frames import placement_of
+from .frames import placed, placement_of
 from .options import Compiler
 from .shapes import SIZES, shell, solid
 
@@ -42,7 +42,7 @@ def geom_inertial(element: Element, compiler: Compiler, assets: Assets) -> Inert
     if rules.geoms_without_contact_weigh_nothing and not collides(element):
         return None
     if rules.mesh_weighs_one_kilogram and kind in ("mesh", "plane", "hfield"):
-        return Inertial(1.0, np.zeros(3), np.eye(3)).transformed(placement_of(element, compiler).pose)
+        return placed(Inertial(1.0, np.zeros(3), np.eye(3)), placement_of(element, compiler))
     if not weighs(element):
         return None
     unit, placement = _unit(element, kind, compiler, assets)
@@ -50,7 +50,7 @@ def geom_inertial(element: Element, compiler: Compiler, assets: Assets) -> Inert
     if mass <= LEAST_MASS:
         return None
     share = mass / unit.mass
-    return Inertial(float(mass), unit.centre, unit.tensor * share).transformed(placement.pose)
+    return placed(Inertial(float(mass), unit.centre, unit.tensor * share), placement)
 
 
 def collides(element: Element) -> bool:

@@ -199,3 +199,17 @@ def test_no_worker_is_started_for_an_engine_that_is_not_installed(tmp_path, monk
     file.write_text(BODY.format("", INERTIAL))
     found = diagnose(file, engines=["drake"], isolated=True)
     assert (found.engines["drake"]["status"], started) == ("missing", [])
+
+
+def test_a_joint_through_a_point_mass_moves_no_mass_whatever_the_angles(tmp_path):
+    """Its entry of the mass matrix is zero in the reals, and a few 1e-41 in any arithmetic that turns the link."""
+    zero = " ".join(f'i{axes}="0"' for axes in ("xx", "xy", "xz", "yy", "yz", "zz"))
+    links = [f'<link name="{n}"><inertial><mass value="0.2"/><inertia {zero}/></inertial></link>' for n in "ab"]
+    joint = """<joint name="{}" type="continuous"><origin xyz="{}" rpy="{}"/><axis xyz="0 0 1"/><parent link="{}"/>
+        <child link="{}"/></joint>"""
+    first = joint.format("j1", "0 0 0.1", "0 0.4 1.5", "w", "a")
+    second = joint.format("j2", "0.3 0.1 0", "1.5 0.2 0.3", "a", "b")
+    text = f'<robot name="r"><link name="w"/>{"".join(links)}{first}{second}</robot>'
+    found, answer = engine(tmp_path, text, "pinocchio-aba", "urdf")
+    assert answer["status"] == "agrees"
+    assert any("moves no mass" in note for note in found.notes)

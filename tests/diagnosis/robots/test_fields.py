@@ -195,3 +195,14 @@ def test_a_slides_reference_is_seen_and_no_other_pose_of_the_same_motion(tmp_pat
     assert not field_differences(read(0.3, 0.0), said)  # the same place at each coordinate
     (found,) = field_differences(read(0.5, 0.0), said)
     assert (found.cause, found.found, found.expected) == ("joint-reference", 0.0, 0.2)
+
+
+@pytest.mark.parametrize(("off", "causes"), [(7e-18, []), (1e-6, ["com-displaced"])])
+def test_a_centre_is_held_against_the_size_of_the_body_where_there_is_no_other_length(off, causes):
+    """A mesh about its own origin has its centre there to rounding, which is no length to hold a distance against."""
+
+    def thrown(centre):
+        inertial = Inertial(2.0, np.array([0.0, centre, 0.0]), np.diag([0.1, 0.2, 0.25]))
+        return SpatialMechanism((RigidBody("b", WORLD, joints=(Joint("j", "free"),), inertial=inertial),), GRAVITY)
+
+    assert [d.cause for d in field_differences(thrown(off), thrown(3e-18))] == causes

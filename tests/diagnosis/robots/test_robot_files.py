@@ -147,6 +147,76 @@ def test_a_misreading_is_named_by_its_cause(tmp_path, name):
     assert found.engines[other]["status"] == "agrees"
 
 
+def test_the_one_unnamed_joint_that_is_read_is_the_first(tmp_path):
+    """Pinocchio calls it BisJoint_0, and has neither of the others: one cause, and no joint that the file has not."""
+    text = f"""<mujoco><worldbody><body pos="0 0 1"><joint axis="0 1 0"/>{INERTIAL}</body><body pos="1 0 1"><joint/>
+        {INERTIAL}</body><body pos="2 0 1"><freejoint/>{INERTIAL}</body></worldbody></mujoco>"""
+    found = diagnose(saved(tmp_path, "roots.xml", text))
+    assert [finding.cause for finding in found.findings] == ["first-root-only"], found.text()
+
+
+REFUSED_FOR = {
+    "frame-ignored": (
+        f"""<mujoco><worldbody><replicate count="2" offset="0 0 1"><body name="a"><joint/>{INERTIAL}</body></replicate>
+        </worldbody></mujoco>""",
+        "no joint is left. Instead",
+    ),
+    "bare-bodies-lost": (
+        f"<mujoco><worldbody><body><freejoint/>{INERTIAL}</body></worldbody></mujoco>",
+        "refuses: MJCF parser: no body found",
+    ),
+    "include-not-followed": (
+        f"""<mujoco><include file="classes.xml"/><worldbody><body name="a" childclass="arm"><joint/>{INERTIAL}</body>
+        </worldbody></mujoco>""",
+        "childclass='arm': no <default> of that class. Instead",
+    ),
+}
+
+
+@pytest.mark.parametrize("cause", REFUSED_FOR)
+def test_a_refusal_has_the_mistake_that_leaves_nothing_to_read(tmp_path, cause):
+    """What Pinocchio says of these, "No such node (body)" and "unordered_map::at", tells nobody what to do."""
+    text, part = REFUSED_FOR[cause]
+    saved(
+        tmp_path,
+        "classes.xml",
+        '<mujoco><default><default class="arm"><joint axis="1 0 0"/></default></default></mujoco>',
+    )
+    found = diagnose(saved(tmp_path, "arm.xml", text))
+    assert found.engines["pinocchio-aba"]["status"] == "refused"
+    assert found.engines["mujoco"]["status"] == "agrees"
+    assert [finding.cause for finding in found.findings] == [cause], found.text()
+    assert part in found.findings[0].says
+
+
+@pytest.mark.parametrize("place", ["body", "inertial", "geom"])
+@pytest.mark.parametrize("axis", ["1 2 0", "0.71 0.71 0"])
+def test_an_axis_that_is_not_of_length_one_is_named_wherever_it_is(tmp_path, place, axis):
+    turned = f'axisangle="{axis} 40"'
+    inside = INERTIAL.replace("/>", f" {turned}/>") if place == "inertial" else INERTIAL
+    if place == "geom":
+        inside = f'<geom type="box" size=".1 .2 .3" {turned}/>'
+    b = f'<body name="b" pos="0 0 1" {turned if place == "body" else ""}><joint name="k" axis="1 0 0"/>{inside}</body>'
+    text = (
+        f"""<mujoco><worldbody><body name="a"><joint name="j" axis="0 1 0"/>{INERTIAL}{b}</body></worldbody></mujoco>"""
+    )
+    found = diagnose(saved(tmp_path, "axis.xml", text))
+    assert [finding.cause for finding in found.findings] == ["axis-not-normalised"], found.text()
+    assert "Instead, write quat" in found.findings[0].says
+    same = diagnose(saved(tmp_path, "unit.xml", text.replace(f'"{axis} 40"', '"0.6 0.8 0 40"')))
+    assert same.engines["pinocchio-aba"]["status"] == "agrees"
+
+
+def test_what_is_unnamed_is_the_same_however_much_was_lost_before_it(tmp_path):
+    """Of the file's two joints without a name Pinocchio, which follows no <include>, has the second, as its first."""
+    saved(tmp_path, "part.xml", f'<mujoco><body name="a"><joint axis="0 1 0"/>{INERTIAL}</body></mujoco>')
+    text = f"""<mujoco><worldbody><include file="part.xml"/><body name="b" pos="1 0 0"><freejoint/>{INERTIAL}</body>
+        </worldbody></mujoco>"""
+    found = diagnose(saved(tmp_path, "scene.xml", text))
+    assert [finding.cause for finding in found.findings] == ["include-not-followed"], found.text()
+    assert "'furiko_joint_1': joint none" in found.findings[0].says
+
+
 def test_two_misreadings_at_once_are_both_named(tmp_path):
     text = MISREAD["shown.xml"][0].replace("<mujoco>", '<mujoco><compiler settotalmass="6"/>')
     found = diagnose(saved(tmp_path, "two.xml", text))

@@ -18,7 +18,13 @@ PINOCCHIO = (
     *("first_root_only", "geoms_without_contact_weigh_nothing", "pose_of_first_fixed_body_dropped"),
     *("mesh_weighs_one_kilogram", "default_joint_pos_dropped", "default_geom_mass_dropped"),
     *("default_geom_pose_dropped", "childclass_behind_class", "total_mass_ignored", "inertia_group_ignored"),
-    *("balance_inertia_ignored", "bound_inertia_on_given_axes", "upper_euler_as_lower", "include_not_followed"),
+    *(
+        "balance_inertia_ignored",
+        "bound_inertia_on_given_axes",
+        "upper_euler_as_lower",
+        "axis_not_normalised",
+        "include_not_followed",
+    ),
     *("late_sections_ignored", "later_sections_ignored", "bare_bodies_lost", "unnamed_sibling_twice"),
     *("first_ref_ignored", "gravity_not_read", "frame_ignored", "damping_dropped_on_free_and_ball", "springs_not_held"),
 )
@@ -126,6 +132,11 @@ FILES = {
     ),
     "upper_euler_as_lower": mjcf(
         arm(arm(name="b", joint='<joint name="k" axis="0 1 0"/>', euler="10 20 30")), '<compiler eulerseq="XYZ"/>'
+    ),
+    "axis_not_normalised": mjcf(
+        '<body name="a"><joint axis="1 1 0"/><geom type="box" size=".1 .2 .3" pos="0 .2 0" axisangle="1 2 0 40"/>'
+        '<body name="b"><joint axis="0 1 0"/><inertial pos="0 0 .2" mass="1" diaginertia=".1 .2 .25" '
+        'axisangle=".6 0 .6 70"/></body></body>'
     ),
     "late_sections_ignored": mjcf(arm(joint="<joint/>"), "", '<default><joint axis="0 1 0"/></default>'),
     "later_sections_ignored": mjcf(

@@ -209,7 +209,8 @@ def stl(*triangles):
 
 
 CORNERS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
-SOLID = stl(*([CORNERS[i] for i in face] for face in ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))))
+FACES = ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))
+SOLID = stl(*([CORNERS[i] for i in face] for face in FACES))
 
 
 @pytest.mark.parametrize("settings", ['meshdir="parts"', 'assetdir="parts"', 'meshdir="parts" strippath="true"'])
@@ -234,6 +235,79 @@ def test_a_mesh_outside_is_read_only_from_a_folder_that_the_user_named(tmp_path)
         read(text, path=path)
     for other in (text, text.replace('meshdir="../meshes"', 'meshdir="/somewhere/else"')):
         assert read(other, path=path, others=[tmp_path / "meshes"]).bodies[0].inertial.mass > 0
+
+
+def _included(folder, mesh_of_size, compiler="", name="one.stl"):
+    """A model whose mesh is named in parts/assets.xml; ``mesh_of_size``: the solid at each place, by its edge [m]."""
+    for place, edge in mesh_of_size.items():
+        path = folder / place
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(stl(*(np.multiply(edge, [CORNERS[i] for i in face]) for face in FACES)))
+    (folder / "parts").mkdir(exist_ok=True)
+    (folder / "parts" / "assets.xml").write_text(f'<mujoco><asset><mesh name="m" file="{name}"/></asset></mujoco>')
+    world = '<body><joint axis="1 0 0"/><geom type="mesh" mesh="m"/></body>'
+    path = folder / "model.xml"
+    path.write_text(mjcf(world, f'{compiler}<include file="parts/assets.xml"/>'))
+    return path
+
+
+@pytest.mark.parametrize(
+    ("sizes", "compiler", "name"),
+    [
+        ({"parts/one.stl": 1}, "", "one.stl"),
+        ({"meshes/one.stl": 1}, "", "../meshes/one.stl"),
+        ({"meshes/one.stl": 1}, '<compiler meshdir="elsewhere"/>', "../meshes/one.stl"),
+        ({"parts/one.stl": 1, "one.stl": 2}, "", "one.stl"),
+        ({"parts/one.stl": 1, "meshes/one.stl": 2}, '<compiler meshdir="meshes"/>', "one.stl"),
+        ({"parts/one.stl": 1, "one.stl": 2}, '<compiler meshdir="meshes"/>', "one.stl"),
+    ],
+)
+def test_what_an_included_file_names_may_lie_beside_it(tmp_path, sizes, compiler, name):
+    path = _included(tmp_path, sizes, compiler, name)
+    theirs = mujoco.MjModel.from_xml_path(str(path)).body_mass[1]
+    assert read(path.read_text(), path=path).bodies[0].inertial.mass == pytest.approx(theirs, rel=1e-6)  # float32
+
+
+def test_an_included_file_includes_what_lies_beside_it(tmp_path):
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "parts" / "arm.xml").write_text(f"<mujoco>{body()}</mujoco>")
+    (tmp_path / "parts" / "world.xml").write_text('<mujoco><include file="arm.xml"/></mujoco>')
+    path = tmp_path / "model.xml"
+    path.write_text(mjcf('<include file="parts/world.xml"/>'))
+    assert mujoco.MjModel.from_xml_path(str(path)).nv == 1
+    assert len(read(path.read_text(), path=path).bodies) == 1
+
+
+def test_what_the_model_itself_names_is_in_the_folder_that_it_says(tmp_path):
+    (tmp_path / "one.stl").write_bytes(SOLID)
+    world = '<body><joint/><geom type="mesh" mesh="one"/></body>'
+    path = tmp_path / "model.xml"
+    path.write_text(mjcf(world, '<compiler meshdir="meshes"/><asset><mesh file="one.stl"/></asset>'))
+    with pytest.raises(ValueError, match="Error opening file"):
+        mujoco.MjModel.from_xml_path(str(path))
+    with pytest.raises(InvalidInput, match="no such file"):
+        read_model(path)
+
+
+def test_an_included_file_reaches_no_further_than_the_model(tmp_path):
+    inside = tmp_path / "inside"
+    path = _included(inside, {"parts/one.stl": 1}, name="../../one.stl")
+    (tmp_path / "one.stl").write_bytes(SOLID)
+    with pytest.raises(InvalidInput, match="outside the model's own folder"):
+        read(path.read_text(), path=path)
+
+
+def test_a_file_outside_is_refused_with_the_folder_to_name(tmp_path):
+    (tmp_path / "robots" / "arm").mkdir(parents=True)
+    (tmp_path / "scene").mkdir()
+    (tmp_path / "scene" / "scene.xml").write_text("<mujoco><option/></mujoco>")
+    path = tmp_path / "robots" / "arm" / "model.xml"
+    path.write_text(mjcf(body(), '<include file="../../scene/scene.xml"/>'))
+    with pytest.raises(InvalidInput) as caught:
+        read_model(path)
+    named = str(caught.value).partition("--meshes: ")[2].removesuffix(" holds both")
+    assert named == str(tmp_path.resolve())[-200:]
+    assert read_model(path, meshes=[tmp_path]).spatial.bodies
 
 
 def test_a_mesh_that_does_not_weigh_is_not_asked_for():

@@ -100,3 +100,19 @@ def test_without_freedoms_there_is_nothing():
     truth = spatial_truth(SpatialMechanism((RigidBody("b", -1),), GRAVITY), np.zeros(0), np.zeros(0))
     assert truth.mass_matrix.float.shape == (0, 0)
     assert truth.accelerations.float.shape == truth.bias.float.shape == (0,)
+
+
+def test_many_trees_beside_each_other_have_the_mass_matrix_of_each():
+    """Of 60 free bodies that are alike, each moves alone: m on the translations, and the block of one body alone."""
+    count = 60
+    inertial = Inertial(2.0, np.array([0.1, 0, 0]), np.diag([1.0, 2.0, 2.5]))
+    bodies = [RigidBody(f"b{k}", -1, joints=(Joint(f"j{k}", "free"),), inertial=inertial) for k in range(count)]
+    mechanism, alone = (SpatialMechanism(tuple(some), GRAVITY) for some in (bodies, bodies[:1]))
+    turned = np.array([0.5, -0.2, 0.3, 0.5, 0.5, -0.5, 0.5])
+    matrix = spatial_truth(mechanism, np.tile(turned, count), np.zeros(6 * count)).mass_matrix
+    block = spatial_truth(alone, turned, np.zeros(6)).mass_matrix
+    expected = np.kron(np.eye(count), block.float)
+    assert (matrix.float == expected).all()
+    assert matrix.float[0, 0] == 2  # the mass
+    assert (matrix.enclosure.radius <= 2.0**-80 * np.abs(block.float).max()).all()
+    assert all(0 in ball for ball in matrix.balls[0, 6:])
