@@ -47,7 +47,7 @@ def enclosed_derivatives(system: DocumentSystem, theta: Floats, omega: Floats) -
     return Derivatives(*(proved.Enclosure(high[k], low[k], radius[k]) for k in range(3)))
 
 
-def _in_balls(system: DocumentSystem, theta: Floats, omega: Floats) -> Array:
+def _in_balls(system: DocumentSystem, theta: Floats, omega: Floats, _bits: int) -> Array:
     """The three matrices of one state (1, n) as balls, (3, 1, n, n)."""
     import flint
 

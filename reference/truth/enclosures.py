@@ -118,49 +118,57 @@ def over_states(
     omega: Floats,
     shape: tuple[int, ...],
     accelerate: Callable[[DocumentSystem, Array, Array], Array] | None = accelerations_in_balls,
+    *,
+    bits: int = BITS,
+    at_once: int | None = None,
 ) -> Enclosure:
-    """``quantity`` of (θ, ω, θ̈) in balls, for every state, a chunk at a time, rounded.
+    """``quantity`` of (θ, ω, θ̈) in balls, for every state, rounded.
 
-    ``accelerate`` gives θ̈ as :func:`accelerations_in_balls` does; None where the quantity needs none.
+    ``accelerate`` gives θ̈ as :func:`accelerations_in_balls` does; None where the quantity needs none. ``bits``: the
+    fewest; ``at_once``: how many states share a precision, as many as fit in memory if not given.
     """
     theta, omega = np.broadcast_arrays(np.asarray(theta, dtype=np.float64), np.asarray(omega, dtype=np.float64))
     batch = theta.shape[:-1]
     t, w = theta.reshape(-1, system.n), omega.reshape(-1, system.n)
 
-    def enclose(part: slice) -> Array:
+    def enclose(part: slice, _bits: int) -> Array:
         xp = balls()
         t_balls, w_balls = xp.array(t[part]), xp.array(w[part])
         return quantity(t_balls, w_balls, accelerate(system, t_balls, w_balls) if accelerate else t_balls)
 
-    parts = [enclosed(partial(enclose, part)) for part in _chunks(len(t), system.n)]
+    parts = [enclosed(partial(enclose, part), bits) for part in _chunks(len(t), system.n, at_once)]
     high, low, radius = (
         np.concatenate([part[k] for part in parts]) if parts else np.empty((0, *shape)) for k in range(3)
     )
     return Enclosure(*(values.reshape(*batch, *shape) for values in (high, low, radius)))
 
 
-def enclosed(enclose: Callable[[], Array]) -> tuple[Floats, Floats, Floats]:
-    """High, low and radius of the balls of ``enclose``, with as many bits as the promised radius needs.
+def enclosed(enclose: Callable[[int], Array], bits: int = BITS) -> tuple[Floats, Floats, Floats]:
+    """High, low and radius of the balls of ``enclose``, a function of the bits it works with: as many as it needs.
 
-    That is 2⁻⁸⁰ of the largest of each entry of the first axis. Raises ArithmeticError where no number of bits does.
+    The radius promised is 2⁻⁸⁰ of the largest of each entry of the first axis. Raises ArithmeticError where no number
+    of bits does.
     """
-    bits = BITS
     while True:
         try:
             with precision(bits):
-                found = rounded(enclose())
+                found = rounded(enclose(bits))
         except ZeroDivisionError:  # balls too wide to divide by
             found = None
         if found is not None and _narrow(found[0], found[2]):
             return found
         if bits >= MOST_BITS:
-            raise ArithmeticError(f"no enclosure of this state with {bits} bits: its numbers differ too much in size")
+            raise ArithmeticError(
+                f"no enclosure of this state with {bits} bits: its mass matrix is singular, or its numbers differ too "
+                "much in size"
+            )
         bits *= 2
 
 
 def _narrow(high: Floats, radius: Floats) -> bool:
     rows_high, rows_radius = np.abs(high).reshape(len(high), -1), radius.reshape(len(high), -1)
-    return bool((rows_radius.max(-1) <= np.maximum(RELATIVE_RADIUS * rows_high.max(-1), AS_GOOD_AS_ZERO)).all())
+    largest = rows_high.max(-1, initial=0.0)
+    return bool((rows_radius.max(-1, initial=0.0) <= np.maximum(RELATIVE_RADIUS * largest, AS_GOOD_AS_ZERO)).all())
 
 
 def rounded(values: Array) -> tuple[Floats, Floats, Floats]:
@@ -203,6 +211,6 @@ def _exact_or_accurate(term: Array) -> bool:
     return bool((_accuracy(balls().array(term)) > 60).all())
 
 
-def _chunks(states: int, n: int) -> list[slice]:
-    size = max(1, ENTRIES_AT_ONCE // (n * n))
+def _chunks(states: int, n: int, at_once: int | None = None) -> list[slice]:
+    size = at_once or max(1, ENTRIES_AT_ONCE // (n * n))
     return [slice(i, i + size) for i in range(0, states, size)]

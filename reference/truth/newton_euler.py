@@ -14,7 +14,7 @@ with sums only, and is done in balls as it stands.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -24,7 +24,7 @@ from ...models import DocumentSystem, RodChain
 from ..arithmetic import Array, balls
 from ..documents.equations_of_motion import joint_forces
 from .block_tridiagonal import chain_accelerations
-from .enclosures import AS_GOOD_AS_ZERO, MOST_BITS, RELATIVE_RADIUS, SMALLEST, Enclosure, over_states, precision
+from .enclosures import Enclosure, over_states, precision
 
 Floats = NDArray[np.float64]
 
@@ -37,10 +37,7 @@ def enclosed_accelerations(system: DocumentSystem, theta: Floats, omega: Floats)
     The same result as :func:`.enclosures.enclosed_accelerations`, with the same promise, for any n; raises
     ArithmeticError where it cannot be kept.
     """
-    theta, omega = np.broadcast_arrays(np.asarray(theta, dtype=np.float64), np.asarray(omega, dtype=np.float64))
-    rows = [_row(system, t, w) for t, w in zip(*(a.reshape(-1, system.n) for a in (theta, omega)), strict=True)]
-    parts = (np.array([row[k] for row in rows]).reshape(theta.shape) for k in range(3))
-    return Enclosure(*parts)
+    return _in_each_state(lambda t, w, a: a, system, theta, omega, (system.n,))
 
 
 def enclosed_joint_forces(system: DocumentSystem, theta: Floats, omega: Floats) -> Enclosure:
@@ -49,9 +46,7 @@ def enclosed_joint_forces(system: DocumentSystem, theta: Floats, omega: Floats) 
     The same result as :func:`.enclosures.enclosed_joint_forces`, with the same promise, for any n; raises
     ArithmeticError where it cannot be kept.
     """
-    return over_states(
-        lambda t, w, a: joint_forces(system, t, w, a), system, theta, omega, (system.n, 2), accelerate=_accelerations
-    )
+    return _in_each_state(partial(joint_forces, system), system, theta, omega, (system.n, 2))
 
 
 def _accelerations(system: DocumentSystem, theta: Array, omega: Array) -> Array:
@@ -62,6 +57,10 @@ def _accelerations(system: DocumentSystem, theta: Array, omega: Array) -> Array:
     return np.array(rows, dtype=object).reshape(theta.shape)
 
 
+# A state that needs many bits must not have the others pay for them.
+_in_each_state = partial(over_states, accelerate=_accelerations, bits=FEWEST_BITS, at_once=1)
+
+
 def close_accelerations(system: DocumentSystem, theta: Floats, omega: Floats, bits: int = FEWEST_BITS) -> list[Any]:
     """θ̈ of one state (n,) as balls' midpoints at this precision, without a proof: for differences of close states."""
     with precision(bits):
@@ -70,36 +69,11 @@ def close_accelerations(system: DocumentSystem, theta: Floats, omega: Floats, bi
         return [ball.mid() for ball in found]
 
 
-def _row(system: DocumentSystem, theta: Floats, omega: Floats) -> tuple[list[float], list[float], list[float]]:
-    bits = FEWEST_BITS
-    while True:
-        with precision(bits):
-            try:
-                split = _split(_enclosed(system, theta.tolist(), omega.tolist()))
-            except ZeroDivisionError:  # too few bits to tell a pivot from zero
-                split = None
-        if split is not None:
-            largest = max(map(abs, split[0]))
-            if max(split[2]) <= max(RELATIVE_RADIUS * largest, AS_GOOD_AS_ZERO):
-                return split
-        if bits >= MOST_BITS:
-            raise ArithmeticError(f"no enclosure of this state with {bits} bits")
-        bits *= 2
-
-
 def _enclosed(system: DocumentSystem, theta: list[float], omega: list[float]) -> list[Any]:
     if not isinstance(system, RodChain):
         return _legs(system, theta, omega)
     guess = _rods(system, theta, omega)
     return _with_radii(system, theta, omega, guess)
-
-
-def _split(balls: Sequence[Any]) -> tuple[list[float], list[float], list[float]]:
-    """Balls as unevaluated sums of two doubles, and radii."""
-    high = [float(ball.mid()) for ball in balls]
-    low = [float((ball - h).mid()) for ball, h in zip(balls, high, strict=True)]
-    rest = (float((ball - h - l).abs_upper()) for ball, h, l in zip(balls, high, low, strict=True))
-    return high, low, [r * (1 + 2.0**-52) + SMALLEST if r else 0.0 for r in rest]
 
 
 def _frames(theta: list[float]) -> tuple[list[Any], list[Any]]:

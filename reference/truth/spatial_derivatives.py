@@ -13,6 +13,7 @@ are carried along at once. As τ less the passive forces stays zero, M ∂a/∂q
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,7 @@ from numpy.typing import NDArray
 
 from ...models.errors import InvalidInput
 from ...models.spatial_mechanism import WORLD, SpatialMechanism
+from ..arithmetic import Array
 from . import enclosures as proved
 from .derivatives import Derivatives
 from .spatial import BODIES_PER_BIT
@@ -39,25 +41,11 @@ def spatial_derivatives(mechanism: SpatialMechanism, q: Floats, v: Floats) -> De
     if any(placed.joint.kind not in ("hinge", "slide") for placed in mechanism.joints):
         raise InvalidInput("derivatives are those of hinges and slides")
     bits = proved.BITS + mechanism.nv // BODIES_PER_BIT
-    while True:
-        try:
-            with proved.precision(bits):
-                found = [proved.rounded(matrix) for matrix in _in_balls(mechanism, q, v, bits)]
-        except ZeroDivisionError:  # balls too wide to divide by
-            found = []
-        if found and all(_narrow(high, radius) for high, _, radius in found):
-            return Derivatives(*(proved.Enclosure(*parts) for parts in found))
-        if bits >= proved.MOST_BITS:
-            raise ArithmeticError(f"no derivatives of this state with {bits} bits: its mass matrix is singular")
-        bits *= 2
+    parts = proved.enclosed(partial(_in_balls, mechanism, q, v), bits)
+    return Derivatives(*(proved.Enclosure(*matrix) for matrix in zip(*parts, strict=True)))
 
 
-def _narrow(high: Floats, radius: Floats) -> bool:
-    largest = float(np.abs(high).max(initial=0.0))
-    return float(radius.max(initial=0.0)) <= max(proved.RELATIVE_RADIUS * largest, proved.AS_GOOD_AS_ZERO)
-
-
-def _in_balls(mechanism: SpatialMechanism, q: Floats, v: Floats, bits: int) -> list[Any]:
+def _in_balls(mechanism: SpatialMechanism, q: Floats, v: Floats, bits: int) -> Array:
     motion, n = Motion(mechanism, q, v, bits), mechanism.nv
     damping, stiffness = (mechanism.per_freedom(what).tolist() for what in ("damping", "stiffness"))
     gravity = mechanism.gravity.tolist()
@@ -75,7 +63,7 @@ def _in_balls(mechanism: SpatialMechanism, q: Floats, v: Floats, bits: int) -> l
     for (i, j), entry in motion.mass_entries().items():
         mass[i, j] = mass[j, i] = entry
     matrices = (-of_positions, -of_rates, arb_mat(n, n, [int(i == k) for i in range(n) for k in range(n)]))
-    return [np.array(mass.solve(right).tolist(), dtype=object).reshape(n, n) for right in matrices]
+    return np.array([mass.solve(right).tolist() for right in matrices], dtype=object).reshape(3, n, n)
 
 
 def _forces(motion: Motion, v: list[Any], a: list[Any], gravity: list[float]) -> tuple[Any, Any]:
