@@ -18,15 +18,13 @@ from ...models.errors import InvalidInput
 from ...models.systems import System
 from .starts import (
     FINEST,
-    SAFETY,
-    STEPS_A_CALL,
     Starts,
-    best_order,
     checked_starts,
     checked_tolerance,
-    local_size,
+    empty_lanes,
     on_threads,
-    too_fast,
+    run_lanes,
+    step_accuracy,
 )
 
 Array = NDArray[np.float64]
@@ -89,15 +87,13 @@ def flip_times(
     if not fits:
         raise InvalidInput(f"link: a number from 0 to {starts.n - 1} is needed, or None for any, got {link!r:.60}")
     wanted = checked_tolerance(tolerance)
-    local = local_size(wanted)
-    order = best_order(local)
     watched = (0, starts.n) if link is None else (int(link), int(link) + 1)
 
-    def found(order: int, local: float) -> tuple[Array, NDArray[np.int64], NDArray[np.int64]]:
-        return _flips(starts, float(until), watched, order, local, threads)
+    def found(*, finer: bool = False) -> tuple[Array, NDArray[np.int64], NDArray[np.int64]]:
+        return _flips(starts, float(until), watched, *step_accuracy(wanted, finer=finer), threads)
 
-    times, flipped, steps = found(order, local)
-    return FlipTimes(times, flipped, float(until), wanted, steps, lambda: found(order + 4, local * SAFETY)[:2])
+    times, flipped, steps = found()
+    return FlipTimes(times, flipped, float(until), wanted, steps, lambda: found(finer=True)[:2])
 
 
 def _flips(
@@ -127,21 +123,10 @@ def _follow(
 ) -> None:
     from ..kernels.vector import EIGHT
     from . import taylor_flips as compiled
-    from . import taylor_lanes as lanes_of
-    from .taylor_compiled import BROKEN, FACTORS, MORE, STATE
 
     run = compiled.run_rod_flips if kind == "rod-chain" else compiled.run_leg_flips
     steps, times, link = out
     n = given[3].shape[1]
-    state, factors = (np.zeros((n, rows, EIGHT)) for rows in (STATE, FACTORS))
-    clock, cells = np.zeros((lanes_of.CLOCK, EIGHT)), np.zeros((n, EIGHT))
-    lanes = np.zeros((lanes_of.LANE_ROWS, EIGHT), np.int64)
-    lanes[lanes_of.TRAJECTORY] = lanes_of.IDLE
-    links = np.array(watched, np.int64)
-    status = MORE
-    while status == MORE:
-        kept = state, factors, clock, lanes, steps, links, cells, times, link
-        status = run(*given, until, order, local, *kept, STEPS_A_CALL // EIGHT)
-    if status == BROKEN:
-        lane = int(np.argmax(lanes[lanes_of.TRAJECTORY] == lanes[lanes_of.NEXT, 1]))
-        raise too_fast(clock[lanes_of.TIME, lane], until[0])
+    state, factors, clock, lanes = empty_lanes(n)
+    kept = state, factors, clock, lanes, steps, np.array(watched, np.int64), np.zeros((n, EIGHT)), times, link
+    run_lanes(lambda count: run(*given, until, order, local, *kept, count), clock, lanes, until[0])

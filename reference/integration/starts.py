@@ -131,6 +131,38 @@ def best_order(local: float) -> int:
     return max(6, math.ceil(-0.72 * math.log(local)))
 
 
+def step_accuracy(tolerance: float, *, finer: bool = False) -> tuple[int, float]:
+    """Order and :func:`local_size` of the steps; ``finer``: of the run that a result's error is estimated from."""
+    local = local_size(tolerance)
+    order = best_order(local)
+    return (order + 4, local * SAFETY) if finer else (order, local)
+
+
+def empty_lanes(n: int) -> tuple[Array, Array, Array, NDArray[np.int64]]:
+    """What the kernels of eight lanes keep between calls, nothing begun: state, factors, clock, lanes."""
+    from ..kernels.vector import EIGHT
+    from . import taylor_lanes as compiled
+    from .taylor_compiled import FACTORS, STATE
+
+    lanes = np.zeros((compiled.LANE_ROWS, EIGHT), np.int64)
+    lanes[compiled.TRAJECTORY] = compiled.IDLE
+    return np.zeros((n, STATE, EIGHT)), np.zeros((n, FACTORS, EIGHT)), np.zeros((compiled.CLOCK, EIGHT)), lanes
+
+
+def run_lanes(advance: Callable[[int], int], clock: Array, lanes: NDArray[np.int64], until: float) -> None:
+    """Call a kernel of eight lanes with a number of steps until all are done. Raises InvalidInput for a broken one."""
+    from ..kernels.vector import EIGHT
+    from . import taylor_lanes as compiled
+    from .taylor_compiled import BROKEN, MORE
+
+    status = MORE
+    while status == MORE:
+        status = advance(STEPS_A_CALL // EIGHT)
+    if status == BROKEN:
+        lane = int(np.argmax(lanes[compiled.TRAJECTORY] == lanes[compiled.NEXT, 1]))
+        raise too_fast(clock[compiled.TIME, lane], until)
+
+
 def on_threads(count: int, threads: int | None, work: Callable[[slice], None]) -> None:
     """Have ``work`` done for all of ``count`` rows, in as many parts as threads."""
     if count == 0:

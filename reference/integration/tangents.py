@@ -19,16 +19,14 @@ from ...models.states import natural_rate
 from ...models.systems import System
 from .starts import (
     FINEST,
-    SAFETY,
-    STEPS_A_CALL,
     Starts,
-    best_order,
     checked_starts,
     checked_times,
     checked_tolerance,
-    local_size,
+    empty_lanes,
     on_threads,
-    too_fast,
+    run_lanes,
+    step_accuracy,
 )
 
 Array = NDArray[np.float64]
@@ -195,10 +193,7 @@ class _Run:
     def grown(self, tolerance: float, *, products: bool = False, finer: bool = False) -> Grown:
         """How much the differences have grown at each time; ``finer``: in smaller steps of higher order."""
         starts, m, k = self.starts, len(self.times), len(self.first)
-        local = local_size(tolerance)
-        order = best_order(local)
-        if finer:
-            order, local = order + 4, local * SAFETY
+        order, local = step_accuracy(tolerance, finer=finer)
         total = starts.count
         given = (*starts.links(), *starts.rows())
         out = (
@@ -221,45 +216,19 @@ class _Run:
         self, given: list[Array], order: int, local: float, steps: NDArray[np.int64], out: list[Array], scale: Array
     ) -> None:
         from ..kernels.vector import EIGHT
-        from . import taylor_lanes as lanes_of
         from . import taylor_tangents as compiled
-        from .taylor_compiled import BROKEN, FACTORS, MORE, STATE
+        from .taylor_compiled import FACTORS
 
         run = compiled.run_rod_tangents if self.starts.kind == "rod-chain" else compiled.run_leg_tangents
         n, k = self.starts.n, len(self.first)
-        state, factors, still = (np.zeros((n, rows, EIGHT)) for rows in (STATE, FACTORS, FACTORS))
-        clock = np.zeros((lanes_of.CLOCK, EIGHT))
-        lanes = np.zeros((lanes_of.LANE_ROWS, EIGHT), np.int64)
-        lanes[lanes_of.TRAJECTORY] = lanes_of.IDLE
+        state, factors, clock, lanes = empty_lanes(n)
         first = np.ascontiguousarray(self.first.reshape(k, compiled.DIFFERENCE, n))
+        still = np.zeros((n, FACTORS, EIGHT))
         differences, product = np.zeros((k, compiled.DIFFERENCE, n, EIGHT)), np.zeros((k, k, EIGHT))
         growth, scales = np.zeros((k, EIGHT)), np.zeros((compiled.SCALES, EIGHT))
-        status = MORE
-        while status == MORE:
-            status = run(
-                *given,
-                self.times,
-                order,
-                local,
-                state,
-                factors,
-                clock,
-                lanes,
-                steps,
-                *out[:2],
-                first,
-                scale,
-                still,
-                differences,
-                product,
-                growth,
-                scales,
-                *out[2:],
-                STEPS_A_CALL // EIGHT // k + 1,
-            )
-        if status == BROKEN:
-            lane = int(np.argmax(lanes[lanes_of.TRAJECTORY] == lanes[lanes_of.NEXT, 1]))
-            raise too_fast(clock[lanes_of.TIME, lane], self.times[-1])
+        begun = *given, self.times, order, local, state, factors, clock, lanes, steps, *out[:2]
+        beside = first, scale, still, differences, product, growth, scales, *out[2:]
+        run_lanes(lambda count: run(*begun, *beside, count // k + 1), clock, lanes, self.times[-1])
 
 
 def _scales(starts: Starts, rate: float | None) -> Array:

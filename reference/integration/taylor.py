@@ -29,8 +29,8 @@ l_i θi''[k] = -q_i·A[k] - R_i[k], and with A = (A_p, G) in the frame of link 1
 where R_i is the convolution above of q_i with A (legs) or of q_1 with Φ (link 1).
 
 Angles and rates are carried as sums of two doubles and angles within half a turn, so that a step rounds only what it
-adds. The step is chosen so that the last terms are :func:`local_size` of the largest of the first, the order so that
-this is cheapest.
+adds. The step is chosen so that the last terms are :func:`.starts.local_size` of the largest of the first, the order so
+that this is cheapest.
 """
 
 from __future__ import annotations
@@ -46,15 +46,15 @@ from numpy.typing import NDArray
 from ...models.systems import System
 from .starts import (
     FINEST,
-    SAFETY,
     STEPS_A_CALL,
     Starts,
-    best_order,
     checked_starts,
     checked_times,
     checked_tolerance,
-    local_size,
+    empty_lanes,
     on_threads,
+    run_lanes,
+    step_accuracy,
     too_fast,
 )
 
@@ -131,13 +131,11 @@ def simulate(
     starts = checked_starts(system, theta, omega)
     moments = checked_times(times)
     wanted = checked_tolerance(tolerance)
-    local = local_size(wanted)
-    order = best_order(local)
 
     def finer() -> tuple[Array, Array]:
-        return _integrate(starts, moments, order + 4, local * SAFETY, threads)[:2]
+        return _integrate(starts, moments, *step_accuracy(wanted, finer=True), threads)[:2]
 
-    out_theta, out_omega, steps = _integrate(starts, moments, order, local, threads)
+    out_theta, out_omega, steps = _integrate(starts, moments, *step_accuracy(wanted), threads)
     return Trajectory(moments, out_theta, out_omega, wanted, steps, finer)
 
 
@@ -182,24 +180,13 @@ def _integrate(
 
 def _follow_lanes(kind: str, runs: _Runs, times: Array, order: int, local: float) -> None:
     """Many trajectories, eight at a time."""
-    from ..kernels.vector import EIGHT
     from . import taylor_lanes as compiled
-    from .taylor_compiled import BROKEN, FACTORS, MORE, STATE
 
     run = compiled.run_rod_lanes if kind == "rod-chain" else compiled.run_leg_lanes
-    n = runs.theta.shape[1]
-    state, factors = (np.zeros((n, rows, EIGHT)) for rows in (STATE, FACTORS))
-    clock = np.zeros((compiled.CLOCK, EIGHT))
-    lanes = np.zeros((compiled.LANE_ROWS, EIGHT), np.int64)
-    lanes[compiled.TRAJECTORY] = compiled.IDLE
+    state, factors, clock, lanes = empty_lanes(runs.theta.shape[1])
     given = runs.masses, runs.lengths, runs.gravity, runs.theta, runs.omega, times, order, local
     kept = state, factors, clock, lanes, runs.steps, runs.out_theta, runs.out_omega
-    status = MORE
-    while status == MORE:
-        status = run(*given, *kept, STEPS_A_CALL // EIGHT)
-    if status == BROKEN:
-        lane = int(np.argmax(lanes[compiled.TRAJECTORY] == lanes[compiled.NEXT, 1]))
-        raise too_fast(clock[compiled.TIME, lane], times[-1])
+    run_lanes(lambda steps: run(*given, *kept, steps), clock, lanes, times[-1])
 
 
 def _follow(kind: str, run: _Runs, times: Array, order: int, local: float) -> int:
