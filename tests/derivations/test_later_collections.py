@@ -1,0 +1,97 @@
+"""Derivations as computer algebra, programs, word processors and textbooks print them (the second collection), and
+pasted whole, as programs, pages and forums have them (the third): none is misjudged."""
+
+import tomllib
+from functools import cache
+from pathlib import Path
+
+import prove_pasted
+import prove_strange_machines
+import prove_strange_pendulums
+import pytest
+from prove import rates_hold
+from truth import compare, conventions
+
+from furiko.derivations.grading.grade import grade
+from furiko.models.errors import InvalidInput
+
+HERE = Path(__file__).parent
+PROOFS = {
+    "second_collection": prove_strange_pendulums.PROOFS | prove_strange_machines.PROOFS,
+    "third_collection": prove_pasted.PROOFS,
+}
+INDEX = {each: tomllib.loads((HERE / each / "index.toml").read_text(encoding="utf-8")) for each in PROOFS}
+ENTRIES = {(collection, name): entry for collection, index in INDEX.items() for name, entry in index.items()}
+# Nine of ten, as of the first collection. All of the second are read today, and one more refusal is to be looked at,
+# not hidden; of the third's 55 that describe a planar open mechanism, 50.
+READ_AS_PRINTED = 0.9
+
+
+def each(entries):
+    return pytest.mark.parametrize(("collection", "name"), entries, ids=[name for _, name in entries])
+
+
+@cache
+def judged(collection, name):
+    """The verdict and what it rests on, or None where the text is refused."""
+    try:
+        record = grade(HERE / collection / f"{name}.toml")
+    except InvalidInput:
+        return None
+    return record.verdict, record.assumes
+
+
+def parts(collection, name):
+    """Mechanism, rows, rates that must hold of themselves, and values for which alone the rows are meant."""
+    mechanism, rows, *more = PROOFS[collection][name]
+    rates = next((x for x in more if isinstance(x, list)), [])
+    return mechanism, rows, rates, next((x for x in more if isinstance(x, dict)), None)
+
+
+@pytest.mark.parametrize("collection", INDEX)
+def test_every_file_is_in_the_index_and_every_entry_is_proved(collection):
+    index = INDEX[collection]
+    assert (
+        {path.stem for path in (HERE / collection).glob("*.toml")} - {"index"} == set(index) == set(PROOFS[collection])
+    )
+    assert all(("why" in entry) == (entry["verdict"] == "wrong") for entry in index.values())
+
+
+@pytest.mark.slow
+@each(list(ENTRIES))
+def test_the_verdict_said_is_proved(collection, name):
+    mechanism, rows, rates, special = parts(collection, name)
+    right = rates_hold(rates, mechanism) and compare(rows, mechanism, special) is None
+    assert right == (ENTRIES[collection, name]["verdict"] == "correct")
+
+
+@pytest.mark.slow
+@each([key for key, entry in ENTRIES.items() if entry["verdict"] == "wrong"])
+def test_what_is_wrong_is_wrong_in_every_convention_that_its_file_leaves_open(collection, name):
+    mechanism, rows, rates, _ = parts(collection, name)
+    if rates or "from" in tomllib.loads((HERE / collection / f"{name}.toml").read_text(encoding="utf-8")):
+        return
+    assert not [how for how, turned in conventions(rows, mechanism) if compare(turned, mechanism) is None]
+
+
+@pytest.mark.slow
+@each(list(ENTRIES))
+def test_none_is_misjudged(collection, name):
+    found = judged(collection, name)
+    if found is not None and found[0] != ENTRIES[collection, name]["verdict"]:
+        assert found[0] == "correct"  # right on a condition that is said
+        assert found[1]
+
+
+@each([key for key, entry in ENTRIES.items() if "outside" in entry])
+def test_what_cannot_be_declared_is_refused_and_says_so(collection, name):
+    with pytest.raises(InvalidInput, match=r"cannot be declared|is not known; give one of"):
+        grade(HERE / collection / f"{name}.toml")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("collection", INDEX)
+def test_nine_of_ten_are_read_as_printed(collection):
+    inside = [name for name, entry in INDEX[collection].items() if "outside" not in entry]
+    read = [name for name in inside if judged(collection, name) is not None]
+    assert len(read) >= READ_AS_PRINTED * len(inside), f"{len(read)} of {len(inside)} are read as printed"
