@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -191,6 +192,31 @@ def judge(residual: Array, unit: Array, epsilons: Array) -> Judged:
     """``residual`` over ``unit`` (K, n, n), against ``epsilons`` (K,): roundings allowed × ε, in absolute numbers."""
     found = worst(quotient(residual, epsilons[:, None, None] * unit))
     return Judged(found, float(epsilons[found.index[0]] / 2.0**-52))
+
+
+class Asked(Protocol):
+    """A cell of any kind: an engine, and how its answers are checked."""
+
+    @property
+    def engine(self) -> Any:
+        """The engine."""
+        ...
+
+    def answer(self, quantity: str, answer: object, shape: tuple[int, ...], /) -> Array:
+        """``answer`` as an array of this shape."""
+        ...
+
+
+def slopes(cell: Asked, offers: Collection[str], at: Array, rates: Array) -> tuple[Array | None, ...]:
+    """The engine's ∂a/∂q, ∂a/∂v and M⁻¹ in states (K, n), (K, n, n) each; None for what it does not offer."""
+    shape = (*rates.shape, rates.shape[-1])
+    of_positions = of_rates = inverse = None
+    if "derivatives" in offers:
+        both = cell.engine.derivatives(at, rates)
+        of_positions, of_rates = (cell.answer("derivatives", each, shape) for each in both)
+    if "inverse_mass" in offers:
+        inverse = cell.answer("inverse mass matrix", cell.engine.inverse_mass(at), shape)
+    return of_positions, of_rates, inverse
 
 
 def relative_error(error: Array, true: Array) -> float:

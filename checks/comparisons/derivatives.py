@@ -12,7 +12,7 @@ from ...records.check import Result
 from ...reference import centrifugal_matrix, gravity_vector, mass_matrix
 from ...reference.rounding.bounds import EPSILON, allowed, turns
 from ...reference.rounding.derivatives import units
-from ..cell import Cell, judge, relative_error
+from ..cell import Cell, judge, relative_error, slopes
 from ..facts import PART_OF
 
 Array = NDArray[np.float64]
@@ -36,7 +36,7 @@ def compare(cell: Cell) -> Iterator[Result]:
     n, mass = cell.scene.system.n, mass_matrix(cell.scene.system, theta)
     sizes = units(cell.amplitude, mass, alpha, omega)
     epsilons = EPSILON * allowed(n, cell.info.accuracy) * turns(theta)
-    answers = _answers(cell, theta, omega)
+    answers = slopes(cell, cell.info.offers, theta, omega)
     to_own, from_own = cell.amplitude.to_absolute, cell.amplitude.from_absolute
     columns = (to_own, to_own, from_own.T)
     each = (sizes.of_positions, sizes.of_rates, sizes.inverse_mass)
@@ -72,17 +72,6 @@ def compare(cell: Cell) -> Iterator[Result]:
             },
             **found.fields(),
         )
-
-
-def _answers(cell: Cell, theta: Array, omega: Array) -> tuple[Array | None, Array | None, Array | None]:
-    shape = (*theta.shape, theta.shape[-1])
-    of_positions = of_rates = inverse = None
-    if "derivatives" in cell.info.offers:
-        both = cell.engine.derivatives(theta, omega)
-        of_positions, of_rates = (cell.answer("derivatives", each, shape) for each in both)
-    if "inverse_mass" in cell.info.offers:
-        inverse = cell.answer("inverse mass matrix", cell.engine.inverse_mass(theta), shape)
-    return of_positions, of_rates, inverse
 
 
 def _mistakes(cell: Cell, part: int, theta: Array, omega: Array, alpha: Array) -> Iterator[Mistake]:

@@ -13,7 +13,7 @@ from ...records.check import Result
 from ...reference.rounding.bounds import EPSILON
 from ...reference.rounding.derivatives import DerivativeUnits, combined, polarised
 from ...reference.rounding.spatial import Magnitudes
-from ..cell import judge, relative_error
+from ..cell import judge, relative_error, slopes
 from ..facts import PART_OF
 from .cell import TreeCell
 
@@ -30,8 +30,9 @@ def compare(cell: TreeCell) -> Iterator[Result]:
     mass, labels = facts.mass_matrix[-count:], cell.states.labels[-count:]
     sizes = _units(cell, count)
     epsilons = EPSILON * cell.roundings[-count:]
-    answers = _answers(cell, q, v)
     assert cell.info.tree is not None
+    offers = cell.info.tree.offers
+    answers = slopes(cell, [each for each in offers if each != "derivatives" or not _cannot(cell)], q, v)
     for part, ((name, quantity, words), unit) in enumerate(zip(PART_OF, sizes, strict=True)):
         got = answers[part]
         if got is None:
@@ -73,18 +74,6 @@ def _cannot(cell: TreeCell) -> str:
     assert cell.info.tree is not None
     features = cell.scene.system.features
     return next((why for feature, why in cell.info.tree.cannot_differentiate.items() if feature in features), "")
-
-
-def _answers(cell: TreeCell, q: Array, v: Array) -> tuple[Array | None, Array | None, Array | None]:
-    assert cell.info.tree is not None
-    shape, offers = (*v.shape, v.shape[-1]), cell.info.tree.offers
-    of_positions = of_rates = inverse = None
-    if "derivatives" in offers and not _cannot(cell):
-        both = cell.engine.derivatives(q, v)
-        of_positions, of_rates = (cell.answer("derivatives", each, shape) for each in both)
-    if "inverse_mass" in offers:
-        inverse = cell.answer("inverse mass matrix", cell.engine.inverse_mass(q), shape)
-    return of_positions, of_rates, inverse
 
 
 def _units(cell: TreeCell, count: int) -> tuple[Array, Array, Array]:
