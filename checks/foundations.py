@@ -40,7 +40,8 @@ def own_code() -> bytes:
     for name in ROOMS:
         # In a checkout the folders stand at the root, in a wheel inside the package: beside each other in both.
         for path in sorted((root / name).rglob("*")):
-            if path.suffix != ".pyc" and path.is_file():
+            # __pycache__ holds what Python and Numba compiled from the code: it appears as furiko runs.
+            if "__pycache__" not in path.parts[len(root.parts) :] and path.is_file():
                 seal.update(path.relative_to(root).as_posix().encode() + b"\0" + path.read_bytes())
     return seal.digest()
 

@@ -68,6 +68,7 @@ TWO_EQUALS = re.compile(r"(?<![=<>!])==(?!=)")
 BULLET = re.compile(r"(?m)^\s*[•▪‣◦]\s*")
 COUNTED = re.compile(r"(?m)^\s*\(?(?P<k>[0-9]{1,2})\)\s+(?=\S)")
 NUMBER = re.compile(r"(?:(?P<far>\s{2,}|\t|\\q?quad\s*)|\s)\((?:[0-9]{1,3}(?:\.[0-9]{1,3})?[a-z]?)\)\s*$")
+OPERATOR = re.compile(r"(?:[-+*/=^−·×(\[{]|\\(?:cdot|times|left\s*\())\s*$")  # what stands behind it is an operand
 MODEL = re.compile(r"^\s*(?:partial\s+)?model\s+\w+.*?\bequation\b(?P<rows>.*?)\bend\s+\w+\s*;?\s*$", re.DOTALL)
 MOST_ROWS = 16
 MOST_NAMED = 60
@@ -127,7 +128,7 @@ def equations_in(line: str) -> list[str]:
 def _without_number(row: str) -> str:
     """The row without its number, (12), which stands apart behind it."""
     found = NUMBER.search(row)
-    if found is None or "=" not in row:
+    if found is None or "=" not in row or OPERATOR.search(row[: found.start()]):
         return row
     if not found["far"]:
         raise InvalidInput(f"{found[0].strip()} at the end: the number of the equation, or a factor? Leave it out, or "

@@ -243,6 +243,18 @@ def test_reference_data_are_part_of_what_a_result_rests_on(tmp_path, monkeypatch
     assert len(digests) == 2
 
 
+def test_what_a_run_compiles_is_no_other_code(tmp_path, monkeypatch):
+    (tmp_path / "reference" / "__pycache__").mkdir(parents=True)
+    (tmp_path / "reference" / "kernel.py").write_text("code")
+    monkeypatch.setattr(foundations, "__file__", str(tmp_path / "checks" / "foundations.py"))
+    before = foundations.own_code.__wrapped__()
+    for name in ("kernel.cpython-311.pyc", "kernel.batch-1.py311.nbi", "kernel.batch-1.py311.1.nbc"):
+        (tmp_path / "reference" / "__pycache__" / name).write_bytes(b"compiled")
+    assert foundations.own_code.__wrapped__() == before
+    (tmp_path / "reference" / "kernel.py").write_text("edited")
+    assert foundations.own_code.__wrapped__() != before
+
+
 def test_the_folder_is_bounded_and_what_was_used_last_stays(tmp_path, task):
     cache = Cache(tmp_path / "cache", largest=1000)
     for states in range(4):

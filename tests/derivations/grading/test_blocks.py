@@ -96,6 +96,15 @@ def test_a_number_close_behind_a_row_may_be_a_factor():
         equations_in("l θ'' = -g sin θ (2)")
 
 
+@pytest.mark.parametrize("row", [r"a = g \cdot (0)", "a = b *  (2)", "a = (0)", "a = b -\t(1)"])
+def test_a_number_behind_an_operator_is_an_operand(row):
+    assert equations_in(row) == [row]
+
+
+def test_a_number_behind_a_comma_is_the_equation_s():
+    assert equations_in(r"a = b, \qquad (12)") == ["a = b, "]
+
+
 def test_an_expression_on_several_lines_says_how_to_print_it():
     with pytest.raises(InvalidInput, match="str"):
         equations_in("  d\n───(θ(t))\n dt")
