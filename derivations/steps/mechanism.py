@@ -71,7 +71,9 @@ class Mechanism:
     forces: tuple[Formula, ...] = ()
     weight: Formula | None = None  # g where it is None
     values: dict[int, Formula] = field(default_factory=dict, compare=False)  # symbols that stand for formulas
-    without_values: Mechanism | None = field(default=None, init=False, compare=False, repr=False)  # :meth:`with_values` of it
+    without_values: Mechanism | None = field(
+        default=None, init=False, compare=False, repr=False
+    )  # :meth:`with_values` of it
 
     @cached_property
     def positions(self) -> tuple[tuple[Formula, Formula], ...]:
@@ -130,7 +132,7 @@ class Mechanism:
     def free_rows(self) -> tuple[Formula, ...]:
         """The same without forces: Lagrange's equations of T - U alone."""
         plain = self.without_values
-        if plain is not None and self._values_are_constant():
+        if plain is not None and self.values_are_constant:
             # A constant may be put in before or after the derivatives; the rows without values serve many.
             return tuple(self.valued(row) for row in plain.free_rows)
         return tuple(lagrange_rows(self.space, self.lagrangian))
@@ -151,10 +153,14 @@ class Mechanism:
         if not values:
             return self
         valued = replace(self, values={**self.values, **values})
-        object.__setattr__(valued, "without_values", self.without_values or self)  # no field: replace() must not keep it
+        object.__setattr__(
+            valued, "without_values", self.without_values or self
+        )  # no field: replace() must not keep it
         return valued
 
-    def _values_are_constant(self) -> bool:
+    @cached_property
+    def values_are_constant(self) -> bool:
+        """Whether no value moves: none has an angle, a coordinate or a rate in it."""
         s = self.space
         moving = {*range(2 * s.n), *(range(4 * s.n + 2, 5 * s.n + 2) if s.extra else ())}
         return not any(
