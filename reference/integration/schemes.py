@@ -33,8 +33,8 @@ class Scheme:
 
     ``reach``: an error of at most 1 in every acceleration it evaluates, with accelerations that do not depend on the
     state, moves the rates by at most ``reach`` times the step. ``stages``: accelerations that follow on each other.
-    ``remembers``: where a step hands on more than angles and rates to the next, what takes several. ``implicit``: a step
-    is solved for, by many evaluations.
+    ``remembers``: where a step hands on more than angles and rates to the next, what takes several.
+    ``implicit``: a step is solved for, by many evaluations.
     """
 
     name: str
