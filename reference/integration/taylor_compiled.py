@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..kernels import elimination
-from ..kernels.compiling import aligned, bits, called, compiled, inlined, wide_vectors
+from ..kernels.compiling import aligned, bits, called, compiled, inlined, merged, wide_vectors
 from ..kernels.sincos import sincos
 from ..kernels.sine import ROUNDER
 from ..kernels.vector import EIGHT, fma, load, store
@@ -314,7 +314,7 @@ def run_legs(*given: Any) -> int:
     return run(factor_legs, solve_legs, given)
 
 
-@inlined
+@merged
 def run(factor: Any, solve: Any, given: Any) -> int:
     """Advance one trajectory until its last output is written (DONE) or ``budget`` steps are spent (MORE).
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from ..kernels.compiling import aligned, called, compiled, inlined
+from ..kernels.compiling import aligned, called, compiled, inlined, merged
 from ..kernels.vector import EIGHT, load, magnitude, store
 from .convolution import OMEGA, SERIES
 from .taylor_compiled import (
@@ -65,7 +65,7 @@ def run_leg_flips(*given: Any) -> int:
     return run(factor_legs, solve_legs, given)
 
 
-@inlined
+@merged
 def run(factor: Any, solve: Any, given: Any) -> int:
     """Follow all trajectories until one of the links from ``watched[0]`` to ``watched[1]`` - 1 flips, or to ``until``.
 

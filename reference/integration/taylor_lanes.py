@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ..kernels.compiling import aligned, called, compiled, inlined
+from ..kernels.compiling import aligned, called, compiled, inlined, merged
 from ..kernels.vector import EIGHT, load, magnitude, maximum, store
 from .convolution import OMEGA, SERIES
 from .taylor_compiled import (
@@ -59,7 +59,7 @@ def run_leg_lanes(*given: Any) -> int:
     return run(factor_legs, solve_legs, given)
 
 
-@inlined
+@merged
 def run(factor: Any, solve: Any, given: Any) -> int:
     """Advance all trajectories of an ensemble until the last is DONE, or ``budget`` steps of eight are spent (MORE).
 

@@ -16,7 +16,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from ..kernels.compiling import aligned, called, compiled, inlined, wide_vectors
+from ..kernels.compiling import aligned, called, compiled, inlined, merged, wide_vectors
 from ..kernels.vector import EIGHT, load, magnitude, maximum, square_root, store
 from .convolution import COSINE, OMEGA, SERIES, SINE, convolve_tangent
 from .taylor_compiled import (
@@ -56,7 +56,7 @@ TURNED, SPED, DIFFERENCE = range(3)  # rows of a difference: δθ [rad], δω [r
 RATE_SCALE, TAKEN_OUT, SIZE, SCALES = range(4)  # rows of the scales: the unit of δω [rad/s], ln of sizes, the last size
 
 
-@inlined
+@merged
 def run(factor: Any, solve: Any, factor_still: Any, change_by: Any, given: Any) -> int:
     """As :func:`.taylor_lanes.run`, with K differences beside each trajectory, from ``first`` (K, DIFFERENCE, n).
 

@@ -62,6 +62,16 @@ def inlined(function: F) -> F:
     return _part(function, forceinline=True)
 
 
+def merged(function: F) -> F:
+    """Put a function's text into the place of its call before anything is compiled: of functions that are called once.
+
+    numba compiles and optimises each function that it knows by itself, and again within each that calls it.
+    """
+    dispatcher = njit(inline="always", no_cpython_wrapper=True, no_cfunc_wrapper=True, **OPTIONS)(function)
+    part: F = dispatcher
+    return part
+
+
 def called(function: F) -> F:
     """Compile a larger function once, to be called from other compiled code."""
     return _part(function, forceinline=False)

@@ -16,7 +16,7 @@ import numpy as np
 
 from ..limits import LARGEST_ANGLE, LARGEST_RATE
 from . import elimination
-from .compiling import aligned, called, compiled, inlined, wide_vectors
+from .compiling import aligned, called, compiled, inlined, merged, wide_vectors
 from .lanes import (
     any_suspicious,
     fetch_block,
@@ -162,7 +162,7 @@ def legs_batch(theta: Any, omega: Any, out: Any, masses: Any, lengths: Any, grav
     return in_blocks(legs_block, LEG_LANES, FIRST_STATE, LEG, theta, omega, out, masses, lengths, gravity)
 
 
-@inlined
+@merged
 def in_blocks(
     solve: Any,
     lanes: int,
@@ -179,18 +179,19 @@ def in_blocks(
     batch, n = theta.shape
     scratch = aligned(lane_size + (n + 8) * link_size)  # the support comes first; tiles are eight links wide
     status, whole = 0, batch - batch % lanes
-    for first in range(0, whole, lanes):
-        status |= solve(theta, omega, out, first, masses, lengths, gravity, scratch)
-    if whole < batch:
-        angles, rates, found = filled_up(theta, whole, lanes), filled_up(omega, whole, lanes), np.empty((lanes, n))
-        status |= solve(angles, rates, found, 0, masses, lengths, gravity, scratch)
-        for row in range(whole, batch):  # an assignment to a slice takes seconds to compile
-            for j in range(n):
-                out[row, j] = found[row - whole, j]
+    angles, rates, found, first = theta, omega, out, 0
+    for row in range(0, batch, lanes):
+        if row == whole:
+            angles, rates, found = filled_up(theta, whole, lanes), filled_up(omega, whole, lanes), np.empty((lanes, n))
+        first = row if row < whole else 0
+        status |= solve(angles, rates, found, first, masses, lengths, gravity, scratch)
+    for row in range(whole, batch):  # an assignment to a slice takes seconds to compile
+        for j in range(n):
+            out[row, j] = found[row - whole, j]
     return status
 
 
-@inlined
+@merged
 def rods_block(
     theta: Any, omega: Any, out: Any, first: int, masses: Any, lengths: Any, gravity: float, scratch: Any
 ) -> int:
@@ -209,7 +210,7 @@ def rods_block(
     return any_suspicious(lane[SIZE : SIZE + LANES])
 
 
-@inlined
+@merged
 def refined_rods_block(
     theta: Any, omega: Any, out: Any, first: int, masses: Any, lengths: Any, gravity: float, scratch: Any
 ) -> int:
@@ -227,7 +228,7 @@ def refined_rods_block(
     return any_suspicious(lane[SIZE : SIZE + LANES])
 
 
-@inlined
+@merged
 def eliminate(
     theta: Any, omega: Any, out: Any, first: int, masses: Any, lengths: Any, gravity: float, lane: Any, rods: Any
 ) -> None:
@@ -360,7 +361,7 @@ def correct_rod(lane: Any, rod: Any, kept: Any, inverse_length: float) -> None:
         lane[P + i], lane[Q + i] = along, across
 
 
-@inlined
+@merged
 def legs_block(
     theta: Any, omega: Any, out: Any, first: int, masses: Any, lengths: Any, gravity: float, scratch: Any
 ) -> int:
