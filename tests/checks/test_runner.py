@@ -12,7 +12,7 @@ import pytest
 import furiko
 from furiko.checks import runner
 from furiko.checks.cache import Cache, Kept
-from furiko.checks.jobs import Asking, CellJob, Facts, accelerations_differ
+from furiko.checks.jobs import Announced, Asking, CellJob, Facts, accelerations_differ
 from furiko.checks.ledger import Ledger
 from furiko.checks.plan import PROFILES, make_plan
 from furiko.checks.runner import run
@@ -300,3 +300,25 @@ def test_the_diagnosis_of_a_cell_that_goes_on_comes_once_at_its_end(monkeypatch)
     run.progress[worker] = runner._Progress(compared=set(rest.task.checks), diagnosis=late)
     (whole,) = run._on(Finished(worker, rest))
     assert whole.explains == ["accelerations", "trajectory"]
+
+
+def test_an_image_of_the_mechanism_is_asked_on_the_engines_clock_too():
+    """Scaled, mirrored, without gravity: what is asked of the same engine with another mechanism."""
+
+    class Engine:
+        info = "known"
+
+        def of(self, system):
+            return Engine()
+
+        def accelerations(self, theta, omega):
+            return theta
+
+    said = []
+    engine = Announced(Engine(), said.append)
+    image = engine.of("another")
+    assert (image.info, image.accelerations(1, 2)) == ("known", 1)
+    assert said == [True, False, True, False]
+    with pytest.raises(TypeError):
+        image.accelerations()
+    assert said[4:] == [True, False]  # it is no longer asked once it has failed
