@@ -159,6 +159,19 @@ def test_where_nothing_is_rounded_nothing_may_be_off():
     assert not overflown.loose
 
 
+@pytest.mark.parametrize(("times", "loose"), [(0.99, False), (1.01, True), (2.0, True)])
+def test_what_is_beyond_a_factor_times_the_spread_is_loose(times, loose):
+    """A factor of 10, a spread of 2e-16: 2e-15; and where a solver's tolerance allows 3e-15 besides, 5e-15."""
+    spread = np.full((1, 2), 2e-16)
+    for besides, most in ((0.0, 2e-15), (3e-15, 5e-15)):
+        found = sharp.line(np.array([[0.0, -times * most]]), spread, 10.0, ONE, 1, besides)
+        assert (found.loose, found.where) == (loose, (1,))
+        assert found.quotient == pytest.approx(10 * times, rel=1e-12)
+        assert sharp.verdict(True, found, "") | {"reason": ""} == {"outcome": "agrees", "reason": ""} | (
+            {"loose": True} if loose else {}
+        )
+
+
 def test_the_worst_states_are_chosen_and_some_of_all():
     excess = np.zeros(100)
     excess[[7, 70]] = 2.0, 1.0

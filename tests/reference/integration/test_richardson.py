@@ -83,3 +83,18 @@ def test_runs_whose_own_differences_grow_do_not_settle():
     left = [np.array([value]) for value in (6.614e-13, 1.0969e-12, 9.865e-13, 7.943e-13)]
     assert not settles(left, 1, noise=1e-16)
     assert settles(left, 1, noise=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("order", "series", "expected"),
+    [
+        # Extrapolated by 2y(h) - y(2h): 0, 0, 1, whose fine difference is 1; and 8, 0, 0, whose coarse one is 8 = 2A.
+        (1, (0.0, 0.0, 0.0, 0.5), 4 / 3 + 3 / 7),
+        (1, (0.0, 4.0, 2.0, 1.0), 4 / 3 + 3 / 7),
+        # By (16y(h) - y(2h))/15: 0, 0, 1, and later terms may be as much as that.
+        (4, (0.0, 0.0, 0.0, 15 / 16), 1.0),
+    ],
+)
+def test_how_sure_a_limit_is_by_hand(order, series, expected):
+    _, uncertainty = at_step_zero([np.array([value]) for value in series], order)
+    assert uncertainty == pytest.approx(expected, rel=1e-15)
