@@ -10,6 +10,7 @@ from furiko.checks import sharp
 from furiko.checks.comparisons import accelerations, energy, joint_forces, terms
 from furiko.checks.registry import CHECKS as REGISTERED
 from furiko.engines import ENGINES as ENGINE_INFO
+from furiko.engines import Integrator
 from furiko.models import NLegPendulum, RodChain, Scene
 from furiko.models.states import States
 from furiko.reference.rounding import spread
@@ -200,3 +201,24 @@ def test_what_squares_of_slow_rates_lose_is_rounding(make_cell, engine):
     assert "terms velocity" in found
     for result in found.values():
         assert (result.outcome, result.loose) == ("agrees", False), result
+
+
+def test_each_algorithm_has_its_own_factor():
+    """As the measurements in the module's head have them; a step's is no smaller than its accelerations'."""
+    explicit, implicit = Integrator("RK4", 4), Integrator("GeneralizedAlpha", 2, tolerance=1e-12)
+    expected = {
+        "pinocchio-crba": (25.0, 25.0, 30.0),
+        "pinocchio-aba": (15.0, 15.0, 30.0),
+        "exudyn-redundant": (8.0, 10.0, 30.0),
+    }
+    for name, (solved, steps, iterated) in expected.items():
+        info = ENGINE_INFO[name]
+        assert sharp.for_accelerations(info) == solved
+        assert (sharp.for_steps(info, explicit), sharp.for_steps(info, implicit)) == (steps, iterated)
+
+
+@pytest.mark.parametrize(("n", "states"), [(4, 50), (50, 8), (100, 6), (200, 3), (201, 0)])
+def test_terms_of_long_chains_are_looked_at_in_few_states(n, states):
+    """Each state costs n rows of inverse dynamics: some 200 in all, 600 where that would be less than eight states."""
+    assert sharp.states_for_terms(ENGINE_INFO["mujoco"], n) == states
+    assert sharp.states_for_terms(replace(ENGINE_INFO["mujoco"], algorithm="other"), n) == 0
