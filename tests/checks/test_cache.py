@@ -382,5 +382,6 @@ def test_an_entry_that_would_be_too_large_is_not_kept(cache, task, monkeypatch, 
     assert cache.facts(task.scene, 2) == (b"x" * size if kept else None)
 
 
-def test_a_users_cache_is_no_larger_than_half_a_gibibyte():
-    assert module.user_cache().largest == 536_870_912
+def test_a_users_cache_is_where_it_was_said_and_no_larger_than_half_a_gibibyte(tmp_path, monkeypatch):
+    monkeypatch.setenv("FURIKO_CACHE", str(tmp_path))
+    assert module.user_cache() == Cache(tmp_path, 536_870_912)

@@ -122,7 +122,7 @@ def test_mechanisms_in_words():
 def test_many_names_are_so_many_more():
     assert listed(["b", "a", "b"]) == "b, a"
     assert listed("abcde", most=5) == "a, b, c, d, e"
-    assert listed("abcde", most=3) == "a, b, c and 2 more"
+    assert listed("abcdefg", most=3) == "a, b, c and 4 more"
 
 
 def test_many_numbers_are_so_many_in_all():
