@@ -51,6 +51,14 @@ class Cell:
         """Magnitudes of the terms in the coordinates in which this engine computes."""
         return self.amplitude_of(self.scene.system)
 
+    @cached_property
+    def of_offers(self) -> Cell:
+        """This cell as to derivatives and M⁻¹, in which the engine may take moments about another point."""
+        about = self.info.moments_of_offers
+        if not about:
+            return self
+        return replace(self, info=replace(self.info, moments=about))
+
     def amplitude_of(self, system: DocumentSystem) -> Amplitudes:
         """The same for another mechanism in this engine."""
         info = self.info

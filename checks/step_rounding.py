@@ -7,7 +7,8 @@ leave a residual of their tolerance on top, and in maximal coordinates the joint
 
 For the sharp line the same is sampled (:mod:`furiko.reference.rounding.stepped`): the accelerations' spread, the last
 digits of angles and rates, and of the joints' constraints; what iterations leave comes besides, as large as their
-tolerance allows it.
+tolerance allows it. Of the joints' positions they mostly leave far less, since the last iteration ends well below the
+tolerance, and at times as much as that. How much, the engine shows: :func:`joints_left_apart`.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ from ..reference.rounding.maximal_elimination import joint_spread
 from ..reference.rounding.monte_carlo import ONE_ROUNDING
 from ..reference.rounding.norms import norm
 from ..reference.rounding.stepped import Ends, stepped
-from .cell import Cell
+from .cell import Cell, EngineFault
 from .textbook import MAXIMAL, Candidate
 
 Array = NDArray[np.float64]
@@ -97,13 +98,14 @@ class Disturbed:
     """What disturbs a step in each state, (B, n) each.
 
     ``accelerations``: rounding's root mean square [rad/s²]; ``left`` in them by iterations, and in rates (``speeds``
-    [rad/s]) that joints hold together; ``angles`` [rad] and ``rates`` [rad/s]: by the rounding of the joints' own
-    constraints.
+    [rad/s]) and angles (``turned`` [rad]) that joints hold together; ``angles`` [rad] and ``rates`` [rad/s]: by the
+    rounding of the joints' own constraints.
     """
 
     accelerations: Array
     left: Array
     speeds: Array
+    turned: Array
     angles: Array
     rates: Array
 
@@ -112,18 +114,40 @@ class Disturbed:
         return Disturbed(*(values.max(axis=0, keepdims=True) for values in vars(self).values()))
 
 
-def disturbed(cell: Cell, integrator: Integrator, theta: Array, omega: Array, alpha: Array) -> Disturbed:
-    """What disturbs this integrator in states (B, n) of this cell's mechanism."""
+def disturbed(
+    cell: Cell, integrator: Integrator, theta: Array, omega: Array, alpha: Array, h: float, steps: int = 1
+) -> Disturbed:
+    """What disturbs this integrator's steps of ``h`` seconds, so many of them, from states (B, n) of this cell."""
     system, nothing = cell.scene.system, np.zeros_like(theta)
     accelerations = spread.accelerations(cell.info, system, cell.amplitude, theta, omega, alpha)
-    left, speeds, angles, rates = nothing, nothing, nothing, nothing
+    left, speeds, turned, angles, rates = (nothing,) * 5
     if cell.info.coordinates == "maximal":
         angles, rates = joint_spread(system, theta, omega)
         if integrator.tolerance:
-            left, speeds = left_in_maximal_coordinates(system, theta, omega, integrator.tolerance)
+            found = left_in_maximal_coordinates(system, theta, omega, integrator.tolerance)
+            left, speeds = found.accelerations, found.rates
+            turned = found.with_joints_apart(joints_left_apart(cell, integrator, theta, omega, h, steps))
     elif integrator.tolerance:
         left = left_in_accelerations(system, cell.amplitude, theta, omega, alpha, integrator.tolerance)
-    return Disturbed(accelerations, left, speeds, angles, rates)
+    return Disturbed(accelerations, left, speeds, turned, angles, rates)
+
+
+def joints_left_apart(cell: Cell, integrator: Integrator, theta: Array, omega: Array, h: float, steps: int) -> Array:
+    """The largest distance [m] of two points that a joint holds together, after the first and the last step, (B,).
+
+    As the engine has its bodies then; infinite where it does not say. A gap is gone with the next step, which holds the
+    joints together anew: those in between do not matter.
+    """
+    found = np.zeros(len(theta))
+    for row, state in enumerate(zip(theta, omega, strict=True)):
+        for count in {1, steps}:
+            try:
+                cell.trajectory(*state, integrator, h, count)
+                gap = cell.engine.gap()
+            except EngineFault:
+                gap = None
+            found[row] = max(found[row], np.inf if gap is None or np.isnan(gap) else gap)
+    return found
 
 
 def in_a_step(candidate: Candidate, by: Disturbed, h: float) -> tuple[Array, Array]:
@@ -133,7 +157,8 @@ def in_a_step(candidate: Candidate, by: Disturbed, h: float) -> tuple[Array, Arr
         rates = rates + by.speeds + by.rates
     angles = h / 2 * rates
     if candidate.held == "positions":
-        angles, rates = angles + by.angles, rates + rate_of_positions(h) * by.angles
+        held = by.angles + by.turned
+        angles, rates = angles + held, rates + rate_of_positions(h) * held
     return angles, rates
 
 
@@ -164,6 +189,10 @@ def sharp_steps(
     # Differences to the parent's angle, and sums along the tree, when coordinates are changed at both ends.
     changed = ONE_ROUNDING * np.sqrt(2.0) * np.stack([cell.amplitude.path_sums(values) for values in state])
     rounding = norm(np.stack([found.rounding, changed, np.stack([np.zeros_like(theta), rates])]), 0)
-    left = found.left + (np.stack([h / 2 * by.speeds, by.speeds]) if held == "velocities" else 0.0)
+    left = found.left
+    if held == "velocities":
+        left = left + np.stack([h / 2 * by.speeds, by.speeds])
+    if held == "positions":
+        left = left + np.stack([by.turned, rate_of_positions(h) * by.turned])
     exact = found.exact if candidate.coordinates != MAXIMAL else np.stack(candidate.end(theta, omega, h, steps))
     return Ends(exact, rounding, left)

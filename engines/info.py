@@ -85,7 +85,9 @@ class EngineInfo:
 
     * ``coordinates``: those in which it forms and solves the equations of motion: joint angles (``relative``), absolute
       angles, or all coordinates of free bodies (``maximal``).
-    * ``moments``: the point about which it takes moments: each link's ``hinge``, or the centre of mass of the ``tree``.
+    * ``moments``: the point about which it takes moments: each link's ``hinge``, the centre of mass of the ``tree``, or
+      the origin of the ``world``; ``moments_of_offers``: the same in derivatives and the inverse mass matrix, where it
+      is another.
     * ``placed``: whether its model has a link's place in the frame of the ``parent``, as it is given, or as the
       difference of two places in the ``world``.
     * ``interchanges``: whether its linear solver interchanges rows (partial pivoting, without scaling them).
@@ -117,7 +119,8 @@ class EngineInfo:
     no_point_masses: str = ""
     accuracy: float = 2.0**-52
     accuracy_reason: str = ""
-    moments: Literal["hinge", "tree"] = "hinge"
+    moments: Literal["hinge", "tree", "world"] = "hinge"
+    moments_of_offers: Literal["", "world"] = ""
     placed: Literal["parent", "world"] = "parent"
     interchanges: bool = False
     ordering: Literal["unknown", "colamd"] = "unknown"

@@ -140,6 +140,26 @@ class WrongScheme(Right):
     scheme = "Euler"
 
 
+class Beside(Right):
+    """Every run ends a ten-thousandth beside the motion, in its last coordinate alone."""
+
+    info = about("Beside")
+
+    def trajectory(self, q, v, integrator, step, steps):
+        at, rates = super().trajectory(q, v, integrator, step, steps)
+        return at + 1e-4 * np.eye(self.mechanism.nv)[-1], rates
+
+
+class OneOrderLess(Right):
+    """Converges to the true motion, with the third power of the step."""
+
+    info = about("OneOrderLess")
+
+    def trajectory(self, q, v, integrator, step, steps):
+        at, rates = super().trajectory(q, v, integrator, step, steps)
+        return at + 0.1 * step**3, rates
+
+
 class FewQuestions(Right):
     """Knows accelerations alone, and no springs."""
 

@@ -26,7 +26,7 @@ def compare(cell: Cell) -> Iterator[Result]:
     M times (the engine's matrix less the true one) is that residual, without the cancellation of computing it term by
     term; columns, too, are taken to the engine's coordinates.
     """
-    cell = cell.regular
+    cell = cell.of_offers.regular
     count = len(cell.facts.slopes)
     if not count:
         yield cell.result(NAME, "skipped", reason="in every state the mass matrix is singular but for rounding")

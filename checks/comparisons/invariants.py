@@ -8,7 +8,8 @@ zero within its own uncertainty and what rounding leaves.
 * Energy: by the engine's own account of it, where it has one.
 * Angular momentum about the support, for the mechanism without gravity: Σ_j (M ω)_j of the documents' mass matrix. No
   force but the support's acts on it then.
-* There and back: with all rates reversed half-way, a run ends where it began, all rates reversed.
+* There and back: with all rates reversed half-way, a run ends where it began, all rates reversed. Rates count as the
+  angles by which links turn in the time of the run, so that no unit of time decides.
 """
 
 from __future__ import annotations
@@ -61,9 +62,14 @@ class Start:
     growth: float
     off: dict[str, float]
 
+    @property
+    def time(self) -> float:
+        """Of a whole run [s]."""
+        return self.step * STEPS
+
     def run(self, integrator: Integrator, steps: int, theta: Array, omega: Array) -> tuple[Array, Array]:
         """θ and ω after the whole time in so many steps."""
-        return self.engine.trajectory(theta, omega, integrator.name, self.step * STEPS / steps, steps)
+        return self.engine.trajectory(theta, omega, integrator.name, self.time / steps, steps)
 
 
 def compare(cell: Cell) -> Iterator[Result]:
@@ -202,23 +208,23 @@ def momentum_noise(start: Start, integrator: Integrator) -> float:
 
 
 def way_back_left(start: Start, integrator: Integrator, steps: int) -> Array:
-    """Where the way there and back ends, less where it began: angles and rates, (2n,)."""
+    """Where the way there and back ends, less where it began: angles, and rates times the time of the run, (2n,)."""
     theta, omega = start.run(integrator, steps, start.theta, start.omega)
     if not (np.isfinite(theta).all() and np.isfinite(omega).all()):
         return np.full(2 * len(theta), np.nan)
     theta, omega = start.run(integrator, steps, theta, -omega)
-    return np.concatenate([theta - start.theta, -omega - start.omega])
+    return np.concatenate([theta - start.theta, (-omega - start.omega) * start.time])
 
 
 def way_back_noise(start: Start, integrator: Integrator) -> float:
-    """[rad, rad/s]: the rates' error of both ways; that of the first has grown on the second as well."""
+    """[rad]: the rates' error of both ways; that of the first has grown on the second as well."""
     angles = EPSILON * float(np.abs(start.theta).max() + 2 * np.pi)
-    return 2 * start.growth**2 * (start.off[integrator.name] + angles)
+    return 2 * start.growth**2 * (start.off[integrator.name] * start.time + angles)
 
 
 INVARIANTS = (
     Invariant("energy", "J", "nothing takes energy away or brings any", energy_left, energy_noise),
-    Invariant("there and back", "rad, rad/s", "with rates reversed the way leads back", way_back_left, way_back_noise),
+    Invariant("there and back", "rad", "with rates reversed the way leads back", way_back_left, way_back_noise),
 )
 MOMENTUM = Invariant(
     "angular momentum", "kg m²/s", "without gravity no torque acts about the support", momentum_left, momentum_noise

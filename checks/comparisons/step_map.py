@@ -152,7 +152,7 @@ def sharp_line(
     """
     if not within:
         return None
-    by = disturbed(cell, integrator, steps.theta, steps.omega, steps.alpha)
+    by = disturbed(cell, integrator, steps.theta, steps.omega, steps.alpha, steps.h)
     states = cell.states.at(np.arange(len(cell.states))[-STATES:])
     factor = sharp.for_steps(cell.info, integrator)
     lines: list[sharp.Line] = []

@@ -233,22 +233,22 @@ def sharp_line(cell: Cell, integrator: Integrator, ladder: Ladder, passed: Passe
 
     The two have the scheme's error in common, and rounding is all that is between them: by what it is in the states
     that the motion passes, sampled along the run. Where the first step is that of several schemes, which part later,
-    the run may be any one's. None where no scheme of the order does as the first step does, which is for the step map
-    to say, or steps are too long for one of them.
+    the run may be any one's. None where no scheme of the order does as the first step does, or steps are too long.
     """
     theta, omega = passed.theta[:1], passed.omega[:1]
     if cell.info.coordinates == "maximal" and theta.size > LARGEST_MAXIMAL:
         return None
     steps = min(ladder.steps, sharp.steps_together(integrator, cell.scene.system.n))
-    by = disturbed(cell, integrator, passed.theta[:2], passed.omega[:2], passed.alpha[:2]).worst()
-    alike = schemes_of(cell, integrator, theta, omega, ladder.step, by)
-    end = ladder.ends[0] if steps == ladder.steps or not alike else run(cell, integrator, steps * ladder.step, steps)
-    state = States((f"after {steps} steps of {ladder.step:.3g} s",), theta, omega)
+    near, h = (passed.theta[:2], passed.omega[:2], passed.alpha[:2]), ladder.step
+    by = disturbed(cell, integrator, *near, h, steps).worst()
+    alike = schemes_of(cell, integrator, theta, omega, h, by)
+    end = ladder.ends[0] if steps == ladder.steps or not alike else run(cell, integrator, steps * h, steps)
+    state = States((f"after {steps} steps of {h:.3g} s",), theta, omega)
     factor = sharp.for_steps(cell.info, integrator)
     lines = []
     for candidate in alike:
         try:
-            found = sharp_steps(cell, candidate, theta, omega, by, ladder.step, steps)
+            found = sharp_steps(cell, candidate, theta, omega, by, h, steps)
         except ArithmeticError:
             return None
         error = (end[:1] - found.exact[0]).astype(np.float64)
@@ -271,7 +271,7 @@ def schemes_of(
     got = run(cell, integrator, h, 1)
     factor = sharp.for_steps(cell.info, integrator)
     in_rates = h * (by.accelerations + by.left) + by.speeds + by.rates
-    in_angles = h / 2 * in_rates + by.angles
+    in_angles = h / 2 * in_rates + by.angles + by.turned
     found: list[Nearness] = []
     for candidate in candidates(cell, omega, literal=False):
         if candidate.scheme.order == integrator.order:

@@ -78,10 +78,12 @@ def _cannot(cell: TreeCell) -> str:
 
 def _units(cell: TreeCell, count: int) -> tuple[Array, Array, Array]:
     """The units of the three residuals, (count, nv, nv) each: as for the documents' mechanisms."""
+    origin = cell.info.moments_of_offers == "world"
+    own = [Magnitudes(cell.mechanism, each.q, each.v, world=each.world, origin=origin) for each in cell.magnitudes]
     found = [
         _of_state(cell, units, accelerations, mass, inverse)
         for units, accelerations, mass, inverse in zip(
-            cell.magnitudes[-count:],
+            own[-count:],
             cell.facts.high[-count:],
             cell.facts.mass_matrix[-count:],
             cell.facts.slopes[:, 2],
@@ -100,7 +102,7 @@ def _of_state(cell: TreeCell, units: Magnitudes, accelerations: Array, mass: Arr
     factors = units.mass_matrix + np.outer(root, root)
 
     def velocity_terms(rates: Array) -> Array:
-        each = [Magnitudes(cell.mechanism, units.q, row, world=units.world) for row in rates]
+        each = [Magnitudes(cell.mechanism, units.q, row, world=units.world, origin=units.origin) for row in rates]
         return np.array([one.bias - one.gravity for one in each])
 
     damping = np.diag(cell.mechanism.per_freedom("damping"))

@@ -85,6 +85,7 @@ ENGINES: dict[str, EngineInfo] = {
             formulation="articulated-body algorithm; model from URDF",
             adapter="furiko.engines.pinocchio:PinocchioAba",
             algorithm="aba",
+            moments_of_offers="world",  # oYaba: computeMinverse and computeABADerivatives have inertias in the world
             tree=TreeInfo("furiko.engines.trees.pinocchio:PinocchioAbaTree", _NO_TRAJECTORY, _NOT_HELD, **_BOTH),
             **_PINOCCHIO,
             **_BOTH,
@@ -95,6 +96,7 @@ ENGINES: dict[str, EngineInfo] = {
             adapter="furiko.engines.pinocchio:PinocchioAbaMjcf",
             placed="world",
             algorithm="aba",
+            moments_of_offers="world",
             tree=TreeInfo(
                 "furiko.engines.trees.pinocchio:PinocchioMjcfTree",
                 _NO_TRAJECTORY,

@@ -46,9 +46,13 @@ def follows(runs: Sequence[Array], order: int) -> bool:
 def settles(runs: Sequence[Array], order: int, noise: float) -> bool:
     """Whether E₁, E₂, E₃ near each other at least as fast as the scheme's own error: D₂ ≥ 2^p D₁.
 
-    Less, and the steps are too long for the motion: nothing follows from E₃. Differences within ``noise`` tell nothing
-    of the steps.
+    Less, and the steps are too long for the motion: nothing follows from E₃. Nor does it where the finer runs
+    themselves near each other more slowly than half an order below the scheme's. Differences within ``noise`` tell
+    nothing.
     """
+    coarse, fine = _differences(runs[1:])
+    if noise < fine > coarse / 2.0 ** (order - 0.5):
+        return False
     coarser, finer = _differences(_extrapolated(runs, order))
     return finer <= noise or coarser >= 2.0**order * finer
 

@@ -48,7 +48,7 @@ from ...models import DocumentSystem, PlanarTree
 from ...models.coordinates import absolute_from_relative
 from ...models.states import QUANTUM, quantised
 from .. import mass_matrix
-from .lever_arms import Levers, absolute_levers, relative_levers, tree_levers, world_errors
+from .lever_arms import Levers, absolute_levers, relative_levers, tree_levers, world_errors, world_levers
 
 Array = NDArray[np.float64]
 
@@ -294,9 +294,9 @@ def amplitudes(
 ) -> Amplitudes:
     """The magnitudes of the system's terms in ``relative`` coordinates, or in absolute angles for any other word.
 
-    The other arguments are those of the engines' ``EngineInfo``: ``moments`` about each link's ``hinge`` or the
-    ``tree``'s centre of mass, links ``placed`` on the ``parent`` or in the ``world``, rows with ``interchanges`` or
-    without.
+    The other arguments are those of the engines' ``EngineInfo``: ``moments`` about each link's ``hinge``, the
+    ``tree``'s centre of mass or the ``world``'s origin, links ``placed`` on the ``parent`` or in the ``world``, rows
+    with ``interchanges`` or without.
     """
     tree = system.tree()
     carried = absolute_from_relative(tree.parents)
@@ -319,6 +319,8 @@ def _levers(tree: PlanarTree, coordinates: str, moments: str, placed: str) -> tu
         return absolute_levers(tree), None
     if moments == "tree":
         return tree_levers(tree)
+    if moments == "world":
+        return world_levers(tree), None
     return relative_levers(tree), world_errors(tree) if placed == "world" else None
 
 

@@ -13,6 +13,9 @@ In the coordinates in which an engine computes, with F_ij the magnitudes that me
 * D = ∂a/∂v likewise, with the velocity terms' magnitudes, which are a form Q_i of second degree in the rates, in the
   place of 3 r: 2 Q_i(|v|, e_k), without the share of a's error, as M does not depend on rates.
 
+Inertias may be placed in the world then, with moments about its origin (Pinocchio's are): a short link's moment about
+its hinge is a small difference of large ones, and is known no better than these.
+
 An adapter that computes in relative coordinates and hands on matrices of absolute ones adds rows and columns up along
 the chain: what it rounds there comes back, in its own coordinates, as up to |S⁻¹||S| times the other rows and columns.
 """

@@ -63,6 +63,16 @@ def tree_levers(tree: PlanarTree) -> tuple[Levers, Levers]:
     return about, Levers(carries * (to_centre + placed), carries * placed)
 
 
+def world_levers(tree: PlanarTree) -> Levers:
+    """Lever arms of hinge angles, all moments taken about the world's origin: from the hinge there, then to the centre.
+
+    They are as long as the ways by which the points are placed, so that what the places are off by is no more.
+    """
+    carries = absolute_from_relative(tree.parents).T
+    to_hinge, to_centre = from_support(tree)
+    return Levers(carries * (to_hinge[:, None] + to_centre), carries * to_hinge[:, None])
+
+
 def world_errors(tree: PlanarTree) -> Levers:
     """Errors over ε of the lever arms where a reader takes hinge places on links as differences of places in the world.
 

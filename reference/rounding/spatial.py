@@ -56,6 +56,7 @@ class Magnitudes:
 
     ``world``: whether the engine places bodies in the world and takes moments about the centre of mass of the whole.
     The lengths then are those of either way of computing, whichever is larger; otherwise those along the joints.
+    ``origin``: whether it takes moments about the world's origin: the way from the joint there, and on to the centre.
     """
 
     def __init__(
@@ -65,12 +66,13 @@ class Magnitudes:
         v: Array | None = None,
         *,
         world: bool = True,
+        origin: bool = False,
         moved: spatial_kinematics.Motion | None = None,
     ) -> None:
         """``moved``: where all bodies are in this state, if that is known already."""
         self.mechanism, self.q = mechanism, np.asarray(q, dtype=np.float64)
         self.v = np.zeros(mechanism.nv) if v is None else np.asarray(v, dtype=np.float64)
-        self.world = world
+        self.world, self.origin = world, origin
         self._known = moved
         self._mass = np.array([body.inertial.mass for body in mechanism.bodies])
         self._tensor = np.array([np.linalg.norm(body.inertial.tensor, 2) for body in mechanism.bodies])
@@ -299,6 +301,8 @@ class Magnitudes:
             about = np.linalg.norm(at - middle[self._first_moved], axis=-1)[:, None]
             along = np.maximum(along, about + np.linalg.norm(places - middle, axis=-1)[None])
             off = np.broadcast_to(far[None], along.shape)
+        if self.origin:
+            along = np.maximum(along, pivots[:, None] + centres[None])
         turning = self._turns > 0
         return Lengths(np.where(turning, along, self._moves), np.where(turning, off, 0.0))
 

@@ -1,6 +1,8 @@
 """How small an error a run notices: the sharp line over an engine's own error, entry by entry, and planted faults.
 
 An error that is a given part of an entry in every state is noticed where the line is the sharpest, in any one state.
+Long mechanisms are looked at in a few states, though, which are others for an engine with a fault in it: what is read
+off the line is raised until planted faults confirm it.
 """
 
 from __future__ import annotations
@@ -27,6 +29,8 @@ from ...reference.rounding.bounds import EPSILON
 
 Array = NDArray[np.float64]
 Entry = tuple[int, ...]
+
+RAISED = 2.0**10  # the line at most, for faults to confirm it
 
 
 @dataclass(frozen=True)
@@ -68,11 +72,13 @@ def _of_scene(name: str, engines: Sequence[str], random_states: int) -> Iterator
 def _row(cell: Cell, quantity: str, found: Measured) -> Sharpness:
     noticed = _smallest(found.line, found.size[found.looked_at])
     own = np.maximum(np.quantile(_relative(found.error, found.size), 0.99, axis=0), EPSILON)
+    places = [tuple(int(n * part) for n in noticed.shape) for part in (0.0, 0.5)]
+    places.append(tuple(n - 1 for n in noticed.shape))
+    planted = [place for place in dict.fromkeys(places) if np.isfinite(noticed[place])]
+    raised = [_raised(cell, quantity, place, 2 * float(noticed[place])) for place in planted]
+    noticed = noticed * max(raised, default=1.0)
     ratio = np.where(np.isfinite(noticed), noticed / own, 0.0)  # an entry that is always zero has no relative error
     worst = np.unravel_index(int(ratio.argmax()), ratio.shape)
-    places = [tuple(int(n * part) for n in ratio.shape) for part in (0.0, 0.5)]
-    places.append(tuple(n - 1 for n in ratio.shape))
-    planted = [place for place in dict.fromkeys(places) if np.isfinite(noticed[place])]
     return Sharpness(
         scene=cell.scene.name,
         engine=cell.info.name,
@@ -83,8 +89,16 @@ def _row(cell: Cell, quantity: str, found: Measured) -> Sharpness:
         ratio=float(ratio[worst]),
         entry=[int(i) + 1 for i in worst],
         planted=len(planted),
-        found=sum(_notices(cell, quantity, place, 2 * float(noticed[place])) for place in planted),
+        found=sum(factor < RAISED for factor in raised),
     )
+
+
+def _raised(cell: Cell, quantity: str, place: Entry, share: float) -> float:
+    """The smallest power of two times which a fault of this part of an entry is noticed; :data:`RAISED` for none."""
+    factor = 1.0
+    while factor < RAISED and not _notices(cell, quantity, place, factor * share):
+        factor *= 2
+    return factor
 
 
 def _relative(values: Array, size: Array) -> Array:

@@ -371,3 +371,17 @@ def test_a_second_run_gives_the_same_verdicts_from_the_cache(tmp_path, monkeypat
     third, again = run(use_cache=False)
     assert first == second == third
     assert (computed, kept, again) == ({False}, {True}, {False})
+
+
+@pytest.mark.parametrize(("size", "kept"), [(68, True), (69, False)])
+def test_an_entry_that_would_be_too_large_is_not_kept(cache, task, monkeypatch, size, kept):
+    """Of 100 bytes 32 are its digest."""
+    monkeypatch.setattr(module, "LARGEST_ENTRY", 100)
+    cache.keep_facts(task.scene, 2, b"x" * size)
+    assert bool(cache.entries()) == kept
+    assert cache.facts(task.scene, 2) == (b"x" * size if kept else None)
+
+
+def test_a_users_cache_is_where_it_was_said_and_no_larger_than_half_a_gibibyte(tmp_path, monkeypatch):
+    monkeypatch.setenv("FURIKO_CACHE", str(tmp_path))
+    assert module.user_cache() == Cache(tmp_path, 536_870_912)

@@ -67,3 +67,11 @@ def test_what_the_runner_drops_is_noticed(monkeypatch, lost):
     missing = [found for found in report.results if found.outcome == "error"]
     assert [found.check for found in missing] == ["energy" if lost == "a whole check" else "terms"]
     assert report.exit_status == 3
+
+
+@pytest.mark.parametrize(("arrived", "says"), [(2, "3 of its 5 results did not arrive"), (5, None), (6, None)])
+def test_how_many_results_are_missing(ledger, arrived, says):
+    """More than promised are none too few: until a check has run, nobody knows how many it has."""
+    ledger.promise("rods-2", "mujoco", "terms", 5)
+    got = [result("accelerations", "accelerations"), *[result("terms M", "terms")] * arrived]
+    assert [found.reason.split(", and ")[1].split(":")[0] for found in ledger.missing(got)] == ([says] if says else [])

@@ -1,13 +1,14 @@
 """One record a check: its module is there, bears its name, and each comparison has a record."""
 
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 
 import pytest
 
-from furiko.checks.plan import PROFILES, make_plan
+from furiko.checks.plan import PROFILES, make_plan, plan_of, random_states
 from furiko.checks.registry import CHECKS
-from furiko.engines import EngineInfo
+from furiko.engines import OWN_EQUATIONS, EngineInfo, engine_info
 from furiko.models import find_scene
 
 ROOT = Path(__file__).parents[2]
@@ -44,3 +45,25 @@ def test_each_profile_has_the_checks_and_states_that_it_says():
     assert set(PROFILES["full"].checks) == {*every, "invariant", "horizon"}
     states = {name: make_plan(["rods-1"], ["mujoco"], name).tasks[0].random_states for name in PROFILES}
     assert states == {"smoke": 20, "quick": 200, "full": 1000}
+
+
+def test_own_equations_are_asked_of_scenes_that_have_some():
+    """Not named, a scene without any says nothing of them; named, it is skipped in a sentence."""
+    scene, own, smoke = find_scene("rods-1"), (replace(OWN_EQUATIONS),), PROFILES["smoke"]
+    silent = plan_of((scene,), own, smoke, asked=False)
+    assert (silent.tasks, silent.settled) == ((), ())
+    (named,) = plan_of((scene,), own, smoke, asked=True, absent={OWN_EQUATIONS.name: ""}).settled
+    assert (named.outcome, named.reason) == ("skipped", "the scene has no equations of a user's own")
+
+
+def test_an_engine_that_is_missing_is_an_error_unless_nobody_named_it():
+    info, scene = engine_info("mujoco"), find_scene("rods-1")
+    for more, outcome in (({}, "error"), ({"asked": True}, "error"), ({"asked": False}, "skipped")):
+        (found,) = plan_of((scene,), (info,), PROFILES["smoke"], absent={"mujoco": "not installed"}, **more).settled
+        assert (found.outcome, found.reason) == (outcome, "not installed")
+
+
+@pytest.mark.parametrize(("profile", "states"), [("smoke", 2), ("quick", 20), ("full", 100)])
+def test_a_tree_has_a_tenth_of_the_random_states(profile, states):
+    assert random_states(find_scene("arm-7"), PROFILES[profile]) == states
+    assert random_states(find_scene("rods-1"), PROFILES[profile]) == 10 * states

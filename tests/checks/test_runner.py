@@ -12,12 +12,12 @@ import pytest
 import furiko
 from furiko.checks import runner
 from furiko.checks.cache import Cache, Kept
-from furiko.checks.jobs import Asking, CellJob, Facts, accelerations_differ
+from furiko.checks.jobs import Announced, Asking, CellJob, Facts, accelerations_differ
 from furiko.checks.ledger import Ledger
 from furiko.checks.plan import PROFILES, make_plan
 from furiko.checks.runner import run
-from furiko.engines.workers.messages import Failed
-from furiko.engines.workers.pool import Finished, Said
+from furiko.engines.workers.messages import Failed, Step
+from furiko.engines.workers.pool import Finished, Lost, Said
 from furiko.engines.workers.processes import worker_processes
 from furiko.models import EngineMissing, LibraryMissing
 from furiko.records.check import Diagnosis, Result
@@ -242,3 +242,84 @@ def test_an_engine_that_is_gone_has_failed_and_a_library_of_furikos_own_is_a_rea
     (found,) = CellJob(task, b"")._results(check, cell, False, None, Asking([].append, "terms"))
     assert found[:2] == ("terms", outcome)
     assert "it is not there" in found[2]
+
+
+def test_what_is_settled_comes_first_of_all(monkeypatch):
+    """Pinocchio has no integrator: what needs one is settled before anything runs."""
+    plan = make_plan(["rods-1"], ["pinocchio-aba"], "quick")
+    assert plan.settled
+    monkeypatch.setattr(Cache, "results", lambda *_: Kept([], []))
+    assert list(run(plan, cache=Cache(None), source=None)) == list(plan.settled)
+
+
+def begun(monkeypatch, engines, scenes, hangs=runner.HANGS):
+    """A run of which no worker has a job, and its tasks."""
+    monkeypatch.setattr(runner, "Pool", lambda *_: SimpleNamespace(idle=list, busy=[]))
+    plan = make_plan(scenes, engines, "quick")
+    run = runner._Run(list(plan.tasks), Cache(None), None, 1, 60.0, Ledger(plan), hangs)
+    run.begin()
+    return run, plan.tasks
+
+
+def lost(run, task, check, *, engine, compared=(), diagnosis=None):
+    """What comes of a worker that is overdue in this check, in the engine's own work or in furiko's."""
+    worker = object()
+    run.progress[worker] = runner._Progress(compared=set(compared), diagnosis=diagnosis)
+    event = Lost(worker, CellJob(task, b""), Step(check, engine), "no answer within 60 s", overdue=True)
+    return list(run._on(event))
+
+
+def test_furikos_own_work_that_takes_too_long_is_not_said_of_the_engine(monkeypatch):
+    run, (task,) = begun(monkeypatch, ["mujoco"], ["rods-1"])
+    (own,) = lost(run, task, "terms", engine=False)
+    assert "furiko's own computation takes too long" in own.reason
+    assert "hangs" not in own.reason
+    assert not run.hangs["mujoco"]
+    (engines,) = lost(run, task, "terms", engine=True)
+    assert engines.reason.endswith(": it hangs")
+    assert run.hangs["mujoco"] == 1
+
+
+def test_an_engine_that_is_given_up_has_an_error_for_every_check_of_scenes_that_still_wait(monkeypatch):
+    run, tasks = begun(monkeypatch, ["mujoco", "exudyn-tree"], ["rods-1", "rods-2", "rods-3"], hangs=1)
+    (first,) = (task for task in tasks if (task.scene.name, task.engine) == ("rods-1", "mujoco"))
+    run.waiting["rods-1"].remove(first)  # it runs
+    found = lost(run, first, first.checks[-1], engine=True, compared=first.checks[:-1])
+    others = [result for result in found if result.scene != "rods-1"]
+    assert {(result.engine, result.outcome) for result in others} == {("mujoco", "error")}
+    assert Counter(result.scene for result in others) == {name: len(first.checks) for name in ("rods-2", "rods-3")}
+    assert {task.engine for tasks in run.waiting.values() for task in tasks} == {"exudyn-tree"}
+
+
+def test_the_diagnosis_of_a_cell_that_goes_on_comes_once_at_its_end(monkeypatch):
+    run, (task,) = begun(monkeypatch, ["mujoco"], ["rods-1"])
+    early = Diagnosis(scene="rods-1", engine="mujoco", explains=["accelerations"])
+    found = lost(run, task, "energy", engine=True, compared=["accelerations"], diagnosis=early)
+    assert [type(one) for one in found] == [Result]
+    rest, worker = run.ready.take((), {}), object()
+    late = Diagnosis(scene="rods-1", engine="mujoco", explains=["trajectory"])
+    run.progress[worker] = runner._Progress(compared=set(rest.task.checks), diagnosis=late)
+    (whole,) = run._on(Finished(worker, rest))
+    assert whole.explains == ["accelerations", "trajectory"]
+
+
+def test_an_image_of_the_mechanism_is_asked_on_the_engines_clock_too():
+    """Scaled, mirrored, without gravity: what is asked of the same engine with another mechanism."""
+
+    class Engine:
+        info = "known"
+
+        def of(self, system):
+            return Engine()
+
+        def accelerations(self, theta, omega):
+            return theta
+
+    said = []
+    engine = Announced(Engine(), said.append)
+    image = engine.of("another")
+    assert (image.info, image.accelerations(1, 2)) == ("known", 1)
+    assert said == [True, False, True, False]
+    with pytest.raises(TypeError):
+        image.accelerations()
+    assert said[4:] == [True, False]  # it is no longer asked once it has failed

@@ -10,6 +10,7 @@ from furiko.checks import sharp
 from furiko.checks.comparisons import accelerations, energy, joint_forces, terms
 from furiko.checks.registry import CHECKS as REGISTERED
 from furiko.engines import ENGINES as ENGINE_INFO
+from furiko.engines import Integrator
 from furiko.models import NLegPendulum, RodChain, Scene
 from furiko.models.states import States
 from furiko.reference.rounding import spread
@@ -160,6 +161,19 @@ def test_where_nothing_is_rounded_nothing_may_be_off():
     assert not overflown.loose
 
 
+@pytest.mark.parametrize(("times", "loose"), [(0.99, False), (1.01, True), (2.0, True)])
+def test_what_is_beyond_a_factor_times_the_spread_is_loose(times, loose):
+    """A factor of 10, a spread of 2e-16: 2e-15; and where a solver's tolerance allows 3e-15 besides, 5e-15."""
+    spread = np.full((1, 2), 2e-16)
+    for besides, most in ((0.0, 2e-15), (3e-15, 5e-15)):
+        found = sharp.line(np.array([[0.0, -times * most]]), spread, 10.0, ONE, 1, besides)
+        assert (found.loose, found.where) == (loose, (1,))
+        assert found.quotient == pytest.approx(10 * times, rel=1e-12)
+        assert sharp.verdict(True, found, "") | {"reason": ""} == {"outcome": "agrees", "reason": ""} | (
+            {"loose": True} if loose else {}
+        )
+
+
 def test_the_worst_states_are_chosen_and_some_of_all():
     excess = np.zeros(100)
     excess[[7, 70]] = 2.0, 1.0
@@ -188,3 +202,60 @@ def test_what_squares_of_slow_rates_lose_is_rounding(make_cell, engine):
     assert "terms velocity" in found
     for result in found.values():
         assert (result.outcome, result.loose) == ("agrees", False), result
+
+
+def test_each_algorithm_has_its_own_factor():
+    """As the measurements in the module's head have them; a step's is no smaller than its accelerations'."""
+    explicit, implicit = Integrator("RK4", 4), Integrator("GeneralizedAlpha", 2, tolerance=1e-12)
+    expected = {
+        "pinocchio-crba": (25.0, 25.0, 30.0),
+        "pinocchio-aba": (15.0, 15.0, 30.0),
+        "exudyn-redundant": (8.0, 10.0, 30.0),
+    }
+    for name, (solved, steps, iterated) in expected.items():
+        info = ENGINE_INFO[name]
+        assert sharp.for_accelerations(info) == solved
+        assert (sharp.for_steps(info, explicit), sharp.for_steps(info, implicit)) == (steps, iterated)
+
+
+@pytest.mark.parametrize(("n", "states"), [(4, 50), (50, 8), (100, 6), (200, 3), (201, 0)])
+def test_terms_of_long_chains_are_looked_at_in_few_states(n, states):
+    """Each state costs n rows of inverse dynamics: some 200 in all, 600 where that would be less than eight states."""
+    assert sharp.states_for_terms(ENGINE_INFO["mujoco"], n) == states
+    assert sharp.states_for_terms(replace(ENGINE_INFO["mujoco"], algorithm="other"), n) == 0
+
+
+def test_how_many_states_a_cell_can_afford():
+    """A thousand entries of accelerations and energies, 64 of symmetries; in maximal coordinates so many eliminations,
+    of 1 ms and 40 µs for each square of the links, as fit into a quarter of a second.
+    """
+    tree, maximal = ENGINE_INFO["mujoco"], ENGINE_INFO["exudyn-redundant"]
+    other = replace(tree, algorithm="other")
+    assert [sharp.states_for_accelerations(tree, n) for n in (4, 1000)] == [250, 4]
+    assert [sharp.states_for_accelerations(maximal, n) for n in (5, 50)] == [10, 2]
+    assert [sharp.states_for_energy(tree, n) for n in (8, 1000)] == [125, 4]
+    assert [sharp.states_for_symmetries(tree, n) for n in (4, 40, 65)] == [2, 1, 0]
+    assert [sharp.states_for_symmetries(maximal, n) for n in (5, 38, 50)] == [2, 1, 0]
+    for states in (sharp.states_for_accelerations, sharp.states_for_energy, sharp.states_for_symmetries):
+        assert states(other, 4) == 0
+
+
+def test_how_many_steps_are_taken_beside_an_engine():
+    euler, fourth = Integrator("Euler", 1), Integrator("RK4", 4)
+    implicit = Integrator("GeneralizedAlpha", 2, tolerance=1e-12)
+    assert [sharp.steps_together(euler, 4), sharp.steps_together(implicit, 4)] == [64, 8]
+    assert [sharp.steps_together(fourth, n) for n in (2, 4, 8, 100)] == [16, 16, 8, 4]
+
+
+def test_of_an_odd_number_of_states_one_more_is_chosen_for_being_bad():
+    excess = np.zeros(100)
+    excess[[7, 30, 70]] = 3.0, 2.0, 1.0
+    assert sharp.chosen(excess, 5).tolist() == [0, 7, 30, 70, 99]
+
+
+def test_a_loose_entry_is_told_by_its_place_counted_from_one():
+    errors = np.array([[[0.0, 0.0, 0.0], [0.0, 0.0, 1e-14]]])
+    found = sharp.line(errors, np.full((1, 2, 3), 1e-16), 10.0, ONE, 7)
+    assert "entry [2, 3] in state 'one' is off by 100 times" in found.says
+    told = found.details()["sharp line"]
+    assert (told["entry"], told["states"], told["of states"]) == ([2, 3], 1, 7)

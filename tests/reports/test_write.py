@@ -60,6 +60,13 @@ def test_a_folder_that_cannot_be_made(make, tmp_path, place):
         open_report(tmp_path / place, make.header())
 
 
+def test_an_earlier_page_that_cannot_be_removed_is_said_in_a_line(make, tmp_path):
+    (tmp_path / "report.html").mkdir()
+    with pytest.raises(InvalidInput) as refused:
+        open_report(tmp_path, make.header())
+    assert str(refused.value) == f"{tmp_path}: cannot be written: Is a directory"
+
+
 def test_importing_the_reports_loads_no_renderer():
     import subprocess
     import sys

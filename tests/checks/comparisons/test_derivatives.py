@@ -70,6 +70,67 @@ def test_one_entry_that_is_slightly_off_differs(run_cell, monkeypatch):
     assert [results[part].outcome for part in PARTS] == ["differs", "agrees", "agrees"]
 
 
+# A rod 200 times longer than the one at its end: about the support the short one's moment is 1e5 times what it is about
+# its own hinge, to which its inverse is the answer.
+SHORT_AT_THE_END = """
+[system]
+kind = "rod-chain"
+lengths = [2.362553756567956e-06, 1.1435760494585665e-08]
+gravity = 5.7482462842804274e-05
+density = 3.084270942190986e-05
+[state]
+theta = [-4.802483524511062e-07, -8.058837901523096e-07]
+omega = [5.363644143247399e-09, 2.2581161307480948e-07]
+"""
+SLID_FAR = """
+[system]
+kind = "tree"
+[[system.links]]
+name = "block"
+mass = 1.2
+[[system.links.joints]]
+name = "rail"
+kind = "slide"
+axis = [1.0, 0.0, 0.0]
+[[system.links]]
+name = "rod"
+parent = "block"
+mass = 0.7
+centre = [0.1, 0.0, -0.4]
+inertia = [0.04, 0.05, 0.02]
+[[system.links.joints]]
+name = "pin"
+axis = [0.0, 1.0, 0.0]
+[state]
+q = { rail = 2e6, pin = 1.1 }
+v = { pin = -0.4 }
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "random_states"), [(SHORT_AT_THE_END, 60), (SLID_FAR, 0)], ids=["short at the end", "slid far"]
+)
+@pytest.mark.parametrize("engine", ["pinocchio-aba", "pinocchio-aba-mjcf"])
+def test_moments_about_a_far_origin_are_rounding(run_cell, tmp_path, engine, text, random_states):
+    """Pinocchio differentiates, and inverts M, with inertias in the world."""
+    (tmp_path / "far.toml").write_text(text, encoding="utf-8")
+    results = run_cell(engine, str(tmp_path / "far.toml"), random_states=random_states)
+    assert {part: results[part].outcome for part in PARTS} == dict.fromkeys(PARTS, "agrees"), results
+
+
+def test_another_engine_is_not_excused_by_a_far_origin(run_cell, tmp_path, monkeypatch):
+    """Its own factors give the inverse of a short link's moment to all digits, and it is held to them."""
+    import fake_engines
+
+    def slightly(self, theta, right=fake_engines.Right.inverse_mass):
+        return right(self, theta) * (1 + 1e-12)
+
+    monkeypatch.setattr(fake_engines.Right, "inverse_mass", slightly)
+    (tmp_path / "far.toml").write_text(SHORT_AT_THE_END, encoding="utf-8")
+    results = run_cell("fake_engines:Right", str(tmp_path / "far.toml"))
+    assert [results[part].outcome for part in PARTS] == ["agrees", "agrees", "differs"]
+
+
 @pytest.mark.parametrize("name", ["arm-7", "cart-pole", "hopper", "acrobot"])
 def test_trees_agree(run_cell, name):
     results = run_cell("pinocchio-aba", name, random_states=10)

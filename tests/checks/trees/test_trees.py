@@ -11,13 +11,14 @@ from furiko.checks.jobs import CellJob, TruthJob, messages_of
 from furiko.checks.jobs import Facts as FactsMessage
 from furiko.checks.plan import PROFILES, Task, make_plan, random_states, skip
 from furiko.checks.registry import CHECKS
+from furiko.checks.trees import accelerations
 from furiko.checks.trees.facts import TreeFacts, tree_facts
 from furiko.checks.trees.verdict import judged
 from furiko.engines import engine_info
 from furiko.models import find_scene
 from furiko.models.scene import scene_from_toml
 from furiko.models.states import States
-from furiko.models.trees.states import tree_states
+from furiko.models.trees.states import TreeStates, tree_states
 from furiko.records.check import Result
 
 STATES = 2
@@ -110,6 +111,46 @@ def test_each_fault_is_found_by_its_check_and_no_other(scene, facts, engine, che
     assert any(word in differing[0].reason for word in says.split("|"))
     if check != "trajectory RK4":
         assert "in state" in differing[0].reason
+
+
+def test_a_run_that_ends_beside_the_motion_in_one_coordinate_alone(scene, facts):
+    (result,) = results(scene, facts, "Beside", ("trajectory",))
+    assert result.outcome == "differs"
+    assert result.measured == pytest.approx(1e-4, rel=1e-6)
+
+
+def test_a_scheme_of_one_order_less_differs_by_its_order_alone(scene, facts):
+    """0.1 h³ is extrapolated to zero as well as a scheme of the fourth order may leave it, and still shows."""
+    (result,) = results(scene, facts, "OneOrderLess", ("trajectory",))
+    assert result.outcome == "differs"
+    assert result.measured <= result.allowed
+    assert result.reason == "RK4 is of order 4 and shows order 3.00"
+
+
+def test_an_acceleration_leaves_a_residual_in_what_is_off_the_diagonal_too():
+    """By hand: M = (2, 1; 1, 3) and accelerations that are off by (2, -1): rows of 3 and -1, not of 4 and -3."""
+    found = compare_accelerations(np.array([[2.0, -1.0]]), np.array([[[2.0, 1.0], [1.0, 3.0]]]))
+    assert found.measured == pytest.approx(3.0)
+
+
+def compare_accelerations(error, mass):
+    """The result for such errors in units of ε, (1, n), where the unit of each row is one."""
+    ones = SimpleNamespace(residual=lambda *_, **__: np.ones(error.shape[1]))
+    cell = SimpleNamespace(
+        info=SimpleNamespace(algorithm="aba"),
+        states=TreeStates(("one",), np.zeros_like(error), np.zeros_like(error)),
+        facts=SimpleNamespace(error=lambda got: 2.0**-52 * error, mass_matrix=mass, high=np.ones_like(error)),
+        engine=SimpleNamespace(accelerations=lambda q, v: np.ones_like(error)),
+        answer=lambda name, found, shape: found,
+        magnitudes=[ones],
+        roundings=np.array([20.0]),
+        freedom=str,
+        result=lambda check, outcome, **fields: Result(
+            scene="by hand", engine="none", check=check, outcome=outcome, **fields
+        ),
+    )
+    (found,) = accelerations.compare(cell)
+    return found
 
 
 def test_gravity_that_is_off_shows_in_gravity_and_in_the_bias(scene, facts):

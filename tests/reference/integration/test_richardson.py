@@ -74,3 +74,27 @@ def test_errors_that_fall_as_the_order_says_settle_and_those_that_jump_about_do_
     assert settles(falling, order, noise=0.0)
     assert not settles(jumping, order, noise=0.0)
     assert settles(jumping, order, noise=5000.0)
+
+
+def test_runs_whose_own_differences_grow_do_not_settle():
+    """What MuJoCo's Euler leaves of energy in a motion that is too fast for its steps: what is extrapolated from these
+    falls like a first order's, by 2.4, and the runs themselves part more and more.
+    """
+    left = [np.array([value]) for value in (6.614e-13, 1.0969e-12, 9.865e-13, 7.943e-13)]
+    assert not settles(left, 1, noise=1e-16)
+    assert settles(left, 1, noise=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("order", "series", "expected"),
+    [
+        # Extrapolated by 2y(h) - y(2h): 0, 0, 1, whose fine difference is 1; and 8, 0, 0, whose coarse one is 8 = 2A.
+        (1, (0.0, 0.0, 0.0, 0.5), 4 / 3 + 3 / 7),
+        (1, (0.0, 4.0, 2.0, 1.0), 4 / 3 + 3 / 7),
+        # By (16y(h) - y(2h))/15: 0, 0, 1, and later terms may be as much as that.
+        (4, (0.0, 0.0, 0.0, 15 / 16), 1.0),
+    ],
+)
+def test_how_sure_a_limit_is_by_hand(order, series, expected):
+    _, uncertainty = at_step_zero([np.array([value]) for value in series], order)
+    assert uncertainty == pytest.approx(expected, rel=1e-15)

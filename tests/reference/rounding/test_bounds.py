@@ -68,6 +68,24 @@ def test_amplitudes_are_not_below_what_they_are_amplitudes_of(system, coordinate
         assert (np.abs(true) <= amplitude.velocity_terms(omega)).all()
 
 
+def test_a_turning_rod_has_its_moment_of_inertia_in_its_row():
+    """m = 2 kg, c = 1 m, I = 2/3 kg m² and 3 rad/s: of the terms in docs/theory/bounds.md m F U A is 18 N m and I F² is
+    6 N m; V is zero, since the hinge is at rest. The second is never above a third of the first in the documents' rods.
+    """
+    amplitude = rounding.amplitudes(RodChain((2.0,)), "relative")
+    np.testing.assert_allclose(amplitude.velocity_terms(np.array([[3.0]])), [[24.0]], rtol=1e-14)
+
+
+def test_what_is_lost_below_the_smallest_number_grows_with_the_factors():
+    """Two bobs of 5 kg and 1 kg on legs of 1 m: stretched out M is (9, 2; 2, 1) in hinge angles. A pivot is at least
+    1 kg m², so that no entry of L, M = LᵀDL, is above √(9/1); stretched out it is 2.
+    """
+    amplitude = rounding.amplitudes(NLegPendulum((1.0, 1.0), (5.0, 1.0), 0.0), "relative")
+    rates = np.array([[1e-160, 2e-160]])
+    lost, grown = amplitude.underflow(rates), amplitude.solution_underflow(rates)
+    np.testing.assert_allclose(grown / lost, 3.0, rtol=1e-14)
+
+
 # A short link on a fast long one: the velocity of its hinge times its momentum, which cancel with themselves, are far
 # above everything that is left in its row. A link's length in 1e4 shows it, and MuJoCo still takes the inertia.
 SHORT_ON_LONG = Scene("short on long", NLegPendulum((1.0, 1e-4), (1.0, 1.0)), random=40)
@@ -117,6 +135,13 @@ def test_lever_arms_of_two_bobs_by_hand():
     np.testing.assert_array_equal(placed.to_point, [[1.0, 1.0], [0.0, 3.0]])
     world = levers.world_errors(TWO_BOBS)  # only the place of hinge 2 on link 1 is a difference
     np.testing.assert_array_equal(world.arm, [[0.0, 3.0], [0.0, 0.0]])
+
+
+def test_lever_arms_about_the_origin_by_hand():
+    """From hinge 1, at 1 m, to the origin and on to the bobs at 3 m and 6 m; from hinge 2, at 3 m, to the second."""
+    about = levers.world_levers(TWO_BOBS)
+    np.testing.assert_array_equal(about.arm, [[1 + 3.0, 1 + 6.0], [0.0, 3 + 6.0]])
+    np.testing.assert_array_equal(about.to_point, [[1.0, 1.0], [0.0, 3.0]])
 
 
 def test_lever_arms_beside_the_axis_by_hand():

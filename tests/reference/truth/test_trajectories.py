@@ -65,7 +65,7 @@ def test_low_parts_carry_what_doubles_cannot():
     assert found.theta_low[1].any()
     again = quadruple.from_decimals([["0.1", "2"]], [0.0], 1)
     # 0.1 as a double is too much by 5.55e-18
-    assert again.theta_low[0, 0] == pytest.approx(-5.551115123125783e-18, rel=1e-12)
+    assert again.theta_low[0, 0] == pytest.approx(-5.551115123125783e-18, rel=1e-12, abs=0)
     assert again.omega[0, 0] == 2
 
 
