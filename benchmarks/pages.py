@@ -54,7 +54,7 @@ def row(browser: Browser, page: Path, axe: str | None) -> list[str]:
     unfolded = browser.run(ELEMENTS)
     found = findings(browser, page, axe) if axe else None
     megabytes = page.stat().st_size / 1e6
-    asked = [url for url in browser.requests if not url.startswith("file://")]
+    asked = [url for url in browser.requests if not url.startswith(("file:", "data:"))]
     return [
         page.name,
         f"{megabytes:.2f} MB",
