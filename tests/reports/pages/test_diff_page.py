@@ -65,6 +65,18 @@ def test_a_long_list_is_cut_and_says_so(make):
     assert "… and 5 more" in page
 
 
+@pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium on this machine")
+def test_on_paper_it_is_a_summary(make, tmp_path):
+    names = [f"rods-{number}" for number in range(MOST)]
+    scenes = [make.scene(name) for name in names]
+    before, after = (make.report(*(make.result(o, name) for name in names), scenes=scenes) for o in ("agrees", "error"))
+    path = tmp_path / "diff.html"
+    path.write_text(to_diff_page(compare(before, after)), encoding="utf-8")
+    with Browser() as browser:
+        browser.open(path)
+        assert browser.pages_on_paper() <= 4
+
+
 @pytest.mark.parametrize("text", HOSTILE)
 def test_hostile_text_is_text(make, text):
     page = to_diff_page(compare(everywhere(make, text, "agrees"), everywhere(make, text, "differs")))
