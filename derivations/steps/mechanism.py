@@ -71,6 +71,9 @@ class Mechanism:
     forces: tuple[Formula, ...] = ()
     weight: Formula | None = None  # g where it is None
     values: dict[int, Formula] = field(default_factory=dict, compare=False)  # symbols that stand for formulas
+    without_values: Mechanism | None = field(
+        default=None, init=False, compare=False, repr=False
+    )  # :meth:`with_values` of it
 
     @cached_property
     def positions(self) -> tuple[tuple[Formula, Formula], ...]:
@@ -128,6 +131,10 @@ class Mechanism:
     @cached_property
     def free_rows(self) -> tuple[Formula, ...]:
         """The same without forces: Lagrange's equations of T - U alone."""
+        plain = self.without_values
+        if plain is not None and self.values_are_constant:
+            # A constant may be put in before or after the derivatives; the rows without values serve many.
+            return tuple(self.valued(row) for row in plain.free_rows)
         return tuple(lagrange_rows(self.space, self.lagrangian))
 
     @cached_property
@@ -145,7 +152,21 @@ class Mechanism:
         """The same mechanism where the symbols at these places have these values."""
         if not values:
             return self
-        return replace(self, values={**self.values, **values})
+        valued = replace(self, values={**self.values, **values})
+        object.__setattr__(
+            valued, "without_values", self.without_values or self
+        )  # no field: replace() must not keep it
+        return valued
+
+    @cached_property
+    def values_are_constant(self) -> bool:
+        """Whether no value moves: none has an angle, a coordinate or a rate in it."""
+        s = self.space
+        moving = {*range(2 * s.n), *(range(4 * s.n + 2, 5 * s.n + 2) if s.extra else ())}
+        return not any(
+            moving & {place, *s.places(f)} or any(h or phase for _, h, phase in f.terms)
+            for place, f in self.values.items()
+        )
 
     def valued(self, f: Formula) -> Formula:
         """With the values of those symbols that have some."""
