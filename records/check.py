@@ -208,7 +208,8 @@ class Circumstance(msgspec.Struct, frozen=True, kw_only=True):
 class DiffDocument(msgspec.Struct, frozen=True, kw_only=True):
     """Two runs of ``furiko check``: what ``furiko diff --json`` prints.
 
-    ``not_looked_at``: comparisons of the first run that the second was not asked for. ``flaws``: why a run is not whole.
+    ``not_looked_at``: comparisons of the first run that the second was not asked for; ``flaws``: why a run is not
+    whole.
     """
 
     summary: str
