@@ -63,8 +63,30 @@ def with_indices_beside(mathml):
     return XML.tostring(root, encoding="unicode")
 
 
+# What screen readers and keyboards need, and the theme does not write.
+FOR_ALL = (
+    ('class="caption" role="heading"', 'class="caption" role="heading" aria-level="2"'),
+    ('<aside class="sidebar-drawer"', '<aside class="sidebar-drawer" aria-label="All pages"'),
+    ('<aside class="toc-drawer', '<aside aria-label="On this page" class="toc-drawer'),
+    ("<pre>", '<pre tabindex="0">'),  # wide ones are scrolled by arrow keys
+    ('<div class="table-wrapper', '<div tabindex="0" role="group" aria-label="Table" class="table-wrapper'),
+    ('<th class="head"><p></p></th>', "<td></td>"),
+)
+
+
+def for_all_readers(app, error):
+    """Mend each page that was written."""
+    if error is None and app.builder.format == "html":
+        for page in Path(app.outdir).rglob("*.html"):
+            text = page.read_text(encoding="utf-8")
+            for old, new in FOR_ALL:
+                text = text.replace(new, old).replace(old, new)  # a page that was not written anew has it already
+            page.write_text(text, encoding="utf-8")
+
+
 def setup(app):
     """What this documentation adds to Sphinx."""
     app.add_html_math_renderer("mathml", (visit_math, None), (visit_math, None))
     app.add_lexer("mermaid", TextLexer)
     app.connect("builder-inited", lambda app: generated.write(Path(app.srcdir) / "generated"))
+    app.connect("build-finished", for_all_readers)

@@ -15,17 +15,20 @@ import os
 import sys
 import zlib
 from collections.abc import Iterable
+from dataclasses import replace
 from functools import cache
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, get_args
 
 from ..models import InvalidInput
 from ..models.errors import nearest
-from .info import EngineInfo
+from .info import EngineInfo, Quantity
 
 GROUP = "furiko.engines"
+EXAMPLE = "; `furiko engine-test --help` shows one"
+NEEDED = ("accelerations",)  # what every adapter has
 
 
 def plugin_names() -> list[str]:
@@ -65,11 +68,20 @@ def adapter(name: str) -> Any:
 
 
 def info_of(name: str) -> EngineInfo:
-    """The :class:`EngineInfo` of an adapter. Raises :class:`InvalidInput` where it has none."""
-    info = getattr(adapter(name), "info", None)
+    """The :class:`EngineInfo` of an adapter. Raises :class:`InvalidInput` where it has none.
+
+    What the class has no method for is missing, whether its author says so or not.
+    """
+    found = adapter(name)
+    info = getattr(found, "info", None)
     if not isinstance(info, EngineInfo):
-        raise InvalidInput(f"engine: {name} has no attribute 'info' that is a furiko.engines.EngineInfo")
-    return info
+        raise InvalidInput(f"engine: {name} has no attribute 'info' that is a furiko.engines.EngineInfo{EXAMPLE}")
+    absent = {
+        quantity: f"the adapter has no method {quantity}"
+        for quantity in get_args(Quantity)
+        if quantity not in NEEDED and not callable(getattr(found, quantity, None))
+    }
+    return replace(info, missing=absent | dict(info.missing)) if absent else info
 
 
 @cache
@@ -103,7 +115,7 @@ def _of_file(name: str) -> Any:
         what = (
             f"the file has several adapters: name one, {several}"
             if found
-            else ("the file has no class with an attribute 'info' that is a furiko.engines.EngineInfo")
+            else f"the file has no class with an attribute 'info' that is a furiko.engines.EngineInfo{EXAMPLE}"
         )
         raise InvalidInput(f"engine: {name}: {what}")
     return found[0][1]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import re
 from collections import ChainMap
 from collections.abc import Iterable
 from dataclasses import replace
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
     from .places.connection import Connection
     from .shapes import AnyShape
     from .trees.shapes import TreeShape
+
+_SHARED = re.compile(r"(\S+\.so[.\d]*): cannot open shared object file")
 
 # Takes part like an engine where a scene has a user's own equations; its answers are theirs, without rounding.
 OWN_EQUATIONS = EngineInfo(
@@ -173,8 +176,6 @@ def engine_version(name: str) -> str:
 
     Of an engine in a place of its own: the version there. An environment that has not been made is not made here.
     """
-    from importlib.metadata import PackageNotFoundError, version  # takes 20 ms, and workers never ask
-
     place = _place(name)
     if place is not None:
         from .places import engines
@@ -182,7 +183,12 @@ def engine_version(name: str) -> str:
         if place.kind == "program":
             return engines.program_version(place)
         return engines.installed_version(place, base_of(place))
-    package = _KNOWN[name].package if name in _KNOWN else engine_info(name).package
+    return _installed(_KNOWN[name].package if name in _KNOWN else engine_info(name).package)
+
+
+def _installed(package: str) -> str:
+    from importlib.metadata import PackageNotFoundError, version  # takes 20 ms, and workers never ask
+
     try:
         return version(package) if package else ""
     except PackageNotFoundError:
@@ -309,6 +315,12 @@ def _require(info: EngineInfo) -> None:
     try:
         module = importlib.import_module(info.module)
     except ImportError as error:
-        raise EngineMissing(f"{advice} [{error}]") from error
+        version = _installed(info.package)
+        if not version or isinstance(error, ModuleNotFoundError):
+            raise EngineMissing(f"{advice} [{error}]") from error
+        found = f"{info.name}: {info.package} {version} is installed and cannot be imported: {error}"
+        if library := _SHARED.search(str(error)):
+            found += f" (the system lacks the library {library[1]}; apt-file search {library[1]} tells its package)"
+        raise EngineMissing(found) from error
     if info.package == "pin" and not hasattr(module, "buildModelFromXML"):
         raise EngineMissing(f"{advice}. It is that unrelated one which is installed here: pip uninstall pinocchio")

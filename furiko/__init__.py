@@ -4,9 +4,25 @@ A name is imported when it is first used: ``import furiko`` alone imports neithe
 May import everything else of the package; nothing else imports it.
 """
 
-from __future__ import annotations
+import sys
 
-from importlib import import_module
+
+def _quiet_start() -> None:
+    """In the command line's own process Ctrl-C ends it in silence, until furiko.cli answers with a sentence.
+
+    First of all, since Python would print a traceback. The module ``signal`` takes longer to import than all else here.
+    """
+    name = sys.argv[0] if sys.argv else ""  # an embedded interpreter has none
+    module = name == "-m" and "furiko" in sys.orig_argv  # python -m furiko: its name comes later
+    ours = module or name.replace("\\", "/").rpartition("/")[2] in ("furiko", "furiko.exe")
+    signals = sys.modules["_signal"]
+    if ours and signals.getsignal(signals.SIGINT) is signals.default_int_handler:  # not where it is ignored
+        signals.signal(signals.SIGINT, signals.SIG_DFL)
+
+
+_quiet_start()
+
+from importlib import import_module  # noqa: E402
 
 TYPE_CHECKING = False  # typing is imported by nothing else of this file
 if TYPE_CHECKING:
@@ -99,7 +115,7 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> "Any":
     if name not in _HOMES:
         raise AttributeError(f"module 'furiko' has no attribute {name!r}")
     value = getattr(import_module(f".{_HOMES[name]}", __name__), name)

@@ -172,14 +172,20 @@ class Runs:
         """One scene on one engine, against the known differences."""
         from dataclasses import replace
 
-        from .reports import known_in
+        import msgspec
+
+        from .reports import footer_of, known_in
 
         if scene not in self._reports:
             self._reports[scene] = self._run(scene, engines)
         report = self._reports[scene]
         own = [result for result in report.results if result.engine == engine]
         told = [diagnosis for diagnosis in report.diagnoses if diagnosis.engine == engine]
-        return known_in(replace(report, results=tuple(own), diagnoses=tuple(told)), self._known)
+        engines_of_it = [entry for entry in report.header.engines if entry.name == engine]
+        header = msgspec.structs.replace(report.header, engines=engines_of_it)
+        footer = footer_of(own, told) if report.footer is not None else None  # of this part: it is whole
+        part = replace(report, header=header, results=tuple(own), footer=footer, diagnoses=tuple(told))
+        return known_in(part, self._known)
 
     def _run(self, scene: str, engines: Sequence[str]) -> Report:
         from .checks.imported_ahead import MODULES

@@ -171,3 +171,52 @@ class CheckReport(msgspec.Struct, frozen=True, kw_only=True):
     diagnoses: list[Diagnosis] = []
     known: list[KnownDifference] = []  # one an entry of the file of known differences
     alone: list[Alone] = []  # one a scene with a user's own equations
+
+
+ChangeKind = Literal[
+    "broke", "error grew", "not comparable", "outcome changed", "fixed", "error shrank", "appeared", "disappeared"
+]
+
+
+class Change(msgspec.Struct, frozen=True, kw_only=True):
+    """One comparison of two runs that is not the same in both; None: that run does not have it, or measured nothing.
+
+    ``ratio``: the second run's error over the first's.
+    """
+
+    change: ChangeKind
+    scene: str
+    engine: str
+    check: str
+    before: Outcome | None
+    after: Outcome | None
+    error_before: float | None
+    error_after: float | None
+    unit: str
+    ratio: float | None
+    reason: str  # the second run's, where it does not agree
+
+
+class Circumstance(msgspec.Struct, frozen=True, kw_only=True):
+    """What else is not the same in two runs: an engine's version, the machine, the profile."""
+
+    what: str
+    before: str
+    after: str
+
+
+class DiffDocument(msgspec.Struct, frozen=True, kw_only=True):
+    """Two runs of ``furiko check``: what ``furiko diff --json`` prints.
+
+    ``not_looked_at``: comparisons of the first run that the second was not asked for; ``flaws``: why a run is not
+    whole.
+    """
+
+    summary: str
+    exit_status: int
+    factor: float  # an error that grew by more is worse
+    flaws: list[str]
+    circumstances: list[Circumstance]
+    changes: list[Change]
+    unchanged: int
+    not_looked_at: int

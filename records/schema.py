@@ -31,6 +31,7 @@ FOLDER = Path(__file__).parent / "schemas"
 SCHEMAS: dict[str, tuple[str, Any]] = {
     "check": (f"furiko result stream, format {check.FORMAT}: one line of report.jsonl", check.Record),
     "check-report": ("furiko check --json", check.CheckReport),
+    "diff": ("furiko diff --json", check.DiffDocument),
     "scenes": ("furiko scenes --json", list[listings.SceneRow]),
     "engines": ("furiko engines --json", list[listings.EngineRow]),
     "engine-test": ("furiko engine-test --json", listings.EngineTest),

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
 
-from ..records.check import Result
+from ..records import check
+from ..records.check import ChangeKind, Circumstance, DiffDocument, Result
 from ..records.exit_status import AGREES, DIFFERS, INCOMPLETE
 from .report import Report
 from .words import count, few, figure, one_line, word
@@ -16,7 +17,7 @@ from .words import count, few, figure, one_line, word
 # + error grew     - error shrank     x bound or unit changed, so the errors cannot be compared
 # ~ the outcome changed in another way (to or from skipped)     > only in the second run     < only in the first
 Mark = Literal["!", "*", "+", "-", "x", "~", ">", "<", " "]
-SAYS: dict[Mark, str] = {
+SAYS: dict[Mark, ChangeKind] = {
     "!": "broke",
     "+": "error grew",
     "x": "not comparable",
@@ -46,6 +47,11 @@ class Change:
         return result
 
     @property
+    def figures(self) -> tuple[str, str]:
+        """Outcome and error in each run, as a report writes them."""
+        return _figures(self.before), _figures(self.after)
+
+    @property
     def ratio(self) -> float | None:
         """The later error over the earlier one; None where either is missing or the earlier one is zero."""
         if self.before is None or self.after is None or self.before.measured is None or self.after.measured is None:
@@ -60,6 +66,7 @@ class Comparison:
     before: Report
     after: Report
     changes: tuple[Change, ...]
+    factor: float
 
     def marked(self, *marks: Mark) -> list[Change]:
         """The changes with one of these marks."""
@@ -108,29 +115,72 @@ class Comparison:
             if change.result.scene in scenes or change.result.engine in engines or change.result.comparison in checks
         )
 
-    def _narrower(self) -> str:
-        left = [change.result for change in self.not_looked_at]
+    @cached_property
+    def narrower(self) -> str:
+        """How much of the first run the second was not asked for, in a sentence; empty where it was asked for all."""
+        if not self.not_looked_at:
+            return ""
+        left = [change.result for change in self.changes if change in self.not_looked_at]
         scenes = few((result.scene for result in left), "scene")
         engines = few((result.engine for result in left), "engine")
         return f"{count(len(left), 'comparison')} not looked at in the second run: {scenes} × {engines}"
 
+    @cached_property
+    def flaws(self) -> tuple[str, ...]:
+        """Why a run is not whole, in sentences."""
+        runs = (("first", self.before), ("second", self.after))
+        return tuple(f"{name} run: {flaw}" for name, run in runs for flaw in run.flaws)
+
+    def of_kind(self, mark: Mark) -> list[Change]:
+        """The changes with this mark, less those that the second run was not asked for."""
+        return [change for change in self.marked(mark) if change not in self.not_looked_at]
+
+    @cached_property
+    def summary(self) -> str:
+        """How many changes there are of each kind, and how many comparisons are unchanged."""
+        said = [f"{len(found)} {says}" for mark, says in SAYS.items() if (found := self.of_kind(mark))]
+        return "; ".join([*said, f"{count(len(self.marked(' ')), 'comparison')} unchanged"]) + "."
+
     def text(self) -> str:
         """One line for each change, under headings; unchanged comparisons are only counted."""
-        lines = [
-            f"{name} run: {flaw}"
-            for name, run in (("first", self.before), ("second", self.after))
-            for flaw in run.flaws
-        ]
+        lines = [*self.flaws]
         lines += [f"other {what}: {one_line(old)} → {one_line(new)}" for what, old, new in self.circumstances]
         for mark, says in SAYS.items():
-            found = [change for change in self.marked(mark) if mark != "<" or change not in self.not_looked_at]
-            if found:
+            if found := self.of_kind(mark):
                 lines += [f"{says} ({len(found)})", *(f"  {mark} {_line(change)}" for change in found), ""]
-        if self.not_looked_at:
-            lines += [self._narrower(), ""]
-        tally = Counter(change.mark for change in self.changes if change not in self.not_looked_at)
-        said = [f"{tally[mark]} {says}" for mark, says in SAYS.items() if tally[mark]]
-        return "\n".join([*lines, "; ".join([*said, f"{count(tally[' '], 'comparison')} unchanged"]) + "."])
+        if self.narrower:
+            lines += [self.narrower, ""]
+        return "\n".join([*lines, self.summary])
+
+    def document(self) -> DiffDocument:
+        """All of it as one record."""
+        return DiffDocument(
+            summary=self.summary,
+            exit_status=self.exit_status,
+            factor=self.factor,
+            flaws=list(self.flaws),
+            circumstances=[Circumstance(what=what, before=a, after=b) for what, a, b in self.circumstances],
+            changes=[_record(says, change) for mark, says in SAYS.items() for change in self.of_kind(mark)],
+            unchanged=len(self.marked(" ")),
+            not_looked_at=len(self.not_looked_at),
+        )
+
+
+def _record(says: ChangeKind, change: Change) -> check.Change:
+    result, before, after = change.result, change.before, change.after
+    return check.Change(
+        change=says,
+        scene=result.scene,
+        engine=result.engine,
+        check=result.check,
+        before=before.outcome if before else None,
+        after=after.outcome if after else None,
+        error_before=before.measured if before else None,
+        error_after=after.measured if after else None,
+        unit=result.unit,
+        ratio=change.ratio,
+        reason=after.reason if after and after.outcome != "agrees" else "",
+    )
 
 
 def compare(before: Report, after: Report, factor: float = FACTOR) -> Comparison:
@@ -142,7 +192,7 @@ def compare(before: Report, after: Report, factor: float = FACTOR) -> Comparison
     old, new = _keyed(before), _keyed(after)
     changes = [_change(old.get(key), result, factor) for key, result in new.items()]
     changes += [_change(result, None, factor) for key, result in old.items() if key not in new]
-    return Comparison(before, after, tuple(changes))
+    return Comparison(before, after, tuple(changes), factor)
 
 
 def _keyed(report: Report) -> dict[tuple[str, str, str, int], Result]:

@@ -278,18 +278,22 @@ class Report:
     def outliers(self) -> tuple[str, ...]:
         """Sentences: where only one engine differs from all others, or all engines differ from the equations.
 
-        The equations and at least two engines vote on each scene and check. Any other split blames nobody. Of scenes
-        with a user's own equations the sentences are those of :attr:`alone`.
+        The equations and at least two engines vote on each scene and check. Any other split blames nobody, and an
+        engine is no scene's only one where another differs in another check. Of scenes with a user's own equations the
+        sentences are those of :attr:`alone`.
         """
         own = {alone.scene for alone in self.alone}
         votes: dict[tuple[str, str], dict[Outcome, list[str]]] = {}
+        blamed: dict[str, set[str]] = {}  # the engines that differ in a scene, whatever the check
         for result in self.results:
             if result.scene not in own:
                 votes.setdefault((result.scene, result.check), {}).setdefault(result.outcome, []).append(result.engine)
+                if result.outcome == "differs":
+                    blamed.setdefault(result.scene, set()).add(result.engine)
         lone: dict[str, list[str]] = {}
         for (scene, _), vote in votes.items():
             differing, agreeing = vote.get("differs", []), vote.get("agrees", [])
-            if len(differing) == 1 and len(agreeing) >= 2:
+            if len(differing) == 1 and len(agreeing) >= 2 and len(blamed[scene]) == 1:
                 lone.setdefault(differing[0], []).append(scene)
             elif len(differing) >= 2 and not agreeing:
                 lone.setdefault("", []).append(scene)

@@ -26,15 +26,6 @@ def broken(step, word):
     return keep
 
 
-@broken("class", "energy")
-class SaysNothingOfEnergy:
-    """Has no energy, and does not say why."""
-
-    __init__ = Right.__init__
-    fields, accelerations, inverse_dynamics = Right.fields, Right.accelerations, Right.inverse_dynamics
-    joint_forces, trajectory = Right.joint_forces, Right.trajectory
-
-
 @broken("class", "'energies'")
 class MisspellsWhatIsMissing(Right):
     """Says that something is missing that nobody asks for."""

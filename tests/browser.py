@@ -16,6 +16,25 @@ from pathlib import Path
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 PATIENCE = 60.0  # s for one answer: a busy machine starts a browser in ten
 
+# Contrast as WCAG 2 defines it, of every element that has text of its own, against the first background behind it.
+LOW_CONTRAST = """(() => {
+  const channels = (colour) => colour.match(/[\\d.]+/g).map(Number);
+  const light = (colour) => { const [r, g, b] = channels(colour).map((c) => { c /= 255;
+    return c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4; }); return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
+  const behind = (e) => { for (; e; e = e.parentElement) { const c = getComputedStyle(e).backgroundColor;
+    if ((channels(c)[3] ?? 1) === 1) return c; } return 'rgb(255, 255, 255)'; };
+  return [...document.querySelectorAll('body *')].filter((e) => e.checkVisibility()
+    && [...e.childNodes].some((n) => n.nodeType === 3 && n.data.trim())).map((e) => {
+      const [a, b] = [light(getComputedStyle(e).color), light(behind(e))].sort((x, y) => y - x);
+      return [(a + 0.05) / (b + 0.05), e.tagName, e.textContent.slice(0, 40)]; }).filter(([ratio]) => ratio < 4.5);
+})()"""
+NAMELESS = """[...document.querySelectorAll(
+    'button, input, select, summary, [tabindex="0"], [role=img], dialog')].filter((e) => e.checkVisibility()
+  && !(e.ariaLabel || e.labels?.length || document.getElementById(e.getAttribute('aria-labelledby'))?.textContent
+    || (e.matches('button, summary') && e.textContent.trim()))).map((e) => e.outerHTML.slice(0, 80))"""
+OUTSIDE = """[...document.body.children].map((e) => e.tagName.toLowerCase())
+  .filter((name) => !['header', 'main', 'footer', 'dialog', 'script'].includes(name))"""
+
 
 class Browser:
     """One browser with one page; ``errors`` is what the console complained of, ``requests`` what the page asked for."""

@@ -102,15 +102,15 @@ def _of_file(file: ModelFile, wanted: Expected, limits: bool) -> list[Finding]:
     if file.planar is not None:
         return _of_planar_file(file, wanted, limits)
     if wanted.spatial is not None:
-        return _in_space(file, wanted.spatial, limits)
+        return _in_space(file, wanted.spatial, limits, wanted.name)
     if wanted.name:
         raise InvalidInput(f"{file.path}: {file.not_planar}; it cannot be compared with {wanted.name}")
     return []
 
 
-def _in_space(file: ModelFile, wanted: SpatialMechanism, limits: bool) -> list[Finding]:
+def _in_space(file: ModelFile, wanted: SpatialMechanism, limits: bool, name: str) -> list[Finding]:
     differences = field_differences(file.spatial, wanted, limits=limits)
-    return field_findings("the file", differences, places_in(file.spatial))
+    return field_findings("the file", differences, places_in(file.spatial), asked=Path(name).name)
 
 
 def _of_planar_file(file: ModelFile, wanted: Expected, limits: bool) -> list[Finding]:
@@ -121,7 +121,7 @@ def _of_planar_file(file: ModelFile, wanted: Expected, limits: bool) -> list[Fin
     if wanted.planar is not None:
         return found + compare_with(file, wanted.planar)
     if wanted.spatial is not None:
-        return found + _in_space(file, wanted.spatial, limits)
+        return found + _in_space(file, wanted.spatial, limits, wanted.name)
     assert file.planar is not None
     ideal = compare_with_ideal(file.planar)
     return found + [finding for finding in ideal if limits and finding.cause == "joint-limit"]

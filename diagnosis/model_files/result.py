@@ -49,14 +49,13 @@ class Diagnosis:
             parts.append(f"{_listed(agree)} {'does' if len(agree) == 1 else 'do'} what the file says{self._but()}")
         if differ := by_status.get("differs"):
             parts.append(f"{_listed(differ)} {'does' if len(differ) == 1 else 'do'} something else than the file says")
-        for status, words in (
-            ("refused", "refuse"),
-            ("failed", "fail with"),
-            ("missing", "cannot be imported to read"),
+        for status, one, several in (
+            ("refused", "refuses the file", "refuse the file"),
+            ("failed", "fails with the file", "fail with the file"),
+            ("missing", "was not asked, for it cannot be imported", "were not asked, for they cannot be imported"),
         ):
             if names := by_status.get(status):
-                verb = words if len(names) > 1 or status == "missing" else words.replace("refuse", "refuses")
-                parts.append(f"{_listed(names)} {verb.replace('fail with', 'fails with')} the file")
+                parts.append(f"{_listed(names)} {one if len(names) == 1 else several}")
         if self._of_file():
             parts.append(f"the file is not {self.against or 'a mechanism of ideal hinges'}")
         if not parts:
@@ -64,7 +63,9 @@ class Diagnosis:
         return "; ".join(parts)
 
     def _but(self) -> str:
-        return f" (without {len(self.without)} thing{'s' * (len(self.without) > 1)}, see below)" if self.without else ""
+        if not self.without:
+            return ""
+        return f" (without {self.without[0]})" if len(self.without) == 1 else f" (without {len(self.without)} things)"
 
     def _of_file(self) -> bool:
         return any(finding.says.startswith("the file") for finding in self.findings)
@@ -106,9 +107,10 @@ class Diagnosis:
         return "\n".join(lines)
 
     def brief(self) -> str:
-        """Verdict and headline, and what was found in a line each: one file of several."""
+        """Verdict and headline, what was found and what was left out in a line each: one file of several."""
         lines = [f"{self.model}: {self.verdict}: {self.headline}"]
-        return "\n".join(lines + [f"  {finding.cause}: {finding.says}" for finding in self.findings])
+        lines += [f"  {finding.cause}: {finding.says}" for finding in self.findings]
+        return "\n".join(lines + [f"  without: {line}" for line in self.without])
 
     def described(self) -> str:
         """The mechanism that was read, in a few words."""

@@ -69,8 +69,10 @@ def instead(flag: str) -> str:
     return f". Instead, {INSTEAD[flag]}" if flag in INSTEAD else ""
 
 
-def field_findings(engine: str, differences: Iterable[FieldDifference], places: Places) -> list[Finding]:
-    """Numbers that no known mistake explains, one finding a cause."""
+def field_findings(
+    engine: str, differences: Iterable[FieldDifference], places: Places, asked: str = "the file"
+) -> list[Finding]:
+    """Numbers that no known mistake explains, one finding a cause. ``asked``: what says how they should be."""
     by_cause: dict[str, list[FieldDifference]] = {}
     for difference in differences:
         by_cause.setdefault(difference.cause, []).append(difference)
@@ -78,23 +80,23 @@ def field_findings(engine: str, differences: Iterable[FieldDifference], places: 
     for cause, alike in by_cause.items():
         first = alike[0]
         line = places.of(first)
-        says = f"{engine}: {_numbers(alike)}" + (f" ({line})" if line else "")
+        says = f"{engine}: {_numbers(alike, asked)}" + (f" ({line})" if line else "")
         found.append(Finding(cause, f"{engine}: {first.where}", _plain(first.found), _plain(first.expected), says))
     return found
 
 
-def _numbers(differences: Sequence[FieldDifference]) -> str:
+def _numbers(differences: Sequence[FieldDifference], asked: str = "the file") -> str:
     """What was found and expected, place by place."""
-    shown = [_one(difference) for difference in differences[:MOST_PLACES]]
+    shown = [_one(difference, asked) for difference in differences[:MOST_PLACES]]
     more = len(differences) - len(shown)
     return "; ".join(shown) + (f"; and {more} more" if more > 0 else "")
 
 
-def _one(difference: FieldDifference) -> str:
+def _one(difference: FieldDifference, asked: str) -> str:
     unit = f" {difference.unit}" if difference.unit else ""
     digits = next((n for n in DIGITS if _shown(difference.found, n) != _shown(difference.expected, n)), DIGITS[0])
     found, expected = _shown(difference.found, digits), _shown(difference.expected, digits)
-    return f"{difference.where}: {difference.field} {found}{unit}, the file says {expected}{unit}"
+    return f"{difference.where}: {difference.field} {found}{unit}, {asked} says {expected}{unit}"
 
 
 def _shown(value: object, digits: int) -> str:

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import click
 
-from .output import print_text
+from .options import json_option
+from .output import print_json, print_text
 
 
 @click.command()
@@ -19,7 +20,11 @@ from .output import print_text
     show_default=True,
     help="An error that grew by more than this is worse, and fails.",
 )
-def diff(before: Path, after: Path, factor: float) -> int:
+@click.option(
+    "--out", metavar="PAGE", type=click.Path(path_type=Path, dir_okay=False), help="Write the answer as one HTML page."
+)
+@json_option
+def diff(before: Path, after: Path, factor: float, out: Path | None, as_json: bool) -> int:
     """Compare two runs of check.
 
     BEFORE and AFTER: report.jsonl of each run, or the folder it is in. First come other
@@ -29,5 +34,13 @@ def diff(before: Path, after: Path, factor: float) -> int:
     from ..reports import compare, read_stream
 
     comparison = compare(read_stream(before), read_stream(after), factor)
-    print_text(comparison.text())
+    if out is not None:
+        from ..models.writers.whole_file import write_whole
+        from ..reports.pages.diff_page import to_diff_page
+
+        write_whole(out, to_diff_page(comparison))
+    if as_json:
+        print_json(comparison.document())
+    else:
+        print_text("\n".join([comparison.text(), *([f"Page: {out}"] if out is not None else [])]))
     return comparison.exit_status

@@ -25,6 +25,24 @@ def engine_test(engine: str, timeout: float, as_json: bool) -> int:
 
     Tests shapes, buffers, order, signs, units, coordinates and runs. ENGINE: a name that `furiko engines`
     lists, a file with one adapter (./my_adapter.py), or module:Class. The exit status is 1 where the adapter is wrong.
+
+    An adapter is a class with one method; what it leaves out is skipped, with that reason. In place of furiko's own
+    equations put what your engine computes:
+
+    \b
+        # my_engine.py
+        from furiko import accelerations
+        from furiko.engines import EngineInfo
+        class MyEngine:
+            info = EngineInfo(
+                name="mine", formulation="", adapter="my_engine:MyEngine", module="",
+                package="", homepage="",
+                coordinates="absolute",  # it solves in: or "relative", "maximal"
+            )
+            def __init__(self, system):  # system.tree() has its links, in SI units
+                self.system = system
+            def accelerations(self, theta, omega):  # absolute angles, a state a row
+                return accelerations(self.system, theta, omega)  # your engine's here
     """
     from ..checks.conformance.kit import engine_test as test
 

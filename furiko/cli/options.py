@@ -58,7 +58,7 @@ engine_option = click.option(
     shell_complete=engine_names,
     help="Run only this engine: a name, another version of it (mujoco@3.3.7, installed once in an environment of its "
     "own), the one of an environment (./venv:mujoco), a program (./program), or an adapter of your own: a file, or a "
-    "class in a module, looked for in the current folder too; may be repeated.",
+    "class in a module, looked for in the current folder too (`furiko engine-test --help` shows one); may be repeated.",
 )
 report_folder_option = click.option(
     "--out",

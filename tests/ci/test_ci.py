@@ -230,3 +230,32 @@ def test_the_container_file_copies_what_there_is():
     for line in lines:
         if line.startswith("RUN "):
             subprocess.run(["sh", "-n", "-c", line.removeprefix("RUN ")], check=True)
+
+
+# Of Debian's packages, those that a slim image lacks, and what they bring; python:slim has the C and C++ libraries.
+IN_PACKAGES = {
+    "libgomp1": ("libgomp",),
+    "libgl1": ("libGL", "libGLX", "libGLdispatch"),
+    "libx11-6": ("libX11", "libxcb", "libXau", "libXdmcp", "libbsd", "libmd"),
+}
+IN_THE_IMAGE = ("linux-vdso", "ld-linux-x86-64", "libc", "libm", "libdl", "libpthread", "librt", "libutil", "libstdc++",
+                "libgcc_s", "libz", "libcrypt")  # fmt: skip
+
+
+@pytest.mark.skipif(shutil.which("ldd") is None, reason="there is no ldd")
+def test_the_container_has_what_engines_are_linked_with():
+    """Each shared library that an engine's modules need and no wheel brings is in the image, or put there."""
+    site = Path(yaml.__file__).parent.parent
+    inside = ("exudyn", "pinocchio", "cmeel.prefix/lib/python3*/site-packages/pinocchio", "mujoco")
+    modules = [path for folder in inside for path in site.glob(f"{folder}/*.so")]
+    if not modules:
+        pytest.skip("no engine is installed")
+    needed = set()
+    for module in modules:
+        told = subprocess.run(["ldd", str(module)], capture_output=True, text=True, check=False).stdout
+        lines = [line for line in told.splitlines() if str(site) not in line]
+        needed |= {line.split()[0].rpartition("/")[2].partition(".so")[0] for line in lines if line.strip()}
+    words = (ROOT / "Containerfile").read_text(encoding="utf-8").split()
+    there = {name for package, names in IN_PACKAGES.items() if package in words for name in names}
+    wheels = {path.name.partition(".so")[0] for path in site.rglob("lib*.so*")}
+    assert needed - there - set(IN_THE_IMAGE) - wheels == set()

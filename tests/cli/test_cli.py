@@ -301,3 +301,12 @@ def test_importing_furiko_imports_no_engine_and_nothing_heavy(tmp_path):
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=tmp_path, check=True)
     assert done.stdout.strip() == "[]"
+
+
+def test_the_adapter_that_the_help_shows_is_one(tmp_path):
+    shown = run("engine-test", "--help", cwd=tmp_path).stdout
+    code = shown[shown.index("# my_engine.py") : shown.index("Options:")]
+    (tmp_path / "my_engine.py").write_text("\n".join(line.removeprefix("      ") for line in code.splitlines()))
+    done = run("check", "rods-2", "-e", "my_engine.py", cwd=tmp_path)
+    assert done.returncode == 0, done
+    assert done.stdout.startswith("All 8 comparisons agree; 7 skipped")

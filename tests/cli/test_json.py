@@ -9,8 +9,9 @@ import pytest
 import furiko
 from furiko.cli.main import run
 from furiko.models.errors import InvalidInput
+from furiko.records.check import EngineEntry, Header, Result
 from furiko.records.schema import FOLDER, SCHEMAS
-from furiko.reports import StreamWriter
+from furiko.reports import StreamWriter, open_report
 from furiko.run import ReportNotWritten
 
 DERIVATION = """system = "n-leg"
@@ -22,12 +23,28 @@ links = 2
 MODEL = furiko.to_mjcf(furiko.RodChain([1.0, 0.5])).replace('name="hinge2"', 'name="hinge2" armature="0.01"')
 
 
+def two_results(folder, outcome):
+    """A run that was made up: one result that agrees, one as asked for."""
+    engine = EngineEntry(name="mujoco", formulation="", package="mujoco", version="4.0.0")
+    header = Header(
+        furiko="1", started="2026-01-01T00:00:00+00:00", command="furiko check", profile="quick", seed="", machine={},
+        versions={}, scenes=[], engines=[engine],
+    )  # fmt: skip
+    measured = {"scene": "rods-2", "engine": "mujoco", "measured": 3.0, "allowed": 8.0, "unit": "ε"}
+    with open_report(folder, header) as stream:
+        stream.write(Result(check="accelerations", outcome="agrees", **measured))
+        stream.write(Result(check="energy", outcome=outcome, **measured))
+        stream.finish()
+
+
 @pytest.fixture
 def printed(tmp_path, monkeypatch, capfd):
     """The document that a command prints, run beside a wrong derivation and a model with an armature."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "derivation.toml").write_text(DERIVATION)
     (tmp_path / "model.xml").write_text(MODEL)
+    for name, outcome in (("before", "agrees"), ("after", "differs")):
+        two_results(tmp_path / name, outcome)
 
     def printed(*arguments):
         run([*arguments, "--json"])
@@ -42,6 +59,7 @@ def printed(tmp_path, monkeypatch, capfd):
         ("check-report", ["check", "rods-1", "--profile", "smoke"]),
         ("scenes", ["scenes"]),
         ("engines", ["engines"]),
+        ("diff", ["diff", "before", "after"]),
         ("cache", ["cache"]),
         ("cache", ["cache", "--clear"]),
         ("advise", ["advise", "double-pendulum", "-e", "mujoco", "--error", "1e-3", "--until", "0.5"]),
@@ -74,7 +92,7 @@ def undescribed(document, known, where=""):
 
 
 @pytest.mark.parametrize(
-    "name", ["scenes", "engines", "cache", "grade", "diagnose", "diagnose-several", "audit", "bench"]
+    "name", ["scenes", "engines", "diff", "cache", "grade", "diagnose", "diagnose-several", "audit", "bench"]
 )
 def test_another_document_is_not(name):
     validator = jsonschema.Draft202012Validator(json.loads((FOLDER / f"{name}.json").read_text(encoding="utf-8")))

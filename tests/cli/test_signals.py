@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 import pytest
+from package_rooms import ROOT
 
 # The command line, with a signal to itself when Python imports its k-th module.
 START = """
@@ -20,6 +21,23 @@ def hook(event, _):
 sys.addaudithook(hook)
 from furiko.cli import main
 main()
+"""
+# Ctrl-C when the k-th line of furiko's own is about to run; started as a shell starts it, or as a module.
+AT_A_LINE = """
+import os, signal, sys
+left = int(os.environ["LINES_BEFORE"])
+ours = os.environ["OURS"] + os.sep
+def trace(frame, event, _):
+    global left
+    if not frame.f_code.co_filename.startswith(ours):
+        return None
+    if event == "line":
+        left -= 1
+        if left == 0:
+            sys.settrace(None)
+            os.kill(os.getpid(), signal.SIGINT)
+    return trace
+sys.settrace(trace)
 """
 COMMANDS = {
     "advise": ["advise", "rods-2", "-e", "mujoco", "--budget", "1"],
@@ -63,3 +81,37 @@ def test_each_command_is_ended_by_each_signal(command, number, tmp_path):
         done = ended(command, number, imports, tmp_path)
         assert done.returncode == 128 + number, (imports, done)
         assert done.stderr.strip() == b"" or done.stderr.lstrip().startswith(ENDED), done.stderr.decode()
+
+
+FIRST = 12  # lines of furiko/__init__.py: what comes before them is Python's own to answer
+
+
+def started(folder, as_module, lines):
+    """The command, ended at a line of its own; ``sitecustomize`` is what Python runs before anything else."""
+    (folder / "sitecustomize.py").write_text(AT_A_LINE)
+    script = folder / "furiko"
+    script.write_text("import sys\nfrom furiko.cli import main\nsys.exit(main())\n")
+    path = os.pathsep.join([str(folder), str(ROOT)])
+    here = {"PYTHONPATH": path, "LINES_BEFORE": str(lines), "OURS": str(ROOT / "furiko")}
+    program = ["-m", "furiko"] if as_module else [str(script)]
+    return subprocess.run(
+        [sys.executable, *program, "scenes"], capture_output=True, check=False, timeout=120, env=os.environ | here,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("as_module", [False, True], ids=["script", "module"])
+@pytest.mark.parametrize("lines", [FIRST, 20, 30, 40, 60, 90, 110, 120, 130, 150, 200, 300, 500])
+def test_ctrl_c_at_an_early_line_is_no_traceback(tmp_path, as_module, lines):
+    done = started(tmp_path, as_module, lines)
+    assert done.returncode in (-signal.SIGINT, 128 + signal.SIGINT), done  # to a shell both are 130
+    assert done.stderr.strip() == b"" or done.stderr.lstrip().startswith(ENDED), done.stderr.decode()
+
+
+def test_a_program_that_uses_the_package_keeps_its_ctrl_c():
+    code = "import signal, furiko; print(signal.getsignal(signal.SIGINT) is signal.default_int_handler)"
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, check=True, env=os.environ | {"PYTHONPATH": str(ROOT)},
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )  # fmt: skip
+    assert done.stdout == b"True\n"

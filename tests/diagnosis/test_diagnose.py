@@ -277,3 +277,37 @@ def test_a_limit_that_a_step_runs_into_is_no_fault_of_the_time_steps():
     text = text.replace('<geom name="floor" size="3 3 .2" type="plane"/>', "")
     mujoco = diagnose(model_from_text(text, "arm.xml"), engines={"mujoco": READERS["mujoco"]}).engines["mujoco"]
     assert (mujoco["status"], mujoco["motion"]) == ("agrees", [])
+
+
+PAIR = """<mujoco><worldbody><body name="cart"><joint name="slider" type="slide" axis="1 0 0"/>
+<geom size=".1" mass="{}" contype="0" conaffinity="0"/>
+<body name="pole"><joint name="hinge" axis="0 1 0" range="-90 90"/>
+<geom type="capsule" fromto="0 0 0 0 0 1" size=".05" mass="2" contype="0" conaffinity="0"/></body></body>
+</worldbody></mujoco>"""
+
+
+def test_what_it_should_be_is_called_by_its_own_name(tmp_path):
+    """The file says 3 kg, the other one 1 kg: that "the file says 1 kg" would be false."""
+    for name, mass in (("one.xml", 1), ("three.xml", 3)):
+        (tmp_path / name).write_text(PAIR.format(mass))
+    found = diagnose(tmp_path / "three.xml", tmp_path / "one.xml", ["mujoco"])
+    assert "link 'cart': mass 3 kg, one.xml says 1 kg" in found.findings[0].says
+    assert "without joint limits" in found.headline
+    assert "without: joint limits" in found.brief().splitlines()[-1]
+
+
+@pytest.mark.parametrize(
+    ("statuses", "says"),
+    [
+        ({"a": "failed", "b": "failed"}, "a and b fail with the file"),
+        ({"a": "failed"}, "a fails with the file"),
+        ({"a": "refused", "b": "refused"}, "a and b refuse the file"),
+        ({"a": "agrees", "b": "missing"}, "a does what the file says; b was not asked, for it cannot be imported"),
+    ],
+)
+def test_the_headline_is_a_sentence(statuses, says):
+    found = Diagnosis(
+        model="m.xml", verdict="incomplete", findings=(), notes=(), against="", mechanism=None, spatial={},
+        engines={name: {"status": status} for name, status in statuses.items()},
+    )  # fmt: skip
+    assert found.headline == says

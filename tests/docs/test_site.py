@@ -24,6 +24,12 @@ def test_the_site_is_built_strictly_and_is_whole(tmp_path):
         text = page.read_text(encoding="utf-8")
         loaded = re.findall(r'<(?:script|img|iframe)\b[^>]*?src="([^"]+)"|<link\b[^>]*?href="([^"]+)"', text)
         assert not [url for pair in loaded for url in pair if url.startswith(("http:", "https:", "//"))], page
+        # Each heading has a level, each landmark a name, and what is scrolled can be reached by the keyboard.
+        assert text.count('role="heading"') == text.count('role="heading" aria-level="2"'), page
+        assert "<pre>" not in text, page
+        assert '<div class="table-wrapper' not in text, page
+        drawers = re.findall(r"<aside\b[^>]*>", text)
+        assert all("aria-label=" in drawer for drawer in drawers), page
     formulas = (tmp_path / "theory" / "bounds.html").read_text(encoding="utf-8")
     assert formulas.count("<math") > 50
     text = re.sub(r"<(pre|code|script)\b.*?</\1>", "", formulas, flags=re.DOTALL)

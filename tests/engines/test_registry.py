@@ -48,6 +48,23 @@ def test_the_unrelated_package_called_pinocchio(monkeypatch):
         load_engine("pinocchio-aba", RodChain((1.0,)))
 
 
+def test_an_engine_whose_library_the_system_lacks(monkeypatch):
+    """What a slim container says of Pinocchio: to install it again would not help."""
+
+    def fails(name):
+        raise ImportError("libgomp.so.1: cannot open shared object file: No such file or directory")
+
+    monkeypatch.setattr("furiko.engines.registry.importlib.import_module", fails)
+    with pytest.raises(EngineMissing) as caught:
+        load_engine("pinocchio-aba", RodChain((1.0,)))
+    version = engine_version("pinocchio-aba")
+    assert str(caught.value).startswith(
+        f"pinocchio-aba: pin {version} is installed and cannot be imported: libgomp.so.1"
+    )
+    assert "the system lacks the library libgomp.so.1" in str(caught.value)
+    assert "pip install" not in str(caught.value)
+
+
 def test_versions_without_importing():
     import importlib.metadata
 

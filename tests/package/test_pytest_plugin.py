@@ -43,6 +43,7 @@ def test_a_difference_fails_with_its_cause_and_nothing_else(project):
         *SMOKE, "--furiko-scene", "rods-2", "--furiko-engine", "fake_engines:SignFlipped", "--furiko-engine", "mujoco"
     )
     done.assert_outcomes(failed=1, passed=1)
+    done.stdout.fnmatch_lines(["rods-2 × fake_engines:SignFlipped: 1 of 1 comparison differs."])
     done.stdout.fnmatch_lines(["*cause: *upward vertical*angle-convention*", "*accelerations: differs: *allowed*"])
     assert "Traceback" not in done.stdout.str()
 

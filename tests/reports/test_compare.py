@@ -155,3 +155,25 @@ def test_a_library_of_which_one_run_says_nothing_is_no_other_circumstance(make):
     new = make.report(make.result(), versions={"numpy": "2.1", "scipy": "1.15", "mujoco": "4.0.2"})
     # mujoco is the engine's package: its version is told with the engine, or not at all
     assert compare(old, new).circumstances == (("numpy", "2.0", "2.1"),)
+
+
+def test_the_document_has_each_change_and_counts_the_rest(make):
+    scenes = [make.scene("rods-2"), make.scene("rods-3")]
+    before = make.report(
+        make.result(check="a"), make.result(check="b", measured=2.0), make.result(check="c"),
+        make.result(scene="rods-3"), scenes=scenes, engines=[make.engine(version="4.0.0")],
+    )  # fmt: skip
+    after = make.report(
+        make.result("differs", check="a", measured=900.0, reason="gravity"), make.result(check="b", measured=9.0),
+        make.result(check="c"), scenes=scenes[:1], engines=[make.engine(version="4.1.0")],
+    )  # fmt: skip
+    found = compare(before, after, factor=3.0).document()
+    broke, grew = found.changes
+    assert (broke.change, broke.check, broke.before, broke.after) == ("broke", "a", "agrees", "differs")
+    assert (broke.error_after, broke.reason) == (900.0, "gravity")
+    assert (grew.change, grew.check, grew.error_before, grew.error_after, grew.ratio) == (
+        "error grew", "b", 2.0, 9.0, 4.5,
+    )  # fmt: skip
+    assert (found.unchanged, found.not_looked_at, found.exit_status, found.factor) == (1, 1, 1, 3.0)
+    assert [(one.what, one.before, one.after) for one in found.circumstances] == [("mujoco (mujoco)", "4.0.0", "4.1.0")]
+    assert found.summary == "1 broke; 1 error grew; 1 comparison unchanged."

@@ -130,6 +130,19 @@ def test_outliers_are_found_by_a_vote(make, outcomes, says):
     assert report.outliers == ((says,) if says else ())
 
 
+def test_an_engine_is_not_the_only_one_where_another_differs_in_another_check(make):
+    """Of three engines one differs in accelerations, one in energy: of neither may it be said that the others agree."""
+    wrong = {("one", "accelerations"), ("two", "energy")}
+    results = [
+        make.result("differs" if (engine, check) in wrong else "agrees", engine=engine, check=check)
+        for check in ("accelerations", "energy")
+        for engine in ("one", "two", "three", "four")
+    ]
+    assert make.report(*results).outliers == ()
+    alone = [result for result in results if result.engine != "two"]
+    assert make.report(*alone).outliers == ("Only one differs in rods-2: the equations and the other engines agree.",)
+
+
 @pytest.mark.parametrize("bad", ["differs", "error", "loose"])
 def test_all_agree_is_never_said_beside_anything_else(make, bad):
     results = [make.result(check=str(i)) for i in range(30)]

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from browser import CHROMIUM, LOW_CONTRAST, NAMELESS, Browser
 
 from furiko.derivations.algebra.symbols import symbols_of
 from furiko.derivations.lesson.choices import CHOICES
@@ -45,6 +46,24 @@ def test_it_needs_nothing_but_itself(page):
             assert attributes.get(name, "data:").startswith(("data:", "#")), (tag, attributes)
     assert not page.all("link")
     assert "http" not in "".join(page.text)
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium on this machine")
+def test_it_can_be_read_in_both_themes(tmp_path):
+    path = tmp_path / "lesson.html"
+    path.write_text(lesson(), encoding="utf-8")
+    papers = []
+    with Browser() as browser:
+        for dark in (False, True):
+            browser.view(390, dark=dark)
+            browser.open(path)
+            browser.run("document.querySelectorAll('details').forEach((d) => { d.open = true })")
+            assert browser.run(LOW_CONTRAST) == []
+            assert browser.run(NAMELESS) == []
+            assert browser.run("document.documentElement.scrollWidth") <= 390
+            papers.append(browser.run("getComputedStyle(document.body).backgroundColor"))
+        assert browser.errors == []
+    assert len(set(papers)) == 2
 
 
 def test_thirty_mistakes_with_a_question_before_the_answer(page):
