@@ -10,6 +10,7 @@ from ..dialects.functions import whole_functions
 from ..dialects.letters.by_rule import by_rule
 from ..dialects.letters.indices import number_for_gravity, plain_indices
 from ..dialects.letters.left_sides import without_left_sides
+from ..dialects.markup.pages import from_pages
 from ..dialects.table import translated
 from ..dialects.times import with_times
 from ..dialects.vectors import with_vectors
@@ -30,7 +31,7 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     known_fields(data)
     data = by_rule(without_left_sides(plain_indices(data)))
     count, coordinates = _shape(data)
-
+    data = from_pages(data, count)
     data = with_vectors(_with_positions(rows_of_blocks(whole_functions(data, count, coordinates))), count)
     data, constants = with_times(data)
     data = translated(data, count)
