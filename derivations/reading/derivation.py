@@ -14,6 +14,7 @@ from ..dialects.markup.pages import from_pages
 from ..dialects.table import translated
 from ..dialects.times import with_times
 from ..dialects.vectors import with_vectors
+from ..dialects.worksheets.sessions import from_worksheets
 from .declaration import PRESETS
 from .forces import constraint_forces
 from .forms.hamilton import read_hamilton
@@ -31,7 +32,7 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     known_fields(data)
     data = by_rule(without_left_sides(plain_indices(data)))
     count, coordinates = _shape(data)
-    data = from_pages(data, count)
+    data = from_worksheets(from_pages(data, count))
     data = with_vectors(_with_positions(rows_of_blocks(whole_functions(data, count, coordinates))), count)
     data, constants = with_times(data)
     data = translated(data, count)
