@@ -6,6 +6,7 @@ import re
 from typing import Any
 
 from ..dialects.blocks import rows_of_blocks
+from ..dialects.code.programs import plain_programs
 from ..dialects.functions import whole_functions
 from ..dialects.letters.by_rule import by_rule
 from ..dialects.letters.indices import number_for_gravity, plain_indices
@@ -32,7 +33,7 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     known_fields(data)
     data = by_rule(without_left_sides(plain_indices(data)))
     count, coordinates = _shape(data)
-    data = from_worksheets(from_pages(data, count))
+    data = from_worksheets(from_pages(plain_programs(data, count), count))
     data = with_vectors(_with_positions(rows_of_blocks(whole_functions(data, count, coordinates))), count)
     data, constants = with_times(data)
     data = translated(data, count)
