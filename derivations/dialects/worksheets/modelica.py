@@ -6,6 +6,7 @@ import re
 
 from ....models.errors import InvalidInput
 from ..markup.calls import parts_of
+from ..statements import DOWNWARDS
 from .definitions import Definitions
 
 MODEL = re.compile(
@@ -14,6 +15,7 @@ MODEL = re.compile(
 )
 QUOTES = re.compile(r'"[^"]{0,300}"')
 REMARKS = re.compile(r"//[^\n]*|/\*.{0,1000}?\*/", re.DOTALL)
+BY_OTHERS = re.compile(r"^\s*(?:parameter|constant)\b[^=]*=\s*(?!Modelica\.)[^,]*[A-Za-z](?<![0-9][eE])[^,]*$")
 BOUND = re.compile(
     r"^\s*(?:(?:protected|public)\s+)?(?:Real|[\w.]*SI\.\w+)\s+(?P<name>\w{1,30})\s*(?:\([^()]*\))?\s*=\s*(?P<value>[^=]{1,400})$"
 )
@@ -26,6 +28,8 @@ def from_modelica(text: str) -> tuple[list[str], Definitions] | None:
     found = MODEL.match(text)
     if found is None:
         return None
+    if DOWNWARDS.search(text):
+        raise InvalidInput("g is a negative number here; give it without its sign, and the sign in the rows")
     body = REMARKS.sub(" ", QUOTES.sub(" ", found["rows"]))
     rows = [re.sub(r"\s+", " ", row).strip() for row in parts_of(body, ";")]
     rows = [row for row in rows if row and not re.match(r"annotation\s*\(", row)]
@@ -33,6 +37,9 @@ def from_modelica(text: str) -> tuple[list[str], Definitions] | None:
     if other:
         raise InvalidInput(f"{other[0]!r} in a Modelica model: write out the equations that hold")
     head = REMARKS.sub(" ", QUOTES.sub(" ", found["head"]))
+    by_others = next((m for part in parts_of(head, ";") if (m := BY_OTHERS.match(part))), None)
+    if by_others:
+        raise InvalidInput(f"{by_others[0].strip()[:60]}: a parameter that others say; write it so in the rows")
     bound = (BOUND.match(part) for part in parts_of(head, ";"))
     rows = [*(f"{m['name']} = {m['value'].strip()}" for m in bound if m), *rows]
     if len(rows) > MOST_ROWS or not all(row.count("=") == 1 for row in rows):
