@@ -15,12 +15,14 @@ SIGNS = {"\u2062": " ", "\u2061": " ", "\u2064": " ", "⋅": "*", "·": "*", "×
          "′": "'", "″": "''", "\u2009": " ", ",": " , ", ";": " ; "}  # fmt: skip
 DOTS = {"˙": "'", "\u0307": "'", ".": "'", "¨": "''", "\u0308": "''", "..": "''", "⋅": "'", "∙": "'"}
 LEAVES = re.compile(r"[\w\s.+\-*/=()\[\]',;∂∑∫≈|]{0,40}")
-DEEPEST, MOST_ELEMENTS = 40, 3000
+DEEPEST, MOST_ELEMENTS, MOST_BLOCKS = 40, 3000, 200
 HINT = "give the rows as plain text or LaTeX"
 
 
 def from_mathml(text: str) -> str:
     """The formulas of a text with MathML, a row a line; any other text as it is."""
+    if text.count("math") > MOST_BLOCKS:
+        return text
     blocks = list(BLOCK.finditer(text))
     if not blocks:
         return text

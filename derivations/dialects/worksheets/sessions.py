@@ -47,7 +47,7 @@ INITIAL = re.compile(r"^(?P<left>.{1,60}?)(?:==|=)[^=]*$", re.DOTALL)
 AT_ZERO = re.compile(r"[\[(]\s*0(?:\.0*)?\s*[\])]")
 SYMPY_EQ = re.compile(r"(?<![A-Za-z.])(?:sp\.|sympy\.|sm\.)?(?:Eq|Equality)\s*\(")
 NUMBER = re.compile(r"\s*[0-9]{1,12}(?:\.[0-9]{0,12})?\s*")  # what is right for every value is right for it
-MOST_STATEMENTS = 40
+MOST_STATEMENTS, MOST_LISTS = 40, 3  # lists in one another
 
 
 def from_worksheets(data: dict[str, Any]) -> dict[str, Any]:
@@ -197,16 +197,18 @@ def _used(said: Definitions, rows: Sequence[str]) -> Definitions:
     return dict(reversed(list(kept.items())))
 
 
-def _equations(value: str, kind: str) -> list[str]:
+def _equations(value: str, kind: str, depth: int = 0) -> list[str]:
     """The equations of one statement: alone, in a list, or as a solver is given them; else none."""
+    if depth > MOST_LISTS:
+        return []
     solver = SOLVER.match(value)
     if solver:
         end = closing(value, solver.end() - 1)
         inner = parts_of(value[solver.end() : end], ",")[0] if end > 0 else ""
-        return [one for one in _listed(inner) for one in _equations(one, kind) if not _is_initial(one)]
+        return [one for one in _listed(inner) for one in _equations(one, kind, depth + 1) if not _is_initial(one)]
     listed = _listed(value)
     if len(listed) > 1 or (listed and listed[0] != value.strip()):
-        made = [_equations(part, kind) for part in listed]
+        made = [_equations(part, kind, depth + 1) for part in listed]
         return [one[0] for one in made] if all(len(one) == 1 for one in made) else []
     found = SYMPY_EQ.match(value)
     if found:
@@ -224,7 +226,7 @@ def _listed(value: str) -> list[str]:
     """The parts of {…}, […] or a tuple; the text alone where it is none."""
     bare = value.strip()
     if (
-        bare[:1] in "[{("
+        bare[:1] in ("[", "{", "(")
         and closing(bare, 0) == len(bare) - 1
         and (bare[0] != "(" or len(parts_of(bare[1:-1], ",")) > 1)
     ):

@@ -138,3 +138,11 @@ b = m2 l2 \cos(q1-q2), \qquad s = \sin(q1-q2). \end{gather*}"""
 def test_what_no_row_needs_is_a_statement_of_its_own():
     with pytest.raises(InvalidInput, match="3 rows for 2 angles"):
         two(f"{R1} = 0\n{R2} = 0\nv = l1*q1'^2")
+
+
+@pytest.mark.parametrize(
+    "text", ["{" * 4000 + "q1 == 0" + "}" * 4000, "NDSolve[]", "{} = {q1 == 0, }", "NDSolve[{}, q1]"]
+)
+def test_empty_and_deep_lists_are_refused(text):
+    with pytest.raises(InvalidInput):
+        grade_text(TWO.replace("{}", text))
