@@ -2,6 +2,7 @@
 
 import ast
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
@@ -31,15 +32,26 @@ def module_of(path: Path) -> str:
 MODULES = {module_of(path): path for path in files()}
 
 
-def imports(path: Path, *, lazy: bool = True) -> Iterator[str]:
+@cache
+def parsed(path: Path) -> ast.Module:
+    """The syntax tree of a file of the package."""
+    return ast.parse((ROOT / path).read_text(encoding="utf-8"))
+
+
+@cache
+def imports(path: Path, *, lazy: bool = True) -> tuple[str, ...]:
     """Modules of furiko that a file imports; those of functions as well, unless ``lazy`` is False.
 
     What only type checkers see is no import.
     """
+    return tuple(_imports(path, lazy))
+
+
+def _imports(path: Path, lazy: bool) -> Iterator[str]:
     package = module_of(path).split(".")
     package = package if path.name == "__init__.py" else package[:-1]
     inside = package if package[:1] == ["furiko"] else ["furiko", *package]
-    tree = ast.parse((ROOT / path).read_text(encoding="utf-8"))
+    tree = parsed(path)
     typing_only = {
         id(inner)
         for node in ast.walk(tree)

@@ -65,13 +65,19 @@ class System:
         self.numbers: list[Numbers] = [[point.value(f) for f in x] for x in self.lines]
 
 
-def compare(given: System, right: System) -> Comparison:  # noqa: PLR0911 -- one for each way to differ
+def differs_at_point(given: System, right: Sequence[Numbers]) -> bool:
+    """Whether the accelerations that the right rows have at the point do not satisfy the rows given: a proof."""
+    n = given.space.n
+    solution = solve([row[:n] for row in right], [-row[n] for row in right])
+    if not given.linear or solution is None:
+        return True
+    return any((sum(a * x for a, x in zip(row, solution, strict=False)) + row[n]) % PRIME for row in given.numbers)
+
+
+def compare(given: System, right: System) -> Comparison:
     """Whether the rows given have the solutions that the right rows have."""
     n = given.space.n
-    solution = solve([row[:n] for row in right.numbers], [-row[n] for row in right.numbers])
-    if not given.linear or solution is None:
-        return Comparison("different")
-    if any((sum(a * x for a, x in zip(row, solution, strict=False)) + row[n]) % PRIME for row in given.numbers):
+    if differs_at_point(given, right.numbers):
         return Comparison("different")
     if any(not any(row) for row in given.numbers) or rank([row[:n] for row in given.numbers]) < len(given.numbers):
         return Comparison("different")

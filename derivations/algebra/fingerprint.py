@@ -39,6 +39,13 @@ class RandomPoint:
         self._waves: dict[tuple[int, int], int] = {}
         self._weights: dict[int, int] = {}
 
+    def elsewhere(self, values: Mapping[int, int]) -> RandomPoint:
+        """The point with these values for the symbols at these places."""
+        point = RandomPoint(self.space)
+        point.values = [values.get(place, value) for place, value in enumerate(self.values)]
+        point.turns, point.base = self.turns, self.base
+        return point
+
     def value(self, f: Formula) -> int:
         """The formula at the point; the motion has values too."""
         if len(self._products) + len(self._waves) > MOST_KEPT:

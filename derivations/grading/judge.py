@@ -8,12 +8,13 @@ from dataclasses import dataclass, replace
 
 from flint import fmpq
 
-from ..algebra.equivalence import Comparison, System, compare
-from ..algebra.fingerprint import point_of
+from ..algebra.equivalence import Comparison, Numbers, System, compare, differs_at_point
+from ..algebra.fingerprint import RandomPoint, point_of
 from ..algebra.multiples import is_multiple
 from ..algebra.trig import COS, Formula, Key, Space, constant
 from ..reading.submission import Submission
 from ..steps.derivation import lagrange_rows
+from ..steps.mechanism import Mechanism
 from .hypotheses import MOST_LINKS_FREE, Hypothesis, Said, absent, hypotheses, simple_values, value_words
 
 MOST_FITTED = 4  # links; nobody writes numbers for more
@@ -50,6 +51,7 @@ class Judge:
         rows = [f for _, f in s.rows] if s.lagrangian is None else lagrange_rows(s.space, s.lagrangian)
         self.rows = rows
         self._systems: dict[int, System] = {}
+        self._points: dict[tuple[tuple[int, int], ...], RandomPoint] = {}
 
     def given(self, h: Hypothesis) -> System:
         """The rows of the derivation with what their symbols stand for."""
@@ -64,6 +66,8 @@ class Judge:
         """Whether the derivation is right for one hypothesis."""
         given = self.given(h)
         if self.s.lagrangian is None:
+            if differs_at_point(given, self.right_numbers(h.mechanism)):
+                return DIFFERENT
             return compare(given, h.mechanism.system)
         moved = self.s.mechanism.given if self.s.mechanism else ()  # as given: it has no row
         rows, free, forced = (
@@ -73,6 +77,17 @@ class Judge:
         # T - U has no forces; those that have a potential, as a constant drive F has -F x, may be in U as well
         right = one_scale(self.space, rows, free) or one_scale(self.space, rows, forced)
         return Comparison("same" if right else "different")
+
+    def right_numbers(self, m: Mechanism) -> list[Numbers]:
+        """The right rows at the point; those of a mechanism with values without multiplying the values out."""
+        plain = m.without_values
+        if plain is None or not m.values_are_constant:
+            return m.system.numbers
+        key = tuple((place, self.point.value(m.valued(self.space.symbol(place)))) for place in m.values)
+        point = self._points.get(key)
+        if point is None:
+            point = self._points[key] = self.point.elsewhere(dict(key))
+        return [[point.value(f) for f in row] for row in plain.system.lines]
 
 
 def one_scale(space: Space, rows: Sequence[Formula], right: Sequence[Formula]) -> bool:

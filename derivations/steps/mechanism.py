@@ -132,7 +132,7 @@ class Mechanism:
     def free_rows(self) -> tuple[Formula, ...]:
         """The same without forces: Lagrange's equations of T - U alone."""
         plain = self.without_values
-        if plain is not None and self._values_are_constant():
+        if plain is not None and self.values_are_constant:
             # A constant may be put in before or after the derivatives; the rows without values serve many.
             return tuple(self.valued(row) for row in plain.free_rows)
         return tuple(lagrange_rows(self.space, self.lagrangian))
@@ -158,7 +158,9 @@ class Mechanism:
         )  # no field: replace() must not keep it
         return valued
 
-    def _values_are_constant(self) -> bool:
+    @cached_property
+    def values_are_constant(self) -> bool:
+        """Whether no value moves: none has an angle, a coordinate or a rate in it."""
         s = self.space
         moving = {*range(2 * s.n), *(range(4 * s.n + 2, 5 * s.n + 2) if s.extra else ())}
         return not any(

@@ -34,6 +34,7 @@ class Scheme:
     ``reach``: an error of at most 1 in every acceleration it evaluates, with accelerations that do not depend on the
     state, moves the rates by at most ``reach`` times the step. ``stages``: accelerations that follow on each other.
     ``remembers``: where a step hands on more than angles and rates to the next, what takes several.
+    ``implicit``: a step is solved for, by many evaluations.
     """
 
     name: str
@@ -42,6 +43,7 @@ class Scheme:
     reach: float = 1.0
     stages: int = 1
     remembers: AlphaScheme | None = None
+    implicit: bool = False
 
 
 @dataclass(frozen=True)
@@ -291,18 +293,18 @@ RADIUS = _fraction(9, 10)  # Exudyn's default ρ∞
 
 
 def _alpha(name: str, scheme: AlphaScheme, reach: float = 1.0) -> Scheme:
-    return Scheme(name, 2, scheme.step, reach=reach, stages=3, remembers=scheme)
+    return Scheme(name, 2, scheme.step, reach=reach, stages=3, remembers=scheme, implicit=True)
 
 
 SCHEMES: tuple[Scheme, ...] = (
     Scheme("explicit Euler", 1, explicit_euler),
     Scheme("semi-implicit Euler", 1, semi_implicit_euler),
     Scheme("semi-implicit Euler, angles first", 1, drift_kick_euler),
-    Scheme("implicit Euler", 1, implicit_euler, stages=2),
+    Scheme("implicit Euler", 1, implicit_euler, stages=2, implicit=True),
     Scheme("velocity Verlet with rates half a step late", 1, velocity_verlet, stages=2),
     Tableau(((), (_half,)), (0, 1)).scheme("explicit midpoint", 2),
     Tableau(((), (1,)), (_half, _half)).scheme("Heun's second order", 2),
-    Scheme("implicit midpoint", 2, implicit_midpoint, stages=2),
+    Scheme("implicit midpoint", 2, implicit_midpoint, stages=2, implicit=True),
     _alpha("trapezoidal rule (Newmark β = 1/4, γ = 1/2)", newmark(_half / 2, _half)),
     _alpha("generalized-α, ρ∞ = 0.9", generalized_alpha(RADIUS), reach=2.0),
     _alpha("generalized-α, ρ∞ = 1", generalized_alpha(np.longdouble(1)), reach=2.0),

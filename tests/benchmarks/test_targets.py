@@ -48,6 +48,7 @@ def test_the_status_is_1_where_a_target_is_not_met(script, monkeypatch, capsys, 
     )
 
 
+@pytest.mark.slow
 def test_a_smoke_run_imports_nothing_heavy(script):
     cold_start = import_module("cold_start")
     imported = cold_start.imported_by_smoke()

@@ -70,6 +70,7 @@ def test_velocity_terms_of_the_wrong_sign_have_a_name(diagnosed, engine, words):
     assert ("alone" in finding.says) == bool(words)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("engine", "cause"), [("LowOrderRuns", "first-order-integrator"), ("LateRuns", "stale-derived-state")]
 )
@@ -81,6 +82,7 @@ def test_the_causes_of_a_motion_are_reported(diagnosed, engine, cause):
     assert "trajectory RK4" in found.explains
 
 
+@pytest.mark.slow
 def test_nothing_is_said_of_an_engine_that_agrees():
     assert furiko.check(["rods-2"], ["fake_engines:Right"], use_cache=False).diagnoses == ()
 
@@ -105,6 +107,7 @@ def test_kept_results_come_with_their_diagnosis(tmp_path):
     assert cache.results(task).diagnoses == [found]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", ["LostInEnergy", "HangsInEnergy"])
 def test_a_worker_that_is_lost_leaves_the_causes_that_it_had_found(engine):
     """The worker is gone in the energies: after the accelerations, before the trajectories."""

@@ -33,6 +33,7 @@ class Rod:
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["fake_engines:Right", *ENGINES])
 def test_sound_adapters_conform(name):
     pytest.importorskip(engine_info(name).module or "numpy")
@@ -53,6 +54,7 @@ def test_each_broken_adapter_is_told_what_is_wrong(name):
     assert all(found[before].outcome in ("right", "skipped") for before in earlier), found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", IN_A_PROCESS)
 def test_a_crash_or_a_hang_is_its_step_s_outcome(name):
     step, _ = BROKEN[name]

@@ -4,6 +4,8 @@ import time
 from collections import Counter
 from types import SimpleNamespace
 
+import pytest
+
 from furiko.checks.runner import _Ready
 
 
@@ -53,6 +55,7 @@ def seconds(count):
     return (time.perf_counter() - begun) / count
 
 
+@pytest.mark.slow
 def test_one_of_many_is_taken_as_fast_as_one_of_few():
     # log2(64,000) / log2(1,000) is 1.6; what grows with the number itself would take 64 times as long. Of three tries
     # the fastest, as other programs run beside.

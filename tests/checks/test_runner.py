@@ -69,6 +69,7 @@ def test_an_engine_that_hangs_again_is_given_up():
     assert {result.scene for result in report.results} == set(scenes)
 
 
+@pytest.mark.slow
 def test_an_engine_that_cannot_start_fails_its_cells_alone():
     report = check("CannotStart", "Right")
     assert {result.outcome for result in by_check(report, "CannotStart").values()} == {"error"}

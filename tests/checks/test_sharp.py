@@ -85,6 +85,7 @@ FACTORS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("check", FACTORS)
 def test_no_factor_is_ten_times_too_wide_or_too_narrow(quotients, make_cell, check):
     """What engines that are right really do stays below each factor, and comes within ten times of it."""

@@ -104,6 +104,7 @@ def test_the_action_checks_an_engine_of_the_project(project, python, tmp_path):
     }  # fmt: skip
 
 
+@pytest.mark.slow
 def test_the_action_blames_a_model_file_at_its_line(project, python, tmp_path):
     patterns = "--against rods-3 -e mujoco -- robots/*.xml robots/*.urdf"
     done = act(project, python, tmp_path, command="diagnose", arguments=patterns)

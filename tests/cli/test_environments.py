@@ -61,6 +61,7 @@ def test_two_places_in_one_report_and_the_cache_knows_their_binaries(tmp_path, m
     assert kept() == dict.fromkeys(names, True)
 
 
+@pytest.mark.slow
 def test_an_engine_elsewhere_is_listed_and_tested(tmp_path, monkeypatch, capsys):
     pytest.importorskip("mujoco")
     environment(tmp_path / "venv")

@@ -40,6 +40,7 @@ def test_it_says_so_in_japanese(tmp_path):
     assert "正しい" in grade(tmp_path, RIGHT, "--japanese").stdout
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "text", ["", "system = 1", RIGHT.replace("cos", "__import__"), RIGHT.replace("l1*a1", "l1*(a1", 1)]
 )

@@ -136,6 +136,7 @@ def test_gradescope_gets_its_results(folder):
     assert json.loads((folder / "results.json").read_text())["score"] == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "arguments",
     [["nowhere.toml"], ["in/ann.toml", "in/bob.toml", "--gradescope", "r.json"], ["in", "--system", "n-leg"], []],

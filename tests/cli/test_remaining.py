@@ -27,6 +27,7 @@ def check_run(seed, truth=0.15):
     return said
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(5))
 def test_what_is_shown_is_within_a_factor_of_two(seed):
     said = check_run(seed)

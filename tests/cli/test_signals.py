@@ -46,6 +46,7 @@ def ended(command, number, imports, folder):
     )  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("imports", [1, 2, 3, 4, OURS, 6, 8, 12, 20, 35, 60, 90, 130, 200, 300, 420])
 def test_bench_is_ended_at_every_early_moment(imports, tmp_path):
     done = ended("bench", signal.SIGTERM, imports, tmp_path)

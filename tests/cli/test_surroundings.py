@@ -51,6 +51,7 @@ def test_every_fault_has_its_own_name_or_command_line():
     assert len(FAULTS) >= 60
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "fault",
     [

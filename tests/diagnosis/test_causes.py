@@ -105,6 +105,7 @@ def test_no_engine_that_is_right_is_explained_on_any_tree(seed):
         assert explain(load_engine(name, Shape(tree)), tree) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["mujoco", "exudyn-tree", "exudyn-redundant"])
 def test_no_integrator_that_is_right_is_explained(name):
     for system in (NLegPendulum((1.0, 0.8), (1.0, 0.5)), RodChain((1.0, 0.7, 0.6))):
@@ -113,6 +114,7 @@ def test_no_integrator_that_is_right_is_explained(name):
             assert explain_motion(engine, system, integrator) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("wrong", "cause"),
     [
@@ -130,6 +132,7 @@ def test_a_wrong_engine_without_a_known_cause_is_unexplained(wrong, cause):
     assert [finding.cause for finding in findings] == [cause]
 
 
+@pytest.mark.slow
 def test_what_is_unexplained_is_told_by_term():
     system = RodChain((1.0, 0.8, 0.6))
     (finding,) = explain(fake_engines.ProductOfRates(system), system)
@@ -158,6 +161,7 @@ def test_two_causes_that_fit_equally_are_both_named():
 UNEQUAL = NLegPendulum((1.0, 0.7), (1.3, 0.6))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("row", "column", "change", "cause"),
     [
@@ -203,6 +207,7 @@ def test_pairs_of_length_other_than_one_at_all_joints_are_one_cause():
     assert finding.measured == pytest.approx(1.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("links", [(0,), (1,), (0, 1)])
 def test_a_link_without_mass_is_named(links):
     tree = free(random_tree(np.random.default_rng(5), n=3, kind="chain", bobs=False))
@@ -222,6 +227,7 @@ def test_point_masses_in_place_of_rods_are_one_cause():
     assert finding.cause == "rods-as-point-masses"
 
 
+@pytest.mark.slow
 def test_a_cause_that_holds_in_some_states_only_is_not_named():
     """What the states of the fit show must hold in others: here the first states asked for get another gravity."""
 
@@ -241,6 +247,7 @@ def test_a_cause_that_holds_in_some_states_only_is_not_named():
     assert "gravity" not in [f.cause for f in explain(engine, wanted)]
 
 
+@pytest.mark.slow
 def test_both_of_two_faults_are_named():
     total = score_of_pairs(range(3))
     assert total.named == 3, total.missed

@@ -188,6 +188,7 @@ def test_bad_words_for_what_is_wanted(against):
         diagnose(model_from_text(ACROBOT, "arm.xml"), against)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("isolated", [False, True])
 @pytest.mark.parametrize("names", [(), ("mujoco",), ("exudyn-tree", "mujoco")])
 def test_only_the_given_engines_are_asked(names, isolated):

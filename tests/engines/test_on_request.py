@@ -31,6 +31,7 @@ def test_its_adapter_conforms(name):
     assert [step for step in steps(installed(name)) if step.outcome == "wrong"] == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", names_on_request())
 @pytest.mark.parametrize("scene", SCENES, ids=lambda scene: scene.name)
 def test_it_agrees_with_what_is_proven(make_cell, name, scene):

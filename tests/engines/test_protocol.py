@@ -32,6 +32,7 @@ def test_its_missing_questions_are_refused_with_its_reason(example):
         engine.energy([0.0, 0.0], [0.0, 0.0])
 
 
+@pytest.mark.slow
 def test_it_is_checked_from_the_folder_where_it_is_and_what_it_lacks_is_skipped(tmp_path):
     _, _, code = protocol.__doc__.partition("::\n\n")
     (tmp_path / "my_adapter.py").write_text(textwrap.dedent(code), encoding="utf-8")

@@ -29,6 +29,7 @@ for system in RodChain((1.0, 0.8, 0.6)), NLegPendulum((1.0, 0.8), (1.0, 0.3)):
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", list(ENGINES))
 def test_nothing_printed_and_nothing_written(name, tmp_path):
     ran = subprocess.run(

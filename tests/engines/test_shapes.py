@@ -142,6 +142,7 @@ def test_arguments_are_copies_and_so_are_answers():
     assert (rates == 3.0).all()
 
 
+@pytest.mark.slow
 def test_an_engine_that_changes_its_arguments_hides_nothing(run_cell):
     """One that empties them and gives half as much kinetic energy again agreed, since theory then saw zeros too."""
     assert run_cell("fake_engines:EmptiesItsArguments")["energy"].outcome == "differs"

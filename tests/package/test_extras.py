@@ -8,7 +8,7 @@ import sys
 import tomllib
 
 import pytest
-from package_rooms import MODULES, ROOT
+from package_rooms import MODULES, ROOT, parsed
 
 from furiko.models.errors import EXTRAS
 
@@ -108,7 +108,7 @@ def test_a_check_whose_library_is_missing_is_skipped_with_the_reason(run_cell, m
 
 @pytest.mark.parametrize("module", sorted(MODULES))
 def test_what_only_posix_has_is_imported_under_a_condition(module):
-    tree = ast.parse((ROOT / MODULES[module]).read_text(encoding="utf-8"))
+    tree = parsed(MODULES[module])
     at_the_top = [node for node in tree.body if isinstance(node, ast.Import | ast.ImportFrom)]
     named = {a.name for node in at_the_top if isinstance(node, ast.Import) for a in node.names}
     named |= {node.module for node in at_the_top if isinstance(node, ast.ImportFrom)}

@@ -3,7 +3,7 @@
 import ast
 
 import pytest
-from package_rooms import MODULES, ROOT, circles, folder, imports, picture, room
+from package_rooms import MODULES, ROOT, circles, folder, imports, parsed, picture, room
 
 # The files beside the folders of dialects, which these build on
 DIALECTS = (
@@ -144,7 +144,7 @@ def test_no_file_imports_itself_by_way_of_others():
 
 @pytest.mark.parametrize("module", sorted(MODULES))
 def test_inside_the_package_imports_are_relative_and_engines_are_adapters_alone(module):
-    tree = ast.parse((ROOT / MODULES[module]).read_text(encoding="utf-8"))
+    tree = parsed(MODULES[module])
     named = {
         name.split(".")[0]
         for node in ast.walk(tree)

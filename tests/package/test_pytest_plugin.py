@@ -28,6 +28,7 @@ def project(pytester, monkeypatch):
 SMOKE = ("--furiko", "--furiko-profile", "smoke")
 
 
+@pytest.mark.slow
 def test_scenes_and_engines_are_tests(project):
     done = project.runpytest_subprocess(
         *SMOKE, "--furiko-scene", "rods-[12]", "--furiko-engine", "mujoco", "--furiko-engine", "pinocchio-aba", "-v"
@@ -36,6 +37,7 @@ def test_scenes_and_engines_are_tests(project):
     done.stdout.fnmatch_lines(["furiko::rods-1-mujoco PASSED*", "furiko::rods-2-pinocchio-aba PASSED*"])
 
 
+@pytest.mark.slow
 def test_a_difference_fails_with_its_cause_and_nothing_else(project):
     done = project.runpytest_subprocess(
         *SMOKE, "--furiko-scene", "rods-2", "--furiko-engine", "fake_engines:SignFlipped", "--furiko-engine", "mujoco"

@@ -14,6 +14,7 @@ PARTS = ("derivatives ∂a/∂q", "derivatives ∂a/∂v", "derivatives M⁻¹")
 SCENES = ["double-pendulum", "n-leg-3-mass-ratio", "rods-3-length-ratio", "rods-5-no-gravity", "rods-10"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", SCENES)
 @pytest.mark.parametrize("engine", ["fake_engines:Right", "pinocchio-aba", "pinocchio-aba-mjcf"])
 def test_right_derivatives_agree(run_cell, engine, scene):
@@ -23,6 +24,7 @@ def test_right_derivatives_agree(run_cell, engine, scene):
     assert {part: results[part].outcome for part in PARTS} == dict.fromkeys(PARTS, "agrees"), results
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", SCENES)
 @pytest.mark.parametrize("engine", ["mujoco", "pinocchio-crba"])
 def test_an_engine_that_offers_an_inverse_alone_is_asked_for_that(run_cell, engine, scene):
@@ -31,6 +33,7 @@ def test_an_engine_that_offers_an_inverse_alone_is_asked_for_that(run_cell, engi
     assert results[PARTS[0]].reason == engine_info(engine).lacks["derivatives"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("engine", "causes"),
     [

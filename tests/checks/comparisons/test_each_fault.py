@@ -9,6 +9,7 @@ def outcomes(results):
     return {check: result.outcome for check, result in results.items()}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", ["double-pendulum", "two-legs", "n-leg-3-mass-ratio", "rods-3", "rods-5-no-gravity"])
 def test_the_right_engine_agrees_in_everything(run_cell, scene):
     results = run_cell("fake_engines:Right", scene)
@@ -46,6 +47,7 @@ def test_a_fault_is_found_by_the_check_that_looks_there_and_by_no_other(run_cell
         assert results[check].reason, check
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("engine", "says"),
     [
@@ -66,6 +68,7 @@ def test_a_bad_answer_is_an_error_of_its_own_check(run_cell, engine, says):
     assert set(others.values()) == {"agrees"}
 
 
+@pytest.mark.slow
 def test_a_matrix_is_told_entry_by_entry(run_cell):
     """The fake engine adds 1e-10 to the torque of angle 2 for a unit acceleration of angle 1."""
     found = entries_in(run_cell("fake_engines:HeavyEntry", "n-leg-3")["terms M"].details)

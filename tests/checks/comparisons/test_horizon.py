@@ -44,6 +44,7 @@ def test_divergence_times_of_the_prototype(make_cell, scene, engine, name, step,
     assert found.miss() <= horizon.EXPLAINED
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("engine", "name"), [("exudyn-tree", "GeneralizedAlpha"), ("exudyn-redundant", "TrapezoidalIndex2")]
 )
@@ -55,6 +56,7 @@ def test_schemes_with_a_memory_are_predicted_too(make_cell, engine, name):
     assert abs(predicted / measured - 1) < 0.03
 
 
+@pytest.mark.slow
 def test_a_run_that_parts_earlier_than_its_steps_explain_differs(make_cell, monkeypatch):
     monkeypatch.setattr(horizon, "STEPS", (5e-3,))
     monkeypatch.setattr(horizon, "LONGEST", 3.0)

@@ -15,6 +15,7 @@ def outcomes(cell):
     return {result.check.removeprefix("invariant "): result.outcome for result in invariants.compare(cell)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", [name for name, info in ENGINES.items() if info.integrators])
 @pytest.mark.parametrize("scene", ["two-legs", "rods-3"])
 def test_every_integrator_keeps_what_is_to_be_kept(make_cell, engine, scene):
@@ -23,6 +24,7 @@ def test_every_integrator_keeps_what_is_to_be_kept(make_cell, engine, scene):
     assert set(found.values()) == {"agrees"}, found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("fake", "differs"),
     [

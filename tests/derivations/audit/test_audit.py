@@ -29,6 +29,7 @@ def by_number(document, number):
     return next(e for e in EQUATIONS if (e.document, e.number) == (document, number))
 
 
+@pytest.mark.slow
 def test_every_equation_is_judged(result):
     assert len(result.equations) == 57
     assert [(j.document, j.number) for j in result.equations] == [(e.document, e.number) for e in EQUATIONS]

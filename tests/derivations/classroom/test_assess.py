@@ -162,6 +162,7 @@ def test_a_problem_that_is_none_is_refused(wrong, says):
         parse_problem(wrong)
 
 
+@pytest.mark.slow
 def test_a_process_that_was_ended_is_started_again(tmp_path):
     ann = tmp_path / "ann.toml"
     ann.write_text(RIGHT)

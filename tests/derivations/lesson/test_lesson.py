@@ -38,6 +38,7 @@ def page():
     return Page(lesson())
 
 
+@pytest.mark.slow
 def test_it_needs_nothing_but_itself(page):
     for tag, attributes in page.tags:
         for name in ("src", "href"):

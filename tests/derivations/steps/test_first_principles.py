@@ -16,9 +16,11 @@ from handwritten import (
     toml,
 )
 
+from furiko.derivations.algebra.fingerprint import point_of
 from furiko.derivations.algebra.multiples import is_multiple
 from furiko.derivations.algebra.symbols import KINDS, symbols_of
-from furiko.derivations.algebra.trig import NOTHING, Space
+from furiko.derivations.algebra.trig import NOTHING, Space, constant
+from furiko.derivations.grading.judge import Judge
 from furiko.derivations.reading.submission import parse_submission
 from furiko.derivations.steps.conventions import Convention
 from furiko.derivations.steps.derivation import _newton_side, _row, correct_derivation, lagrange_rows
@@ -120,12 +122,16 @@ def test_a_motion_keeps_the_small_swings_period():
 def test_values_put_into_the_rows_are_values_put_into_the_energies(kind, weightless):
     space = Space.general(2)
     values = {space.names.index("m2"): space.m(0).times(3), space.names.index("l1"): space.l(1) * space.g}
+    values[space.names.index("l2")] = constant(2)  # in the one before as well
     plain = family(kind, space, Convention(relative=True))
     from_rows = plain.with_values(values)
     from_energies = replace(plain, values=values)  # which knows no rows without values
     if weightless:
         from_rows, from_energies = (replace(m, weight=NOTHING) for m in (from_rows, from_energies))
     assert from_rows.rows == from_energies.rows
+    judge = Judge(parse_submission(toml("n-leg", SHIKI_1_9)))
+    judge.space, judge.point = space, point_of(space)
+    assert judge.right_numbers(from_rows) == from_energies.system.numbers
     moving = {space.names.index("m2"): space.m(0) * space.cos({0: 1})}  # of no meaning: yet the energies decide
     assert plain.with_values(moving).rows == replace(plain, values=moving).rows
     assert plain.with_values(moving).rows != tuple(space.replace(row, moving) for row in plain.rows)

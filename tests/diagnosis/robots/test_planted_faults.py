@@ -40,6 +40,7 @@ def one_of_each(asked, link):
     return [[*places.values()][link % len(places)] for places in chosen.values()]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", FAULTS)
 def test_a_fault_in_each_number_of_an_arm_is_named(engine):
     asked = Asked(FILES / "arm-7.xml", engine)

@@ -60,6 +60,7 @@ def test_one_that_was_cut_off_is_not_whole_and_is_made_anew(made):
     assert not (folder / "left over").exists()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("content", ["", "[]", "{}", '{"format": 2}', '{"format": 1, "python": 3}'])
 def test_a_marker_that_is_none_counts_for_nothing(made, content):
     found = ensure("mujoco", "3.3.7", "json")

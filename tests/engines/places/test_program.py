@@ -69,6 +69,7 @@ def test_what_a_program_says_of_itself(in_c):
     assert engine_version(in_c) == "1.0"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("ask", "words"),
     [
@@ -163,6 +164,7 @@ def test_it_may_not_take_more_memory_than_it_is_given(tmp_path, monkeypatch):
         engine.accelerations(*STATES)
 
 
+@pytest.mark.slow
 def test_one_that_hangs_and_one_that_dies_cost_their_own_cells_alone(tmp_path):
     hangs = str(program(tmp_path / "hangs", "serve(lambda head, rest: time.sleep(600))\n"))
     dies = str(program(tmp_path / "dies", "serve(lambda head, rest: os.kill(os.getpid(), 6))\n"))

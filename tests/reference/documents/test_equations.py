@@ -159,6 +159,7 @@ def values_for(equation, n, seed=1):
     return takeno_values(n, seed, equal=equation.number == "19")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("equation", "n"), list(cases()))
 def test_equation_holds(equation, n):
     values = values_for(equation, n)

@@ -15,6 +15,7 @@ OWN = math.sqrt(1.5 * 9.81 / 0.7)  # √(3g/2l)
 DOUBLE = NLegPendulum((1.0, 1.0), (1.0, 1.0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("factor", [1 + 1e-6, 1.001, 1.5, 10.0, -1.2])
 def test_a_rod_goes_over_the_top_when_elliptic_functions_say(factor):
     """ω² = ω0² - 4 (3g/2l) sin²(θ/2): from hanging to the top it takes (2/ω0) K(m), √m = 2 √(3g/2l) / ω0."""
@@ -57,6 +58,7 @@ def test_a_start_beside_the_upright_counts_only_what_passes_it():
         assert 0.1 < furiko.flip_times(ROD, [theta], [omega], 1.0).times < 0.6
 
 
+@pytest.mark.slow
 def test_energy_forbids_flips():
     """At rest the energy is -mgl (2 cos θ1 + cos θ2), and -mgl at least where the second link is upright."""
     theta = np.random.default_rng(0).uniform(-3.1, 3.1, (600, 2))
@@ -68,6 +70,7 @@ def test_energy_forbids_flips():
     assert set(found.link[np.isfinite(found.times)].tolist()) == {0, 1}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("system", [DOUBLE, RodChain((0.5, 0.8, 0.3))], ids=lambda s: s.kind)
 def test_between_two_points_of_a_fine_motion(system):
     theta, n = np.random.default_rng(1).uniform(-3, 3, (60, system.n)), system.n

@@ -23,6 +23,7 @@ def own_rate(system):
     return math.sqrt(1.5 * system.gravity / system.lengths[0])
 
 
+@pytest.mark.slow
 def test_one_rod_along_its_separatrix():
     """θ = 2 gd(τ), τ = √(3g/2l) t: the variation u'' + (2 sech²τ - 1) u = 0 has the solutions sech τ and
     (sinh τ + τ sech τ)/2, with values and derivatives (1, 0) and (0, 1) at τ = 0."""

@@ -20,6 +20,7 @@ LEGS = NLegPendulum((1.0, 0.8, 0.5, 0.3), (1.0, 0.5, 2.0, 0.1))
 EPS = np.finfo(float).eps
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("theta", "omega", "growth"),
     [(0.3, 0, 1), (3.1, 0, 50), (-1, 4, 1), (0.5, 25, 1), (0.5, -25, 1), (1e-6, 0, 1), (100, 0.2, 1)],
@@ -35,6 +36,7 @@ def test_one_rod_is_the_elliptic_pendulum(theta, omega, growth):
     assert np.abs(found.omega[:, 0] - true_omega).max() <= allowed * np.abs(true_omega).max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [1e-14, 1e-10, 1e-6, 1e-3])
 @pytest.mark.parametrize("system", [RODS, LEGS], ids=lambda s: s.kind)
 def test_matches_the_literal_equations_in_quadruple_precision(system, tolerance):
@@ -181,6 +183,7 @@ def test_a_member_of_an_ensemble_depends_on_no_other(system):
     np.testing.assert_array_equal(found.theta[3:5], few.theta)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["rods", "legs"])
 def test_every_start_may_have_its_own_system(kind):
     rng = np.random.default_rng(2)

@@ -125,6 +125,7 @@ STATES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("state", STATES)
 @pytest.mark.parametrize("n", [1, 2, 3, 10, 100])
 @pytest.mark.parametrize("ratio", [1, 1e3])
@@ -158,6 +159,7 @@ def test_a_thousand_rods_are_exact_to_rounding(ratio, state):
     assert max(errors.values()) <= ALLOWED, errors
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("state", STATES)
 @pytest.mark.parametrize("n", [2, 3, 9, 60, 1001])
 @pytest.mark.parametrize("heavy", [1, 1e6])

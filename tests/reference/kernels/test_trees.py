@@ -59,6 +59,7 @@ def held(form, mechanism, states):
         assert backward <= ALLOWED
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize("seed", range(8))
 def test_trees_with_every_joint_are_exact_to_rounding(seed, form):

@@ -132,6 +132,7 @@ def test_a_start_as_wide_as_asked_holds_the_motions_of_all_its_states():
     assert found.radius[-1] < 100 * radius
 
 
+@pytest.mark.slow
 def test_directions_and_balls_alone_prove_the_same(monkeypatch):
     alone = furiko.enclose(DOUBLE, START, REST, [0.0, 1.0])
     assert alone.bits > 100

@@ -108,6 +108,7 @@ def test_the_acrobot_is_the_textbooks_arm():
     assert holds(ACROBOT, acrobot_accelerations)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("module", "name", "old", "new"),
     [

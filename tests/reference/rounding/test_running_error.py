@@ -126,6 +126,7 @@ def worst(moments):
 QUANTITIES = ("residual", "joint forces", "M", "C", "G", "velocity", "potential energy")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("moments", "quantity"),
     [(moments, name) for moments in ("hinge", "tree") for name in QUANTITIES] + [("hinge", "kinetic energy")],

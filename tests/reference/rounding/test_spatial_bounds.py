@@ -83,6 +83,7 @@ def both(mechanism, q, v, torque):
     yield truth, spatial_engines.Pinocchio(mechanism).terms(q, v, torque, truth.passive.float)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
 @pytest.mark.parametrize("seed", range(6))
 def test_engines_that_are_right_are_within(kind, seed):

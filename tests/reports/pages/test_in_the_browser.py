@@ -290,6 +290,7 @@ def test_every_equation_of_the_documents_is_typeset_whole(page, make):
         assert shown.run(f"{SIGNS}({said})") == shown.run(f"{SIGNS}({equation.formula!r})"), equation.formula
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", HOSTILE)
 def test_hostile_text_stays_text_when_it_is_looked_at(make, page, text):
     shown = page(everywhere(make, text, "differs"))

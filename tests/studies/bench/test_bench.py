@@ -432,6 +432,7 @@ def test_kept_ends_of_a_benchmark_are_computed_again():
 # --- causes
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("engine", "causes"),
     [

@@ -148,6 +148,7 @@ def test_rungs_are_half_octaves_of_one_swing():
     assert step(TOP - 2, 1.0) == pytest.approx(0.5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("engine", "failure"),
     [("Resets", "silent reset"), ("ComesApart", "joints come apart"), ("EndsInNaN", "NaN")],

@@ -53,6 +53,7 @@ def test_the_frontier_is_where_the_engine_breaks_and_says_how(engine, failure):
     assert {f.failure for f in found.failures} == {failure}
 
 
+@pytest.mark.slow
 def test_a_hang_is_ended_and_named():
     _, frontier = one("Hangs", timeout=2.0)
     assert (frontier.holds, frontier.fails, frontier.failure) == (HOLDS, FAILS, "hang")
@@ -205,6 +206,7 @@ def test_killed_again_and_again_the_table_is_the_same(times, tmp_path):
     assert set(names) == {key(r) for r in read_stream(tmp_path / "whole" / STREAM).results}  # nothing lost
 
 
+@pytest.mark.slow
 def test_quiet_in_a_pipe_and_one_document_of_json(tmp_path):
     done = subprocess.run(
         [sys.executable, "-m", "furiko", "stress", "--axis", "long-legs", "-e", "document", "--out", "out", "--json"],
@@ -219,6 +221,7 @@ def test_quiet_in_a_pipe_and_one_document_of_json(tmp_path):
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["chain.html", "stress.html", STREAM]
 
 
+@pytest.mark.slow
 def test_a_person_is_told_the_frontiers(tmp_path):
     arguments = ["--axis", "long-rods", "--axis", "condition", "-e", "document", "-e", "mujoco", "--out", "out"]
     done = subprocess.run(
@@ -239,6 +242,7 @@ def test_a_person_is_told_the_frontiers(tmp_path):
     assert "page: out/stress.html" in done.stdout
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
