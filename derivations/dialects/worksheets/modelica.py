@@ -15,7 +15,7 @@ MODEL = re.compile(
 )
 QUOTES = re.compile(r'"[^"]{0,300}"')
 REMARKS = re.compile(r"//[^\n]*|/\*.{0,1000}?\*/", re.DOTALL)
-BY_OTHERS = re.compile(r"^\s*(?:parameter|constant)\b[^=]*=\s*(?!Modelica\.)[^,]*[A-Za-z](?<![0-9][eE])[^,]*$")
+BY_OTHERS = re.compile(r"^\s*(?:parameter|constant)\b[^=]*=(?!\s*Modelica\.)[^,]*[A-Za-z](?<![0-9][eE])[^,]*$")
 BOUND = re.compile(
     r"^\s*(?:(?:protected|public)\s+)?(?:Real|[\w.]*SI\.\w+)\s+(?P<name>\w{1,30})\s*(?:\([^()]*\))?\s*=\s*(?P<value>[^=]{1,400})$"
 )
