@@ -146,3 +146,10 @@ def test_what_no_row_needs_is_a_statement_of_its_own():
 def test_empty_and_deep_lists_are_refused(text):
     with pytest.raises(InvalidInput):
         grade_text(TWO.replace("{}", text))
+
+
+def test_gravity_of_modelicas_own_constants():
+    head = "  parameter Real g = Modelica.Constants.g_n;\n  constant Real k = 1e3;\n"
+    rows = f"  {of_modelica(R1)} = 0;\n  {{}} = 0;\n"
+    assert two(MODEL.format(head, "", rows.format(of_modelica(R2)))) == "correct"
+    assert two(MODEL.format(head, "", rows.format(of_modelica(W2)))) == "wrong"
