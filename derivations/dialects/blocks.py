@@ -70,6 +70,10 @@ COUNTED = re.compile(r"(?m)^\s*\(?(?P<k>[0-9]{1,2})\)\s+(?=\S)")
 NUMBER = re.compile(r"(?:(?P<far>\s{2,}|\t|\\q?quad\s*)|\s)\((?:[0-9]{1,3}(?:\.[0-9]{1,3})?[a-z]?)\)\s*$")
 OPERATOR = re.compile(r"(?:[-+*/=^−·×(\[{]|\\(?:cdot|times|left\s*\())\s*$")  # what stands behind it is an operand
 MODEL = re.compile(r"^\s*(?:partial\s+)?model\s+\w+.*?\bequation\b(?P<rows>.*?)\bend\s+\w+\s*;?\s*$", re.DOTALL)
+# A matrix keeps the marks between its entries
+IN_MATRIX_OR_MARK = re.compile(
+    r"\\begin\s*\{(?P<of>[pbBvV]?(?:small)?matrix|array)\}.*?\\end\s*\{(?P=of)\}|&", re.DOTALL
+)
 MOST_ROWS = 16
 MOST_NAMED = 60
 
@@ -213,6 +217,16 @@ def _pieces(line: str) -> list[str]:
     return [line]
 
 
+def all_pieces(line: str) -> list[str]:
+    """The equations between row ends, wide blanks and line ends, what letters are among them; the line where unsure."""
+    if "\\" in line:
+        line = SYSTEM.sub(_of_system, _without_remarks(line))
+    pieces = [piece for row in _at_row_ends(line) for piece in _at_spaces(row)] if "\\" in line else _at_lines(line)
+    pieces = [piece for piece in pieces if piece.strip(" $.,;&\n")]
+    sure = all(piece.count("=") == 1 and not WHERE.match(piece) for piece in pieces)
+    return pieces if sure and len(pieces) > 1 else [line]
+
+
 def _at_row_ends(line: str) -> list[str]:
     pieces = [re.sub(r"\\(?:begin|end)\s*\{(?:align|gather|eqnarray|equation|multline|aligned|gathered|split|cases"
                      r"|flalign|alignat)\*?\}"
@@ -224,7 +238,7 @@ def _at_row_ends(line: str) -> list[str]:
             rows[-1] += " " + re.sub(r"^((?:\s|&)*)", r"\1", piece)
         else:
             rows.append(piece)
-    return [re.sub(r"&", " ", row) for row in rows]
+    return [IN_MATRIX_OR_MARK.sub(lambda found: found[0] if found[0] != "&" else " ", row) for row in rows]
 
 
 def _is_done(row: str) -> bool:

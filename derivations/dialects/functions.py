@@ -37,7 +37,7 @@ FUNCTIONS = (
     "pi",
 )
 ARRAY = re.compile(r"^(?:np\.|numpy\.|jnp\.)?(?:array|asarray|hstack|concatenate|r_|vec!|list|tuple)?\s*(?=[\[(])")
-TIMES = ("t", "time", "_", "_t")  # what solvers give besides the state
+TIMES = ("t", "time", "_", "_t", "~")  # what solvers give besides the state
 ADVICE = "return the rates and the accelerations in the state's order, as in return w1, w2, a1, a2"
 
 
@@ -79,6 +79,9 @@ class _Follower:
             self.put_entry(entry["name"], int(entry["k"]) - first, self.value(text))
             return
         names = _names(target)
+        if self.is_quantity_of(target.strip(), text):  # m1 = par(1): the name is what matters
+            self.here.pop(target.strip(), None)
+            return
         if len(names) == 1 and not target.strip().endswith(","):
             self.put(names[0], self.value(text))
             return
@@ -93,6 +96,12 @@ class _Follower:
             raise InvalidInput(f"{target[:40]!r}: {len(names)} names, and not as many values behind the equals sign")
         for name, one in zip(names, value, strict=True):
             self.put(name, one)
+
+    def is_quantity_of(self, name: str, text: str) -> bool:
+        """Whether a name that says nothing of the state yet is an entry of a parameter besides the state."""
+        found = re.fullmatch(r"(?P<of>\w{1,24})\s*[\[(]\s*\d{1,2}\s*[\])]", text.strip())
+        is_new = re.fullmatch(r"[A-Za-z]\w{0,24}", name) is not None and name not in (*self.labels.values(), *self.here)
+        return is_new and found is not None and found["of"] in self.parameters and not self.is_state(found["of"])
 
     def put_entry(self, name: str, at: int, value: Any) -> None:
         """dydx[0] = …: the entries of a list that is filled one after another."""
@@ -161,7 +170,7 @@ class _Follower:
 
     def expression(self, text: str) -> str:
         """The text with what its names stand for."""
-        text = re.sub(r"\.(?=[*/^])", "", text)
+        text = re.sub(r"\.(?=[*/^])", "", text).replace("\\", "⧵")  # MATLAB's division from the left
         text = re.sub(r"(?<=[\w)\]])\.dot\s*\(", "@(", text)
         return WORDS.sub(lambda found: self.written(self.word(found)), text)
 

@@ -30,7 +30,7 @@ OF_TIME = re.compile(
 )
 NUMBER = re.compile(r"\s*([0-9]{1,3}(?:\.[0-9]{0,8})?)\s*;?\s*(?:m\s*/\s*s(?:\^2|²|\*\*2))?\s*$")
 WHERE = re.compile(
-    r"(?:[,;.]|\\[,;]|\\q?quad|\s){0,20}(?:\\q?quad|\\(?:text|mbox|textrm|mathrm)\s*\{\s*(?:where|with|mit|wobei|où|avec|ただし)\s*:?\s*\}|[,;]\s*(?:where|with))"
+    r"(?:[,;.]|\\[,;]|\\q?quad|\s){0,20}(?:\\q?quad|\\(?:text|mbox|textrm|mathrm)\s*\{\s*(?:where|with|mit|wobei|où|avec|ただし)(?:\s[^{}$=\\]{0,60})?\s*:?\s*\}|[,;]\s*(?:where|with))"
     r"(?:\\[,; ]|\\q?quad|\s|,){0,20}(?P<name>[^=<>&]{1,30}?)\s*(?::=|=|\\equiv|\\coloneqq)\s*(?P<value>[^=]+)$"
 )
 

@@ -6,10 +6,16 @@ import re
 from typing import Any
 
 from ..dialects.blocks import rows_of_blocks
+from ..dialects.code.programs import plain_programs
 from ..dialects.functions import whole_functions
+from ..dialects.letters.by_rule import by_rule
+from ..dialects.letters.indices import number_for_gravity, plain_indices
+from ..dialects.letters.left_sides import without_left_sides
+from ..dialects.markup.pages import from_pages
 from ..dialects.table import translated
 from ..dialects.times import with_times
 from ..dialects.vectors import with_vectors
+from ..dialects.worksheets.sessions import from_worksheets
 from .declaration import PRESETS
 from .forces import constraint_forces
 from .forms.hamilton import read_hamilton
@@ -25,10 +31,13 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     Raises InvalidInput, with the place, where it is none.
     """
     known_fields(data)
+    data = by_rule(without_left_sides(plain_indices(data)))
     count, coordinates = _shape(data)
+    data = from_worksheets(from_pages(plain_programs(data, count), count))
     data = with_vectors(_with_positions(rows_of_blocks(whole_functions(data, count, coordinates))), count)
     data, constants = with_times(data)
     data = translated(data, count)
+    number_for_gravity(data)
     forces = constraint_forces(data, count)
     reader = opened(data, slashes, [*constants, *forces], forces=forces)
     if is_staged(data, reader.evaluation.space.n):

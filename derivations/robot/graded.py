@@ -86,14 +86,26 @@ def _joined(d: RobotDerivation, plane: Plane, k: int, formula: Callable[[str, in
             way -= joint.ref  # its coordinate is the distance, if there is nothing else
         if not carrier.turns and way:
             return None
-    if centre is None or way is None:
+    slack = _slack(d, plane, k)
+    if centre is None or way is None or slack is None:
         return None
     return Joined(
         joint.name, body.parent, along, formula("mass", k, body.mass), NOTHING, formula("centre", k, centre),
         formula("inertia", k, body.inertia), formula("length", body.parent, way) if way else NOTHING,
-        formula("stiffness", k, joint.stiffness), _decimal(joint.springref),
+        formula("stiffness", k, joint.stiffness), _decimal(slack),
         NOTHING if d.is_lagrangian else formula("damping", k, joint.damping),
     )  # fmt: skip
+
+
+def _slack(d: RobotDerivation, plane: Plane, k: int) -> float | None:
+    """Where the joint's spring is slack, in the author's coordinates; None where these begin elsewhere."""
+    joint, convention, said = plane.bodies[k].joint, d.coordinates.convention, d.coordinates
+    if convention is None or not plane.bodies[k].turns or not joint.stiffness:
+        return joint.springref
+    counted = [k] if convention.relative else plane.hinges(k)[-2:]
+    if joint.ref or any(said.quarters[j] or said.rest[j] for j in counted):
+        return None
+    return joint.springref * convention.sense(k) * plane.bodies[k].sense
 
 
 def _decimal(value: float) -> Formula:

@@ -132,11 +132,14 @@ class Declared:
         return convention.direction(hinges, self.space.n) if hinges else Direction((0,) * self.space.n)
 
     def own_motion(self, k: int, convention: Convention) -> Form:
-        """How far joint k itself has moved, in the coordinates."""
+        """How far joint k itself has moved, in the coordinates, and in the sense in which its own one is counted.
+
+        So a drive along an angle, and a rest that is a value of the angle, mean the same whatever the sense is.
+        """
         if self.bodies[k].slide is not None or convention.relative:
             return {k: 1}
         before = self._hinges(k)[:-1]
-        return {k: convention.sense(k)} | ({before[-1]: -convention.sense(before[-1])} if before else {})
+        return {k: 1} | ({before[-1]: -convention.sense(k) * convention.sense(before[-1])} if before else {})
 
     def _place(self, k: int, convention: Convention) -> Body:
         way: list[Segment] = []

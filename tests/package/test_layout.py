@@ -5,6 +5,11 @@ import ast
 import pytest
 from package_rooms import MODULES, ROOT, circles, folder, imports, parsed, picture, room
 
+# The files beside the folders of dialects, which these build on
+DIALECTS = (
+    "blocks", "bracketed", "functions", "given_names", "lines", "names", "pasted", "programs", "rates", "short_waves",
+    "srepr", "statements", "sums", "table", "times", "vectors",
+)  # fmt: skip
 # A room, the rooms it may import, and its folders from the lowest to the highest: a file may import from its own
 # folder and from those before it. Folders in one tuple do not see each other; "." is the room's own files.
 ROOMS = {
@@ -67,6 +72,11 @@ ROOMS = {
         [
             (".",),
             ("algebra",),
+            tuple(f"dialects.{name}" for name in DIALECTS),
+            ("dialects.letters",),
+            ("dialects.markup",),
+            ("dialects.worksheets",),
+            ("dialects.code",),
             ("dialects",),
             ("steps",),
             ("reading.submission",),
