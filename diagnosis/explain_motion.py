@@ -123,14 +123,16 @@ def _run(engine: Any, m: Mechanism, p: Parameters, integrator: Integrator) -> _R
 
 
 def _matching_scheme(runs: _Runs, accelerations: Any, order: int) -> Scheme | None:
-    """The scheme whose step it is; of several with the same step, one of the expected order, explicit rather than not.
+    """The scheme whose step it is; of several with the same step, one of the order that is expected.
 
-    The likely ones are tried first: an implicit step takes ten times as long to compute.
+    Of a very short step more than one may be right to rounding. Explicit ones are tried first: an implicit step takes
+    ten times as long to compute.
     """
-    expected = [s for s in SCHEMES if s.order >= order]
+    expected = [s for s in SCHEMES if s.order == order]
     for schemes in (
         [s for s in expected if not s.implicit],
         [s for s in expected if s.implicit],
+        [s for s in SCHEMES if s.order > order],
         [s for s in SCHEMES if s.order < order],
     ):
         distances = {_distance(runs, s, accelerations): s for s in schemes}
