@@ -59,6 +59,12 @@ class Cell:
             return self
         return replace(self, info=replace(self.info, moments=about))
 
+    @cached_property
+    def ways(self) -> tuple[Cell, ...]:
+        """This cell with each way in which the engine may compute, where that is not known; itself where it is."""
+        ways = self.info.ways
+        return (self,) if ways == (self.info,) else tuple(replace(self, info=info) for info in ways)
+
     def amplitude_of(self, system: DocumentSystem) -> Amplitudes:
         """The same for another mechanism in this engine."""
         info = self.info

@@ -12,6 +12,7 @@ factor is about twice that where the model is known to lack an operation or the 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,7 +22,7 @@ from numpy.typing import NDArray
 from ..engines import EngineInfo, Integrator
 from ..models.states import States
 from ..reference.rounding.maximal_elimination import spread_states
-from .cell import quotient, worst
+from .cell import Cell, quotient, worst
 
 Array = NDArray[np.float64]
 
@@ -97,6 +98,11 @@ def line(error: Array, spread: Array, factor: float, states: States, asked: int,
     return Line(found.value, factor, found.index[1:], states.labels[found.index[0]], len(states), asked)
 
 
+def widest(cell: Cell, spread: Callable[[Cell], Array]) -> Array:
+    """The largest spread in each entry, of all the ways in which the cell's engine may compute."""
+    return np.asarray(np.max([spread(way) for way in cell.ways], axis=0))
+
+
 def chosen(excess: Array, most: int) -> NDArray[np.intp]:
     """Which of the states to look at, in order: all, or half the worst by ``excess`` (B,) and half evenly spread."""
     count = len(excess)
@@ -116,7 +122,7 @@ def for_accelerations(info: EngineInfo) -> float:
     """The factor for accelerations of this engine."""
     if info.coordinates == "maximal":
         return MAXIMAL
-    return ARTICULATED if info.algorithm == "aba" else ACCELERATIONS
+    return ARTICULATED if info.algorithm == "aba" else ACCELERATIONS  # the larger, where it may be either
 
 
 def for_steps(info: EngineInfo, integrator: Integrator) -> float:

@@ -30,6 +30,7 @@ from ..reference.rounding.maximal_elimination import joint_spread
 from ..reference.rounding.monte_carlo import ONE_ROUNDING
 from ..reference.rounding.norms import norm
 from ..reference.rounding.stepped import Ends, stepped
+from . import sharp
 from .cell import Cell, EngineFault
 from .textbook import MAXIMAL, Candidate
 
@@ -119,7 +120,9 @@ def disturbed(
 ) -> Disturbed:
     """What disturbs this integrator's steps of ``h`` seconds, so many of them, from states (B, n) of this cell."""
     system, nothing = cell.scene.system, np.zeros_like(theta)
-    accelerations = spread.accelerations(cell.info, system, cell.amplitude, theta, omega, alpha)
+    accelerations = sharp.widest(
+        cell, lambda way: spread.accelerations(way.info, system, way.amplitude, theta, omega, alpha)
+    )
     left, speeds, turned, angles, rates = (nothing,) * 5
     if cell.info.coordinates == "maximal":
         angles, rates = joint_spread(system, theta, omega)

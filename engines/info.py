@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 Quantity = Literal["fields", "accelerations", "inverse_dynamics", "joint_forces", "energy", "trajectory"]
 TreeQuantity = Literal["accelerations", "mass_matrix", "bias", "passive", "energy", "trajectory"]
+Algorithm = Literal["aba", "crba", "other", "unknown"]
+Moments = Literal["hinge", "tree", "world", "unknown"]
 # Asked of engines whose ``offers`` names them, of the documents' mechanisms and of trees.
 Offer = Literal["derivatives", "inverse_mass"]
 # What a tree may have that an engine cannot hold. "several joints": of one link; "spring of a ball": or of a free one;
@@ -90,7 +92,8 @@ class EngineInfo:
       is another.
     * ``placed``: whether its model has a link's place in the frame of the ``parent``, as it is given, or as the
       difference of two places in the ``world``.
-    * ``interchanges``: whether its linear solver interchanges rows (partial pivoting, without scaling them).
+    * ``interchanges``: whether its linear solver interchanges rows (partial pivoting, without scaling them); None where
+      it is not known.
     * ``ordering``: in maximal coordinates, the order in which unknowns are eliminated: by ``colamd``, or ``unknown``.
     * ``accuracy``: relative accuracy of one operation, with ``accuracy_reason`` where it is not the unit roundoff.
     * ``algorithm``: how accelerations are solved for: articulated bodies (``aba``), or a mass matrix that is formed and
@@ -99,6 +102,8 @@ class EngineInfo:
       ``inverse``: how inverse dynamics and joint forces are computed: link by link (``rnea``), link by link but for a
       mass matrix of composite bodies times the accelerations (``crba``), or in a way that is not known (``matrix``).
       They tell the usual rounding, not the worst.
+
+    Of what is ``unknown`` the way with the most rounding counts: see :attr:`ways`.
     """
 
     name: str
@@ -119,14 +124,34 @@ class EngineInfo:
     no_point_masses: str = ""
     accuracy: float = 2.0**-52
     accuracy_reason: str = ""
-    moments: Literal["hinge", "tree", "world"] = "hinge"
+    moments: Moments = "unknown"
     moments_of_offers: Literal["", "world"] = ""
-    placed: Literal["parent", "world"] = "parent"
-    interchanges: bool = False
+    placed: Literal["parent", "world", "unknown"] = "unknown"
+    interchanges: bool | None = None
     ordering: Literal["unknown", "colamd"] = "unknown"
-    algorithm: Literal["aba", "crba", "other"] = "crba"
+    algorithm: Algorithm = "unknown"
     inverse: Literal["rnea", "crba", "matrix"] = "matrix"
     tree: TreeInfo | None = None
     tested: tuple[str, ...] = ()
     offers: tuple[Offer, ...] = ()
     lacks: Mapping[Offer, str] = field(default_factory=dict)
+
+    @property
+    def ways(self) -> tuple[EngineInfo, ...]:
+        """What the engine may be as to its rounding: itself where all is known, else each way to compute.
+
+        Places in the world are less exact than those on the parent; articulated bodies need neither moments of a matrix
+        nor a linear solver.
+        """
+        if self.algorithm == "other" or self.coordinates == "maximal":
+            return (self,)
+        algorithms: tuple[Algorithm, ...] = ("aba", "crba") if self.algorithm == "unknown" else (self.algorithm,)
+        moments: tuple[Moments, ...] = ("hinge", "tree", "world") if self.moments == "unknown" else (self.moments,)
+        solvers = (False, True) if self.interchanges is None else (self.interchanges,)
+        known = replace(self, placed="world" if self.placed == "unknown" else self.placed)
+        return tuple(
+            replace(known, algorithm=algorithm, moments=about, interchanges=interchanges)
+            for algorithm in algorithms
+            for about in (moments if algorithm == "crba" else moments[:1])
+            for interchanges in (solvers if algorithm == "crba" else solvers[:1])
+        )

@@ -59,7 +59,7 @@ def sharp_line(cell: Cell, off: Array, excess: Array) -> sharp.Line | None:
         return None
     at = sharp.chosen(excess, most)
     states = cell.states.at(at)
-    size = spread.energy(cell.info, system, cell.amplitude, states.theta, states.omega)
+    size = sharp.widest(cell, lambda way: spread.energy(way.info, system, way.amplitude, states.theta, states.omega))
     return sharp.line(off[at], size, sharp.ENERGY, states, len(cell.states))
 
 

@@ -146,7 +146,9 @@ def sharp_lines(
 
     def size(system: DocumentSystem, angles: Array, rates: Array) -> Array:
         exact = plain_accelerations(system, angles, rates)
-        return spread.accelerations(info, system, cell.amplitude_of(system), angles, rates, exact)
+        return sharp.widest(
+            cell, lambda way: spread.accelerations(way.info, system, way.amplitude_of(system), angles, rates, exact)
+        )
 
     firsts: dict[DocumentSystem, Array] = {}
     lines = {}

@@ -73,7 +73,10 @@ def _spreads(cell: Cell, states: States, excess: Array) -> tuple[NDArray[np.intp
     if not most:
         return at, None
     chosen = states.at(at)
-    return at, spread.terms(cell.info, system, cell.amplitude, chosen.theta, chosen.omega)
+    ways = [spread.terms(way.info, system, way.amplitude, chosen.theta, chosen.omega) for way in cell.ways]
+    return at, spread.Terms(
+        *(np.max(values, axis=0) for values in zip(*(vars(way).values() for way in ways), strict=True))
+    )
 
 
 def columns(cell: Cell, theta: Array, unit: str) -> Array:

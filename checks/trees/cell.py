@@ -49,7 +49,7 @@ class TreeCell:
     @cached_property
     def magnitudes(self) -> list[Magnitudes]:
         """Of the terms, as this engine computes them, in each state."""
-        world = self.info.moments == "tree" or self.info.placed == "world"
+        world = self.info.moments in ("tree", "unknown") or self.info.placed in ("world", "unknown")
         pairs = zip(self.states.q, self.states.v, strict=True)
         return [Magnitudes(self.mechanism, q, v, world=world) for q, v in pairs]
 

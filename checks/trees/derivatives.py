@@ -78,7 +78,7 @@ def _cannot(cell: TreeCell) -> str:
 
 def _units(cell: TreeCell, count: int) -> tuple[Array, Array, Array]:
     """The units of the three residuals, (count, nv, nv) each: as for the documents' mechanisms."""
-    origin = cell.info.moments_of_offers == "world"
+    origin = (cell.info.moments_of_offers or cell.info.moments) in ("world", "unknown")
     own = [Magnitudes(cell.mechanism, each.q, each.v, world=each.world, origin=origin) for each in cell.magnitudes]
     found = [
         _of_state(cell, units, accelerations, mass, inverse)

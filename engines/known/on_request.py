@@ -18,6 +18,8 @@ _DRAKE: dict[str, Any] = {
     "tested": ("1.51.1",),
     "homepage": "https://drake.mit.edu",
     "coordinates": "relative",
+    "moments": "hinge",
+    "placed": "parent",
     "inverse": "rnea",
     "missing": _NO_RUNS | {"joint_forces": "its reaction forces belong to its own accelerations and have their errors"},
     "largest_n": 200,
@@ -29,6 +31,8 @@ _SYMPY: dict[str, Any] = {
     "tested": ("1.14.0",),
     "homepage": "https://www.sympy.org",
     "coordinates": "absolute",
+    "moments": "hinge",
+    "placed": "parent",
     "lacks": _NO_INVERSE | {"derivatives": "its formulas are compiled for accelerations alone"},
     "algorithm": "other",
     "largest_n": 5,
@@ -47,6 +51,8 @@ _MJX: dict[str, Any] = {
     "coordinates": "relative",
     "inverse": "crba",
     "moments": "tree",
+    "placed": "parent",
+    "interchanges": False,
     "algorithm": "other",  # as MuJoCo, in an order that a compiler chooses anew
     "missing": _NO_RUNS
     | {
@@ -73,6 +79,9 @@ ON_REQUEST: dict[str, EngineInfo] = {
             tested=("6.20.0",),
             homepage="https://dartsim.github.io",
             coordinates="relative",
+            moments="hinge",
+            placed="parent",
+            interchanges=False,
             algorithm="other",
             inverse="rnea",
             offers=("inverse_mass",),
@@ -87,6 +96,7 @@ ON_REQUEST: dict[str, EngineInfo] = {
             adapter="furiko.engines.drake:DrakeAba",
             offers=("derivatives",),
             lacks=_NO_INVERSE,
+            interchanges=False,
             algorithm="other",  # articulated bodies in the world's axes, with rotations in three dimensions
             **_DRAKE,
         ),
@@ -96,6 +106,7 @@ ON_REQUEST: dict[str, EngineInfo] = {
             formulation="mass matrix, bias and gravity, then numpy's solution; model from URDF",
             adapter="furiko.engines.drake:DrakeCrba",
             interchanges=True,
+            algorithm="crba",
             **_DRAKE,
         ),
         EngineInfo(
@@ -127,7 +138,10 @@ ON_REQUEST: dict[str, EngineInfo] = {
             tested=("3.2.7",),
             homepage="https://pybullet.org",
             coordinates="relative",
+            moments="hinge",
+            placed="parent",
             interchanges=True,
+            algorithm="crba",
             inverse="rnea",
             missing=_NO_RUNS
             | {

@@ -30,6 +30,8 @@ _PINOCCHIO: dict[str, Any] = {
     "tested": ("4.0.0", "4.1.0"),
     "homepage": "https://github.com/stack-of-tasks/pinocchio",
     "coordinates": "relative",
+    "moments": "hinge",
+    "interchanges": False,
     "inverse": "rnea",
     "missing": _NO_TRAJECTORY,
     "largest_n": 300,
@@ -60,7 +62,10 @@ ENGINES: dict[str, EngineInfo] = {
             tested=("3.3.7", "3.17.0", "4.0.0"),
             homepage="https://github.com/google-deepmind/mujoco",
             coordinates="relative",
+            algorithm="crba",
             inverse="crba",
+            placed="parent",
+            interchanges=False,
             moments="tree",  # mjData.cinert, cdof, cvel and cacc are "com-based", about subtree_com of the root body
             offers=("inverse_mass",),
             lacks=_DIFFERENCED,
@@ -84,6 +89,7 @@ ENGINES: dict[str, EngineInfo] = {
             name="pinocchio-aba",
             formulation="articulated-body algorithm; model from URDF",
             adapter="furiko.engines.pinocchio:PinocchioAba",
+            placed="parent",
             algorithm="aba",
             moments_of_offers="world",  # oYaba: computeMinverse and computeABADerivatives have inertias in the world
             tree=TreeInfo("furiko.engines.trees.pinocchio:PinocchioAbaTree", _NO_TRAJECTORY, _NOT_HELD, **_BOTH),
@@ -114,6 +120,8 @@ ENGINES: dict[str, EngineInfo] = {
             name="pinocchio-crba",
             formulation="mass matrix by composite rigid bodies, then Cholesky; model from URDF",
             adapter="furiko.engines.pinocchio:PinocchioCrba",
+            placed="parent",
+            algorithm="crba",
             tree=TreeInfo(
                 "furiko.engines.trees.pinocchio:PinocchioCrbaTree", _NO_TRAJECTORY, _NOT_HELD, **_FACTORS_ALONE
             ),
@@ -135,7 +143,10 @@ ENGINES: dict[str, EngineInfo] = {
                 },
             ),
             coordinates="relative",
+            moments="hinge",
+            placed="parent",
             interchanges=True,
+            algorithm="crba",
             inverse="crba",
             integrators=(
                 Integrator("RK44", 4),
@@ -153,6 +164,10 @@ ENGINES: dict[str, EngineInfo] = {
             formulation="free bodies and revolute joints, constraints with Lagrange multipliers",
             adapter="furiko.engines.exudyn_redundant:ExudynRedundant",
             coordinates="maximal",
+            moments="hinge",
+            placed="parent",
+            interchanges=False,
+            algorithm="crba",
             integrators=(
                 Integrator("GeneralizedAlpha", 2, tolerance=1e-12, remembers=True),
                 Integrator("TrapezoidalIndex2", 2, tolerance=1e-12, remembers=True),

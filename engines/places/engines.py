@@ -168,7 +168,7 @@ def _info(name: str, hello: Mapping[str, Any]) -> EngineInfo:
         raise ValueError("it has integrators and does not offer 'trajectory'")
     choices: dict[str, Any] = {
         "coordinates": _choice(hello, "coordinates", ("relative", "absolute", "maximal"), "absolute"),
-        "algorithm": _choice(hello, "algorithm", ("aba", "crba", "other"), "other"),
+        "algorithm": _choice(hello, "algorithm", ("aba", "crba", "other", "unknown"), "unknown"),
         "inverse": _choice(hello, "inverse", ("rnea", "crba", "matrix"), "matrix"),
     }
     largest = hello.get("largest_n", 1000)
@@ -192,7 +192,7 @@ def _info(name: str, hello: Mapping[str, Any]) -> EngineInfo:
         largest_n=largest,
         largest_n_reason=_text(hello, "largest_n_reason") or "the program takes no more",
         no_point_masses=_text(hello, "no_point_masses"),
-        interchanges=bool(hello.get("interchanges", False)),
+        interchanges=bool(hello["interchanges"]) if "interchanges" in hello else None,
         **choices,
     )
 

@@ -48,7 +48,15 @@ from ...models import DocumentSystem, PlanarTree
 from ...models.coordinates import absolute_from_relative
 from ...models.states import QUANTUM, quantised
 from .. import mass_matrix
-from .lever_arms import Levers, absolute_levers, relative_levers, tree_levers, world_errors, world_levers
+from .lever_arms import (
+    Levers,
+    absolute_levers,
+    longest,
+    relative_levers,
+    tree_levers,
+    world_errors,
+    world_levers,
+)
 
 Array = NDArray[np.float64]
 
@@ -290,13 +298,13 @@ def amplitudes(
     *,
     moments: str = "hinge",
     placed: str = "parent",
-    interchanges: bool = False,
+    interchanges: bool | None = False,
 ) -> Amplitudes:
     """The magnitudes of the system's terms in ``relative`` coordinates, or in absolute angles for any other word.
 
     The other arguments are those of the engines' ``EngineInfo``: ``moments`` about each link's ``hinge``, the
     ``tree``'s centre of mass or the ``world``'s origin, links ``placed`` on the ``parent`` or in the ``world``, rows
-    with ``interchanges`` or without.
+    with ``interchanges`` or without. What is unknown there counts as the largest of what it may be.
     """
     tree = system.tree()
     carried = absolute_from_relative(tree.parents)
@@ -306,7 +314,7 @@ def amplitudes(
         carried=carried,
         levers=levers,
         errors=errors,
-        interchanges=interchanges,
+        interchanges=interchanges is not False,
         mass=np.array([link.mass for link in tree.links]),
         inertia=np.array([link.inertia for link in tree.links]),
         pivots=np.array([link.mass * np.hypot(*link.com) ** 2 + link.inertia for link in tree.links]),
@@ -317,11 +325,14 @@ def amplitudes(
 def _levers(tree: PlanarTree, coordinates: str, moments: str, placed: str) -> tuple[Levers, Levers | None]:
     if coordinates != "relative":
         return absolute_levers(tree), None
+    if moments == "unknown":
+        made = [_levers(tree, coordinates, about, placed) for about in ("hinge", "tree", "world")]
+        return longest([levers for levers, _ in made]), longest([errors for _, errors in made if errors is not None])
     if moments == "tree":
         return tree_levers(tree)
     if moments == "world":
         return world_levers(tree), None
-    return relative_levers(tree), world_errors(tree) if placed == "world" else None
+    return relative_levers(tree), None if placed == "parent" else world_errors(tree)
 
 
 def condition(system: DocumentSystem, theta: Array, amplitude: Amplitudes, alpha: Array, omega: Array) -> Array:

@@ -5,6 +5,7 @@ Every length is that of a path along the links: no configuration has two points 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,6 +29,12 @@ class Levers:
 
     arm: Array
     to_point: Array | None
+
+
+def longest(several: Sequence[Levers]) -> Levers:
+    """The longest of several sets in each entry: what bounds sums with any of them."""
+    to_points = [levers.to_point for levers in several if levers.to_point is not None]
+    return Levers(np.max([levers.arm for levers in several], axis=0), np.max(to_points, axis=0) if to_points else None)
 
 
 def absolute_levers(tree: PlanarTree) -> Levers:

@@ -116,7 +116,10 @@ def _accelerations(cell: Cell) -> Measured:
     error = cell.facts.error(cell.accelerations())
     at = sharp.chosen(np.abs(error).max(axis=-1), max(1, sharp.states_for_accelerations(info, system.n)))
     chosen = cell.states.at(at)
-    size = spread.accelerations(info, system, cell.amplitude, chosen.theta, chosen.omega, high[at])
+    size = sharp.widest(
+        cell,
+        lambda way: spread.accelerations(way.info, system, way.amplitude, chosen.theta, chosen.omega, high[at]),
+    )
     factor = sharp.for_accelerations(info)
     return Measured(high, error, factor * size, at)
 
@@ -130,7 +133,10 @@ def _mass(cell: Cell) -> Measured:
     error = columns(cell, some.theta, "alpha") - mass
     at = sharp.chosen(np.abs(error).reshape(len(error), -1).max(axis=-1), max(1, sharp.states_for_terms(cell.info, n)))
     chosen = some.at(at)
-    size = spread.terms(cell.info, cell.scene.system, cell.amplitude, chosen.theta, chosen.omega).mass
+    size = sharp.widest(
+        cell,
+        lambda way: spread.terms(way.info, cell.scene.system, way.amplitude, chosen.theta, chosen.omega).mass,
+    )
     return Measured(mass, error, sharp.TERMS * size, at)
 
 
@@ -142,7 +148,10 @@ def _forces(cell: Cell) -> Measured:
     error = np.linalg.norm(got - forces, axis=-1)
     at = sharp.chosen(error.max(axis=-1), max(1, sharp.states_for_accelerations(info, system.n)))
     chosen = last.at(at)
-    size = spread.joint_forces(info, system, cell.amplitude, chosen.theta, chosen.omega, alpha[at])
+    size = sharp.widest(
+        cell,
+        lambda way: spread.joint_forces(way.info, system, way.amplitude, chosen.theta, chosen.omega, alpha[at]),
+    )
     factor = sharp.MAXIMAL if info.coordinates == "maximal" else sharp.JOINT_FORCES
     return Measured(np.linalg.norm(forces, axis=-1), error, factor * size, at)
 

@@ -77,6 +77,51 @@ def test_engines_that_are_right_are_not_loose(quotients, make_cell, engine):
         assert not result.loose, (scene, result)
 
 
+def undeclared(cell):
+    """The cell of an engine of which nobody has said how it computes."""
+    unknown = {"algorithm": "unknown", "moments": "unknown", "placed": "unknown", "interchanges": None}
+    return replace(cell, info=replace(cell.info, **unknown))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("engine", ENGINES[:-1])
+def test_an_engine_of_which_nobody_says_how_it_computes_is_not_loose(make_cell, engine):
+    for scene in ("double-pendulum", "n-leg-8", "rods-3-length-ratio", "rods-20"):
+        for result in results(undeclared(make_cell(engine, scene, 30))):
+            assert result.outcome in ("agrees", "skipped"), (scene, result)
+            assert not result.loose, (scene, result)
+
+
+def test_of_what_is_not_known_the_way_with_the_most_rounding_counts(make_cell):
+    """MuJoCo takes moments about the tree's centre of mass, of which a leg far from it feels the most."""
+    cell = make_cell("mujoco", "n-leg-8", 30)
+    about_hinges = replace(cell, info=replace(cell.info, moments="hinge"))
+    states, alpha = cell.states, cell.facts.high
+
+    def size(one):
+        return sharp.widest(
+            one,
+            lambda way: spread.accelerations(
+                way.info, cell.scene.system, way.amplitude, states.theta, states.omega, alpha
+            ),
+        )
+
+    assert (size(undeclared(cell)) >= size(cell)).all()
+    assert (size(cell) > 1.5 * size(about_hinges)).any()
+    assert [result.loose for result in accelerations.compare(undeclared(cell))] == [False]
+
+
+@pytest.mark.parametrize("n", [3, 100])
+def test_yet_an_error_far_beyond_rounding_is_loose(make_cell, n):
+    """Of the last acceleration alone, which the proven bound of a long chain allows."""
+    cell = undeclared(make_cell("pinocchio-crba", f"rods-{n}", 8))
+    error = np.zeros(n)
+    error[-1] = 1e-4 if n == 100 else 1e-11
+    (found,) = accelerations.compare(replace(cell, engine=Off(cell.engine, error)))
+    assert found.loose or found.outcome == "differs"
+    assert not any(result.loose for result in accelerations.compare(cell))
+
+
 ARTICULATED = tuple(name for name in ENGINES if ENGINE_INFO[name].algorithm == "aba")
 FACTORIZED = tuple(name for name in ENGINES[:-1] if name not in ARTICULATED)
 FACTORS = {
