@@ -28,6 +28,10 @@ def about(name, **changes):
         "package": "",
         "homepage": "",
         "coordinates": "absolute",
+        "moments": "hinge",
+        "placed": "parent",
+        "interchanges": False,
+        "algorithm": "crba",
         "integrators": (Integrator("RK4", 4),),
         "offers": ("derivatives", "inverse_mass"),
     }
