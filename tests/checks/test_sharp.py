@@ -144,6 +144,7 @@ def test_no_factor_is_ten_times_too_wide_or_too_narrow(quotients, make_cell, che
     assert FACTORS[check] / 10 < max(found) <= FACTORS[check]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("engines", "factor"), [(ARTICULATED, sharp.ARTICULATED), (FACTORIZED, sharp.ACCELERATIONS)])
 def test_nor_are_those_of_accelerations(quotients, make_cell, engines, factor):
     found = [

@@ -303,6 +303,7 @@ def test_importing_furiko_imports_no_engine_and_nothing_heavy(tmp_path):
     assert done.stdout.strip() == "[]"
 
 
+@pytest.mark.slow
 def test_the_adapter_that_the_help_shows_is_one(tmp_path):
     shown = run("engine-test", "--help", cwd=tmp_path).stdout
     code = shown[shown.index("# my_engine.py") : shown.index("Options:")]

@@ -80,6 +80,7 @@ def test_a_bad_file_is_one_line_before_anything_runs(check):
     assert len(done.stderr.splitlines()) == 1
 
 
+@pytest.mark.slow
 def test_a_baseline_decides_too_where_all_that_differs_is_known(check, tmp_path):
     """It is known now, and it agreed then."""
     first = check("SignFlipped", KNOWN.format("rods-*"), "--out", "now")

@@ -11,6 +11,7 @@ from furiko.cli.main import run
 from furiko.records.schema import schema
 
 
+@pytest.mark.slow
 def test_a_map_of_flips_is_a_page_a_picture_and_numbers(tmp_path, capsys):
     assert run(["map", "double-pendulum", "--points", "24", "--until", "3", "--out", str(tmp_path), "--json"]) == 0
     record = json.loads(capsys.readouterr().out)

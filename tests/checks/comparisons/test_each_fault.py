@@ -108,6 +108,7 @@ def test_a_scene_at_rest_needs_no_velocity_terms(run_cell, tmp_path):
     assert {results[check].outcome for check in ("accelerations", "terms M", "terms G", "energy")} == {"agrees"}
 
 
+@pytest.mark.slow
 def test_a_difference_is_given_its_cause_and_says_what_was_measured(run_cell):
     results = run_cell("fake_engines:SignFlipped", "rods-3")
     for check in ("accelerations", "terms G"):

@@ -82,6 +82,7 @@ def test_another_model_is_told_from_a_scheme(make_cell, monkeypatch):
     assert "another model" in second.reason
 
 
+@pytest.mark.slow
 def test_the_true_motion_is_held_against_the_kept_proof():
     pytest.importorskip("heyoka")
     scene = find_scene("double-pendulum")

@@ -36,6 +36,7 @@ def test_every_equation_is_judged(result):
     assert CLAIMS.keys() == {f"{e.document} {e.number}" for e in EQUATIONS}
 
 
+@pytest.mark.slow
 def test_every_display_without_a_number_is_judged_and_holds(result):
     """Read by eye: Takeno has 13 displays without a number, and one remark in words, behind (22), is judged too."""
     assert [j.number for j in result.unnumbered] == [e.number for e in UNNUMBERED]

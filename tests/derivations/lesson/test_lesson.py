@@ -48,6 +48,7 @@ def test_it_needs_nothing_but_itself(page):
     assert "http" not in "".join(page.text)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium on this machine")
 def test_it_can_be_read_in_both_themes(tmp_path):
     path = tmp_path / "lesson.html"
@@ -66,6 +67,7 @@ def test_it_can_be_read_in_both_themes(tmp_path):
     assert len(set(papers)) == 2
 
 
+@pytest.mark.slow
 def test_thirty_mistakes_with_a_question_before_the_answer(page):
     assert len(page.all("section")) == len(page.all("details")) == len(page.all("canvas")) == 30
     order = [tag for tag, attributes in page.tags if tag == "details" or attributes.get("class") == "question"]

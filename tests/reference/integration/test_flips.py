@@ -33,6 +33,7 @@ def test_a_rod_goes_over_the_top_when_elliptic_functions_say(factor):
     assert furiko.flip_times(ROD, [6 * math.pi], [omega], 10.0).times == pytest.approx(expected, rel=1e-9 / (1 - m))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("factor", [0.5, 1 - 1e-6, 1 - 1e-12])
 def test_a_rod_that_swings_never_flips(factor):
     found = furiko.flip_times(ROD, [0.0], [2 * OWN * factor], 30.0)

@@ -51,6 +51,7 @@ def test_one_rod_along_its_separatrix():
     np.testing.assert_allclose(backwards.logarithm, np.log(expected[:, 0]), atol=1e-10)
 
 
+@pytest.mark.slow
 def test_an_upright_rod_parts_at_its_own_rate():
     rate = own_rate(ROD)
     found = furiko.stretching(ROD, [math.pi], [0.0], [0.0, 10 / rate], rate=rate)

@@ -69,6 +69,7 @@ def test_five_rods_keep_eleven_digits_for_five_seconds():
     assert np.abs(found.theta[-1] - true.theta[-1]).max() <= 1e-11
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("system", [RodChain((0.1,) * 40), NLegPendulum((1.0,) + (0.5,) * 39, (1.0,) * 40)])
 def test_many_links_conserve_energy(system):
     """More links than a vector holds, and a number that is no multiple of one."""
@@ -148,6 +149,7 @@ def test_angles_are_continuous_and_count_turns():
     assert np.abs(apart).max() < 1e-10  # 2000 π is rounded to 5e-13, and the turning pendulum shears it
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", [(3,), (2, 2), (0,), (1, 0, 2)])
 def test_an_ensemble_is_its_members(shape):
     rng = np.random.default_rng(0)
@@ -167,6 +169,7 @@ def test_an_ensemble_is_its_members(shape):
         assert (np.abs(found.omega[place] - one.omega).max(-1) <= fastest * (found.error[place] + one.error)).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("system", [RODS, LEGS], ids=["rods", "legs"])
 def test_a_member_of_an_ensemble_depends_on_no_other(system):
     """Twenty in eight lanes: some start in a lane where another has ended, some run beside a much faster one."""
