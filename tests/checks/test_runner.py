@@ -86,6 +86,7 @@ def test_engines_print_nothing_and_leave_nothing(tmp_path, monkeypatch, capfd):
     assert [path.name for path in tmp_path.iterdir()] == ["out"]
 
 
+@pytest.mark.slow
 def test_no_worker_outlives_its_run():
     before = set(os.listdir("/proc"))
     check("Right", jobs=2)

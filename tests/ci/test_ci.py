@@ -121,6 +121,7 @@ def test_the_action_blames_a_model_file_at_its_line(project, python, tmp_path):
     assert "joint-dropped-by-parser" in failure.get("message")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "status", "line"), [("[system]\nkind = \n", 2, "line=2,"), ('[system]\nkind = "none"\n', 2, "")]
 )
@@ -134,6 +135,7 @@ def test_a_file_that_cannot_be_read_is_named_everywhere(project, python, tmp_pat
     assert ElementTree.parse(project / "furiko-report" / "junit.xml").getroot().get("errors") == "1"
 
 
+@pytest.mark.slow
 def test_a_finding_is_annotated_at_the_line_that_it_names(project, python, tmp_path):
     (project / "other.xml").write_text(CART.replace('damping="0.12"', 'damping="0.13"'))
     (project / "cart.xml").write_text(CART)

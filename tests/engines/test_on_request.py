@@ -47,6 +47,7 @@ def test_they_run_only_where_they_are_named():
     assert not set(names_on_request()) & set(engine_names())
 
 
+@pytest.mark.slow
 def test_both_of_sympy_derive_for_themselves():
     """Kane's method uses no energies: a fault in one derivation is not in the other's."""
     scene = SCENES[0]

@@ -120,6 +120,7 @@ def test_without_the_option_the_fixture_skips_and_nothing_heavy_is_imported(proj
     assert not modules & {"numpy", "flint", "mujoco", "scipy", "msgspec"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("options", "says"),
     [
@@ -136,6 +137,7 @@ def test_a_mistake_is_told_before_anything_runs(project, options, says):
     assert says in line
 
 
+@pytest.mark.slow
 def test_a_scene_of_ones_own(project):
     project.makefile(".toml", mine='[system]\nkind = "rod-chain"\nlengths = [1.0]\n')
     done = project.runpytest_subprocess(*SMOKE, "--furiko-scene", "mine.toml", "--furiko-engine", "mujoco", "-v")

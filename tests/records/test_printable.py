@@ -9,11 +9,13 @@ from hypothesis import strategies as st
 from furiko.records.printable import printable, printable_json, without_surrogates
 
 
+@pytest.mark.slow
 @given(st.text())
 def test_nothing_that_acts_is_left(text):
     assert all(c.isprintable() or c == "\n" for c in printable(text))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ascii_only", [False, True])
 @given(value=st.recursive(st.text(st.characters(exclude_categories=["Cs"])), st.lists))
 def test_json_means_the_same(value, ascii_only):

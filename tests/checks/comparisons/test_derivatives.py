@@ -57,6 +57,7 @@ def test_each_mistake_differs_with_its_cause_and_nothing_else_does(run_cell, eng
     }
 
 
+@pytest.mark.slow
 def test_one_entry_that_is_slightly_off_differs(run_cell, monkeypatch):
     import fake_engines
 

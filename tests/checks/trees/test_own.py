@@ -91,6 +91,7 @@ def results(report, scene, outcome):
     return [r for r in report.results if (r.scene, r.outcome) == (scene, outcome)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", ["mine", "urdf"])
 def test_right_equations_of_a_file_agree_with_every_engine_that_reads_it(report, scene):
     alone = alone_in(report, scene)

@@ -59,6 +59,7 @@ SENSES = list(product(SIGN, repeat=2))
 CONVENTIONS = [*product(("absolute",), ZERO, SENSES), *product(("relative",), ("up",), SENSES)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("angles", "origin", "senses"), CONVENTIONS)
 def test_forces_follow_the_sense_of_their_own_angle(angles, origin, senses):
     found = graded(angles, origin, senses)

@@ -32,6 +32,7 @@ def test_a_worker_that_died_before_its_call_is_told(monkeypatch):
     assert "SIGKILL" in found.reason
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("function", "says"),
     [

@@ -8,6 +8,7 @@ import tempfile
 import time
 from pathlib import Path
 
+import pytest
 from misbehaving import LosesOne, Works
 
 from furiko.engines.workers import pool as module
@@ -39,6 +40,7 @@ def test_an_engine_that_takes_too_long_is_overdue():
     assert last.step.engine
 
 
+@pytest.mark.slow
 def test_work_of_the_jobs_own_is_not_on_the_engines_clock():
     found = events_of(Works(engine=False, seconds=3.0), limit=1.0)
     assert isinstance(found[-1], Finished)
@@ -141,6 +143,7 @@ def test_a_busy_worker_is_not_kept():
         assert source.waiting == source.taken == []
 
 
+@pytest.mark.slow
 def test_the_start_of_a_worker_is_not_on_the_engines_clock(tmp_path, monkeypatch):
     (tmp_path / "slow_to_import.py").write_text("import time\ntime.sleep(4)\n")
     monkeypatch.syspath_prepend(tmp_path)

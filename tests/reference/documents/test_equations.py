@@ -174,6 +174,7 @@ def test_equation_holds(equation, n):
             assert len(members) > 1, "nothing to hold this equation against"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("equation", MISPRINTS, ids=lambda equation: equation.label)
 def test_misprint_differs_from_its_correction(equation):
     n = {"2.1": 3, "3.4": 4, "12": 3}[equation.number]

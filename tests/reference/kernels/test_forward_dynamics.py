@@ -138,6 +138,7 @@ def test_rods_are_exact_to_rounding(n, ratio, state):
     assert max(errors.values()) <= ALLOWED, errors
 
 
+@pytest.mark.slow
 def test_light_rods_between_heavy_ones():
     """Without refinement one state in seven of this chain (found by search) errs by more than 1e-14, up to 7e-14."""
     system = RodChain(spread(np.random.default_rng(31), 20, 1e3))
@@ -171,6 +172,7 @@ def test_legs_are_exact_to_rounding(n, heavy, state):
     assert max(errors.values()) <= ALLOWED, errors
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("apart", [1e-2, 1e-5, 1e-8])
 def test_nearly_aligned_heavy_legs(apart):
     """Where the printed matrix loses ten digits: light first mass, legs a hair apart, masses 1e6 times heavier."""

@@ -288,6 +288,7 @@ def found(tmp_path_factory):
     return msgspec.structs.replace(motion, speeds=rows)
 
 
+@pytest.mark.slow
 def test_a_motion_has_every_method_at_every_error(found):
     (motion,) = found.motions
     assert (motion.scene, motion.n, motion.duration) == ("rods", 2, 0.5)
@@ -455,6 +456,7 @@ def test_a_timed_engine_that_is_wrong_is_said_to_be(engine, causes, monkeypatch,
         assert engine in cause.says
 
 
+@pytest.mark.slow
 def test_a_benchmark_of_a_wrong_engine_has_the_status_of_a_difference(tmp_path, capsys):
     scene = tmp_path / "rods.toml"
     scene.write_text(

@@ -89,6 +89,7 @@ def test_a_kernel_that_is_off_would_be_told(monkeypatch):
     assert result.measured > 1e-3
 
 
+@pytest.mark.slow
 def test_another_seed_finds_the_same_frontiers_to_one_rung():
     # Of an engine whose errors grow with what is put under stress, not of a fake with a hard edge.
     found = [
@@ -103,6 +104,7 @@ def test_another_seed_finds_the_same_frontiers_to_one_rung():
         assert abs(rung - found[1][name]) <= 1
 
 
+@pytest.mark.slow
 def test_the_budget_is_kept_and_what_is_open_is_said():
     begun = time.monotonic()
     found = stress(None, ["exudyn-tree"], budget=3, jobs=2)
