@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -39,6 +40,8 @@ def started(file, out, *words):
     return subprocess.Popen(
         [sys.executable, "-m", "furiko", "sweep", str(file), "--out", str(out), *words],
         stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+        # Ctrl-C is ignored in the background of a shell, and so by all that is started from it.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),  # noqa: PLW1509 (no threads)
     )  # fmt: skip
 
 
