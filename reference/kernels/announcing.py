@@ -15,19 +15,19 @@ LONG = 1.0  # [s] of compiling before a word is said
 # What each kernel is for, and how long it takes to compile: seconds of one core of an EPYC, numba 0.68.
 KERNELS = {
     "rods_single": ("accelerations of rods", 2),
-    "rods_batch": ("accelerations of rods in many states", 8),
-    "refined_rods_batch": ("accelerations of unequal rods in many states", 9),
+    "rods_batch": ("accelerations of rods in many states", 6),
+    "refined_rods_batch": ("accelerations of unequal rods in many states", 8),
     "legs_single": ("accelerations of an N-leg pendulum", 1),
     "legs_batch": ("accelerations of an N-leg pendulum in many states", 4),
     "start": ("the start of a simulation", 1),
-    "run_rods": ("simulations of rods", 5),
-    "run_legs": ("simulations of an N-leg pendulum", 3),
-    "run_rod_lanes": ("simulations of ensembles of rods", 7),
-    "run_leg_lanes": ("simulations of ensembles of N-leg pendulums", 4),
-    "run_rod_tangents": ("the growth of small differences of rods", 10),
-    "run_leg_tangents": ("the growth of small differences of N-leg pendulums", 7),
-    "run_rod_flips": ("flip times of rods", 6),
-    "run_leg_flips": ("flip times of N-leg pendulums", 4),
+    "run_rods": ("simulations of rods", 6),
+    "run_legs": ("simulations of an N-leg pendulum", 5),
+    "run_rod_lanes": ("simulations of ensembles of rods", 9),
+    "run_leg_lanes": ("simulations of ensembles of N-leg pendulums", 8),
+    "run_rod_tangents": ("the growth of small differences of rods", 16),
+    "run_leg_tangents": ("the growth of small differences of N-leg pendulums", 15),
+    "run_rod_flips": ("flip times of rods", 10),
+    "run_leg_flips": ("flip times of N-leg pendulums", 10),
 }
 
 

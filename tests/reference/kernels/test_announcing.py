@@ -68,6 +68,6 @@ def test_where_nothing_is_kept_it_says_so(is_one, monkeypatch):
     monkeypatch.setattr(sys, "stderr", stream)
     announcing.say("run_rods", kept=False)
     words = (
-        "furiko: numba compiles simulations of rods, about 5 s, in each process: there is no folder to keep the result"
+        "furiko: numba compiles simulations of rods, about 6 s, in each process: there is no folder to keep the result"
     )
     assert stream.said == (f"{words} in\n" if is_one else "")
