@@ -21,6 +21,7 @@ GLYPHS = {glyph: word for word, glyphs in GREEK.items() for glyph in glyphs} | {
 LOW = dict(zip("0123456789aehijklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ", strict=True))
 HIGH = {low: c for c, low in LOW.items()}
 LOWS = "".join(LOW.values())
+FIGURES = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 _GREEK_WORDS = "|".join(sorted(GREEK, key=len, reverse=True))
 _LETTER = rf"(?:\\(?:{_GREEK_WORDS}|ell)(?![A-Za-z])|[A-Za-z]+|[{''.join(GLYPHS)}])"
 _INDEX = rf"(?:\s*_\s*\{{[0-9A-Za-z+,\s_]{{1,16}}\}}|(?:_?[0-9A-Za-z])+|[{LOWS}]{{1,6}}|(?<=[^A-Za-z])_[0-9A-Za-z])"

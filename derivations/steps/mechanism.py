@@ -71,9 +71,8 @@ class Mechanism:
     forces: tuple[Formula, ...] = ()
     weight: Formula | None = None  # g where it is None
     values: dict[int, Formula] = field(default_factory=dict, compare=False)  # symbols that stand for formulas
-    without_values: Mechanism | None = field(
-        default=None, init=False, compare=False, repr=False
-    )  # :meth:`with_values` of it
+    # What this one is with_values of: set there, and no argument, so that replace() does not keep it.
+    without_values: Mechanism | None = field(default=None, init=False, compare=False, repr=False)
 
     @cached_property
     def positions(self) -> tuple[tuple[Formula, Formula], ...]:
@@ -153,9 +152,7 @@ class Mechanism:
         if not values:
             return self
         valued = replace(self, values={**self.values, **values})
-        object.__setattr__(
-            valued, "without_values", self.without_values or self
-        )  # no field: replace() must not keep it
+        object.__setattr__(valued, "without_values", self.without_values or self)
         return valued
 
     @cached_property

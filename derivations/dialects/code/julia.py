@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import re
 
+from ..names import FIGURES
+
 JULIA = re.compile(r"(?m)^\s*(?:@\w+\s+)*function\s+[\w!]+\s*\(.*?\)\s*$|^\s*@\w+\s+function\b")
 MACRO = re.compile(r"(?<![\w])@(?:inline|inbounds|views|fastmath|muladd|simd|noinline)\s+")
 TAKEN_APART = re.compile(r"(?m)^[ \t]*\(\s*;[^()\n]{1,200}\)\s*=\s*\w+[ \t]*$|^[ \t]*@unpack\s[^\n]{1,200}$")
@@ -38,9 +40,6 @@ def plain_julia(text: str) -> str:
             text = f"{text[: whole.start()]}{whole['blank']}return [{whole['value'][1:-1]}]{rest}"
             text = HEAD.sub(lambda m: f"{m['front']}({m['rest'].strip()}", text)
     return text
-
-
-FIGURES = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 
 
 def _without_vectors(text: str) -> str:

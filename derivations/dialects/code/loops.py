@@ -7,6 +7,7 @@ import re
 from collections.abc import Mapping
 
 from ....models.errors import InvalidInput
+from ..markup.calls import parts_of
 from .whole_numbers import whole_number
 
 LOOP = re.compile(
@@ -85,13 +86,7 @@ def _body(lines: list[str], at: int, found: re.Match[str]) -> tuple[list[str], i
 
 
 def _range(bounds: str, names: Mapping[str, int]) -> range:
-    depth, parts, start = 0, [], 0
-    for at, c in enumerate(bounds):
-        depth += (c in "([") - (c in ")]")
-        if c == "," and depth == 0:
-            parts.append(bounds[start:at])
-            start = at + 1
-    values = [whole_number(part, names) for part in (*parts, bounds[start:])]
+    values = [whole_number(part, names) for part in parts_of(bounds, ",")]
     known = [v for v in values if v is not None]
     if len(known) < len(values) or not 1 <= len(known) <= 3 or (len(known) == 3 and not known[2]):
         raise InvalidInput(f"range({bounds[:40]}): {HINT}")

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ....models.errors import InvalidInput
-from ..names import GREEK
+from ..names import FIGURES, GREEK
 from .every_text import everywhere, lines_of
 
 _GREEK = "|".join(sorted(GREEK, key=len, reverse=True))
@@ -22,7 +22,6 @@ MIXED_INDEX = re.compile(
 )
 GREEK_INDEX = re.compile(rf"_\s*(?:\{{\s*\\(?P<braced>{_GREEK})\s*\}}|\\(?P<bare>{_GREEK})(?![A-Za-z]))")
 SHORT_WAVE = re.compile("(?P<wave>(?<![A-Za-z])(?:g)?[csCS])(?P<low>[₁-₉]{1,2})(?![₀-₉])")
-FIGURES = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 ELL = re.compile(r"(?<![A-Za-z\\])ell(?![A-Za-z])")
 UNIT = re.compile(
     r"\\(?:SI|qty)\s*\{\s*(?P<x>[-+]?[0-9]{1,12}(?:[.,][0-9]{1,12})?)\s*\}\s*\{(?P<unit>[^{}]{0,80})\}"
