@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from ..engines import EngineInfo, Integrator
 from ..models.states import States
+from ..models.systems import DocumentSystem
 from ..reference.rounding.maximal_elimination import spread_states
 from .cell import Cell, quotient, worst
 
@@ -98,9 +99,19 @@ def line(error: Array, spread: Array, factor: float, states: States, asked: int,
     return Line(found.value, factor, found.index[1:], states.labels[found.index[0]], len(states), asked)
 
 
-def widest(cell: Cell, spread: Callable[[Cell], Array]) -> Array:
-    """The largest spread in each entry, of all the ways in which the cell's engine may compute."""
-    return np.asarray(np.max([spread(way) for way in cell.ways], axis=0))
+def widest(cell: Cell, spread: Callable[..., Array], *state: Array, system: DocumentSystem | None = None) -> Array:
+    """The largest spread in each entry, of all the ways in which the cell's engine may compute.
+
+    ``spread``: a function of :mod:`furiko.reference.rounding.spread`; ``state``: what it is given besides engine and
+    mechanism; ``system``: another mechanism in this engine.
+    """
+    sizes = [
+        spread(way.info, cell.scene.system, way.amplitude, *state)
+        if system is None
+        else spread(way.info, system, way.amplitude_of(system), *state)
+        for way in cell.ways
+    ]
+    return np.asarray(np.max(sizes, axis=0))
 
 
 def chosen(excess: Array, most: int) -> NDArray[np.intp]:

@@ -120,9 +120,7 @@ def disturbed(
 ) -> Disturbed:
     """What disturbs this integrator's steps of ``h`` seconds, so many of them, from states (B, n) of this cell."""
     system, nothing = cell.scene.system, np.zeros_like(theta)
-    accelerations = sharp.widest(
-        cell, lambda way: spread.accelerations(way.info, system, way.amplitude, theta, omega, alpha)
-    )
+    accelerations = sharp.widest(cell, spread.accelerations, theta, omega, alpha)
     left, speeds, turned, angles, rates = (nothing,) * 5
     if cell.info.coordinates == "maximal":
         angles, rates = joint_spread(system, theta, omega)

@@ -146,7 +146,9 @@ class EngineInfo:
         if self.algorithm == "other" or self.coordinates == "maximal":
             return (self,)
         algorithms: tuple[Algorithm, ...] = ("aba", "crba") if self.algorithm == "unknown" else (self.algorithm,)
-        moments: tuple[Moments, ...] = ("hinge", "tree", "world") if self.moments == "unknown" else (self.moments,)
+        moments: tuple[Moments, ...] = (self.moments,)
+        if self.moments == "unknown":  # in absolute angles no moments are taken about another point
+            moments = ("hinge", "tree", "world") if self.coordinates == "relative" else ("hinge",)
         solvers = (False, True) if self.interchanges is None else (self.interchanges,)
         known = replace(self, placed="world" if self.placed == "unknown" else self.placed)
         return tuple(

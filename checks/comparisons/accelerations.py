@@ -81,10 +81,7 @@ def sharp_line(cell: Cell, accelerations: Array, backward: Array) -> sharp.Line 
         return None
     at = sharp.chosen(backward.max(axis=-1), most)
     states, alpha = cell.states.at(at), cell.facts.high[at]
-    size = sharp.widest(
-        cell,
-        lambda way: spread.accelerations(way.info, system, way.amplitude, states.theta, states.omega, alpha),
-    )
+    size = sharp.widest(cell, spread.accelerations, states.theta, states.omega, alpha)
     factor = sharp.for_accelerations(info)
     return sharp.line(cell.facts.error(accelerations)[at], size, factor, states, len(cell.states))
 

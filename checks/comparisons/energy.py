@@ -54,12 +54,12 @@ def compare(cell: Cell) -> Iterator[Result]:
 
 def sharp_line(cell: Cell, off: Array, excess: Array) -> sharp.Line | None:
     """Errors (B, 2) [J] against what rounding does to each."""
-    system, most = cell.scene.system, sharp.states_for_energy(cell.info, cell.scene.system.n)
+    most = sharp.states_for_energy(cell.info, cell.scene.system.n)
     if not most:
         return None
     at = sharp.chosen(excess, most)
     states = cell.states.at(at)
-    size = sharp.widest(cell, lambda way: spread.energy(way.info, system, way.amplitude, states.theta, states.omega))
+    size = sharp.widest(cell, spread.energy, states.theta, states.omega)
     return sharp.line(off[at], size, sharp.ENERGY, states, len(cell.states))
 
 

@@ -71,9 +71,6 @@ def sharp_line(cell: Cell, error: Array, excess: Array) -> sharp.Line | None:
     at = sharp.chosen(excess, most)
     states = cell.states.at(np.arange(len(cell.states))[-count:][at])
     alpha = cell.facts.high[-count:][at]
-    size = sharp.widest(
-        cell,
-        lambda way: spread.joint_forces(way.info, system, way.amplitude, states.theta, states.omega, alpha),
-    )
+    size = sharp.widest(cell, spread.joint_forces, states.theta, states.omega, alpha)
     factor = sharp.MAXIMAL if info.coordinates == "maximal" else sharp.JOINT_FORCES
     return sharp.line(error[at], size, factor, states, count)

@@ -146,9 +146,7 @@ def sharp_lines(
 
     def size(system: DocumentSystem, angles: Array, rates: Array) -> Array:
         exact = plain_accelerations(system, angles, rates)
-        return sharp.widest(
-            cell, lambda way: spread.accelerations(way.info, system, way.amplitude_of(system), angles, rates, exact)
-        )
+        return sharp.widest(cell, spread.accelerations, angles, rates, exact, system=system)
 
     firsts: dict[DocumentSystem, Array] = {}
     lines = {}

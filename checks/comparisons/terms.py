@@ -68,15 +68,19 @@ def compare(cell: Cell) -> Iterator[Result]:
 
 def _spreads(cell: Cell, states: States, excess: Array) -> tuple[NDArray[np.intp], spread.Terms | None]:
     """The effect of rounding on each term, in as many of the states as is affordable; None where in none."""
-    system, most = cell.scene.system, sharp.states_for_terms(cell.info, cell.scene.system.n)
+    most = sharp.states_for_terms(cell.info, cell.scene.system.n)
     at = sharp.chosen(excess, most)
     if not most:
         return at, None
     chosen = states.at(at)
-    ways = [spread.terms(way.info, system, way.amplitude, chosen.theta, chosen.omega) for way in cell.ways]
-    return at, spread.Terms(
-        *(np.max(values, axis=0) for values in zip(*(vars(way).values() for way in ways), strict=True))
-    )
+    return at, widest_terms(cell, chosen)
+
+
+def widest_terms(cell: Cell, states: States) -> spread.Terms:
+    """The largest spread of each term in these states, as :func:`..sharp.widest`."""
+    system, theta, omega = cell.scene.system, states.theta, states.omega
+    ways = [vars(spread.terms(way.info, system, way.amplitude, theta, omega)) for way in cell.ways]
+    return spread.Terms(**{term: np.max([way[term] for way in ways], axis=0) for term in ways[0]})
 
 
 def columns(cell: Cell, theta: Array, unit: str) -> Array:

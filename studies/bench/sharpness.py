@@ -116,16 +116,13 @@ def _accelerations(cell: Cell) -> Measured:
     error = cell.facts.error(cell.accelerations())
     at = sharp.chosen(np.abs(error).max(axis=-1), max(1, sharp.states_for_accelerations(info, system.n)))
     chosen = cell.states.at(at)
-    size = sharp.widest(
-        cell,
-        lambda way: spread.accelerations(way.info, system, way.amplitude, chosen.theta, chosen.omega, high[at]),
-    )
+    size = sharp.widest(cell, spread.accelerations, chosen.theta, chosen.omega, high[at])
     factor = sharp.for_accelerations(info)
     return Measured(high, error, factor * size, at)
 
 
 def _mass(cell: Cell) -> Measured:
-    from ...checks.comparisons.terms import ROWS, columns
+    from ...checks.comparisons.terms import ROWS, columns, widest_terms
 
     n = cell.scene.system.n
     some = cell.states.at(np.arange(len(cell.states))[::-1][: max(1, ROWS // (2 * n + 2))])
@@ -133,11 +130,7 @@ def _mass(cell: Cell) -> Measured:
     error = columns(cell, some.theta, "alpha") - mass
     at = sharp.chosen(np.abs(error).reshape(len(error), -1).max(axis=-1), max(1, sharp.states_for_terms(cell.info, n)))
     chosen = some.at(at)
-    size = sharp.widest(
-        cell,
-        lambda way: spread.terms(way.info, cell.scene.system, way.amplitude, chosen.theta, chosen.omega).mass,
-    )
-    return Measured(mass, error, sharp.TERMS * size, at)
+    return Measured(mass, error, sharp.TERMS * widest_terms(cell, chosen).mass, at)
 
 
 def _forces(cell: Cell) -> Measured:
@@ -148,10 +141,7 @@ def _forces(cell: Cell) -> Measured:
     error = np.linalg.norm(got - forces, axis=-1)
     at = sharp.chosen(error.max(axis=-1), max(1, sharp.states_for_accelerations(info, system.n)))
     chosen = last.at(at)
-    size = sharp.widest(
-        cell,
-        lambda way: spread.joint_forces(way.info, system, way.amplitude, chosen.theta, chosen.omega, alpha[at]),
-    )
+    size = sharp.widest(cell, spread.joint_forces, chosen.theta, chosen.omega, alpha[at])
     factor = sharp.MAXIMAL if info.coordinates == "maximal" else sharp.JOINT_FORCES
     return Measured(np.linalg.norm(forces, axis=-1), error, factor * size, at)
 

@@ -99,16 +99,21 @@ def test_of_what_is_not_known_the_way_with_the_most_rounding_counts(make_cell):
     states, alpha = cell.states, cell.facts.high
 
     def size(one):
-        return sharp.widest(
-            one,
-            lambda way: spread.accelerations(
-                way.info, cell.scene.system, way.amplitude, states.theta, states.omega, alpha
-            ),
-        )
+        return sharp.widest(one, spread.accelerations, states.theta, states.omega, alpha)
 
     assert (size(undeclared(cell)) >= size(cell)).all()
     assert (size(cell) > 1.5 * size(about_hinges)).any()
     assert [result.loose for result in accelerations.compare(undeclared(cell))] == [False]
+
+
+def test_in_absolute_angles_moments_are_taken_about_one_point_alone(make_cell):
+    cell = undeclared(make_cell("fake_engines:Right", "n-leg-8", 30))
+    assert {(way.info.algorithm, way.info.moments, way.info.interchanges) for way in cell.ways} == {
+        ("aba", "hinge", False),
+        ("crba", "hinge", False),
+        ("crba", "hinge", True),
+    }
+    assert [result.loose for result in accelerations.compare(cell)] == [False]
 
 
 @pytest.mark.parametrize("n", [3, 100])
