@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import msgspec
 
-from ..engines.workers.messages import Send, Step
+from ..engines.workers.messages import Held, Send, Step
 from ..engines.workers.worker import one_line
 from ..models import AnyScene, EngineMissing, LibraryMissing, System, TreeScene
 from .check import Check
@@ -91,12 +91,12 @@ class CellJob:
             results = 0
             for result in self._results(CHECKS[check], cell, differs, causes, asking):
                 differs = differs or accelerations_differ(check, result)
-                send(msgspec.structs.replace(result, comparison=check))
+                send(Held(msgspec.structs.replace(result, comparison=check)))
                 results += 1
-            send(Compared(check, results))
+            send(Held(Compared(check, results)))
             if causes.diagnosis() != diagnosis:  # each is whole; the next check may take this process along
                 diagnosis = causes.diagnosis()
-                send(diagnosis)
+                send(Held(diagnosis))
 
     def _cell(self, announce: Callable[[bool], None]) -> Cell | TreeCell:
         from ..engines import engine_info
@@ -163,7 +163,7 @@ def accelerations_differ(check: str, result: Result) -> bool:
 def messages_of(job: TruthJob | CellJob) -> list[object]:
     """Everything that a job sends, run in this process; its exceptions come through."""
     found: list[object] = []
-    job.run(found.append)
+    job.run(lambda message: found.append(message.message if isinstance(message, Held) else message))
     return found
 
 

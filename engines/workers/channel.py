@@ -29,10 +29,22 @@ class Channel:
         self.connection = connection
         self.ready = False
         self._frames = Frames()
+        self._held = bytearray()
 
     def send(self, message: object) -> None:
         """Send a message; raises ConnectionError or TimeoutError where the other end does not take it."""
-        self.connection.sendall(encode(message))
+        self.hold(message)
+        self.flush()
+
+    def hold(self, message: object) -> None:
+        """Keep a message, as it is now, for the next that is sent."""
+        self._held += encode(message)
+
+    def flush(self) -> None:
+        """Send what is held."""
+        if self._held:
+            held, self._held = self._held, bytearray()
+            self.connection.sendall(held)
 
     def receive(self) -> object:
         """Wait for the next message; raises EOFError where the other end is closed."""

@@ -35,10 +35,18 @@ class Ready:
 
 
 @dataclass(frozen=True)
+class Held:
+    """A message that may wait for the next one, or for the next step: each that is sent wakes the reader."""
+
+    message: object
+
+
+@dataclass(frozen=True)
 class Step:
     """The job begins a step, and its time limit starts anew. If the worker dies now, it died in this step.
 
-    ``engine``: an engine is being asked, so that the time is the engine's; otherwise the job is at work of its own.
+    It is not sent: the worker's clock (:mod:`.clock`) shows it. ``engine``: an engine is being asked, so that the time
+    is the engine's; otherwise the job is at work of its own.
     """
 
     name: str

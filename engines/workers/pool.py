@@ -22,19 +22,24 @@ class Worker:
 
     process: WorkerProcess
     job: Job | None = None
-    step: Step = START
-    begun: float = 0.0
+    begun: float = 0.0  # when it was given its job, or was ready for it
     limit: float = 0.0  # [s] for a step that asks an engine
-    allowed: float = 0.0  # [s] for this step
-    deadline: float = 0.0
     heard: int = 0  # messages of this job
 
-    def begin(self, step: Step) -> None:
-        """The clock starts anew. A process that is still starting is at work of furiko's own."""
-        self.step = step
+    def at(self) -> tuple[float, Step]:
+        """When the step began that its job is at, and the step. A time that cannot be is not believed."""
+        shown = self.process.clock.last()
+        return shown if shown is not None and self.begun <= shown[0] <= time.monotonic() else (self.begun, START)
+
+    def allowed(self, step: Step) -> float:
+        """Seconds for a step. A process that is still starting is at work of furiko's own."""
         engine = step.engine and self.process.channel.ready
-        self.allowed = self.limit if engine else max(self.limit, OWN_LIMIT)
-        self.deadline = time.monotonic() + self.allowed
+        return self.limit if engine else max(self.limit, OWN_LIMIT)
+
+    def deadline(self) -> float:
+        """When the step takes too long (of time.monotonic)."""
+        begun, step = self.at()
+        return begun + self.allowed(step)
 
 
 @dataclass(frozen=True)
@@ -87,7 +92,6 @@ class Pool:
     def give(self, worker: Worker, job: Job, limit: float) -> None:
         """Give an idle worker a job; ``limit`` [s] for each step in which an engine is asked."""
         worker.job, worker.heard, worker.begun, worker.limit = job, 0, time.monotonic(), limit
-        worker.begin(START)
         with contextlib.suppress(OSError):  # if it has died, its closed connection will tell
             worker.process.channel.send(job)
 
@@ -96,15 +100,18 @@ class Pool:
         busy = self.busy
         if not busy:
             return
-        ends = [worker.deadline for worker in busy] + ([] if until is None else [until])
-        ready = wait([worker.process.channel.connection for worker in busy], max(0.0, min(ends) - time.monotonic()))
+        now = time.monotonic()
+        # A step that asks an engine may begin at any time from now on, and nobody is woken by it.
+        ends = [min(worker.deadline(), now + worker.limit) for worker in busy] + ([] if until is None else [until])
+        ready = wait([worker.process.channel.connection for worker in busy], max(0.0, min(ends) - now))
         for worker in busy:
             if worker.process.channel.connection in ready:
                 yield from self._listen(worker)
         now = time.monotonic()
         for worker in busy:
-            if worker.job is not None and worker in self.workers and now > worker.deadline:
-                yield from self._lose(worker, f"no answer within {worker.allowed:g} s", overdue=True)
+            if worker.job is not None and worker in self.workers and now > worker.deadline():
+                allowed = worker.allowed(worker.at()[1])
+                yield from self._lose(worker, f"no answer within {allowed:g} s", overdue=True)
 
     def stop(self, worker: Worker) -> None:
         """End a worker with whatever it is doing, and start a fresh one in its place."""
@@ -133,7 +140,8 @@ class Pool:
         for message in messages:
             if isinstance(message, Ready) and not worker.process.channel.ready:
                 worker.process.channel.ready = True
-                worker.begin(worker.step)
+                if worker.at()[1] is START:  # if it has not begun a step meanwhile
+                    worker.begun = time.monotonic()
                 continue
             job = worker.job
             if job is None:  # it spoke without being asked: not to be trusted with another job
@@ -149,12 +157,10 @@ class Pool:
                 yield Finished(worker, job)
                 continue
             worker.heard += 1
-            if isinstance(message, Step):
-                worker.begin(message)
             yield Said(worker, job, message)
 
     def _lose(self, worker: Worker, reason: str, *, overdue: bool = False) -> Iterator[Event]:
-        job, step = worker.job, worker.step
+        job, (_, step) = worker.job, worker.at()
         self.stop(worker)
         if job is not None:
             yield Lost(worker, job, step, reason, overdue)

@@ -16,6 +16,7 @@ from pathlib import Path
 
 from ...models.errors import LibraryMissing
 from .channel import SEND_TIMEOUT, Channel
+from .clock import Clock, clock_file
 from .messages import Setup
 
 MOST_AHEAD = 4  # more are started only once it is known how much there is to do
@@ -32,16 +33,18 @@ ENVIRONMENT = {
 
 @dataclass(frozen=True)
 class WorkerProcess:
-    """A worker process and our end of the connection to it."""
+    """A worker process, our end of the connection to it, and its clock."""
 
     process: subprocess.Popen[bytes]
     channel: Channel
+    clock: Clock
 
     def end(self) -> None:
         """End it, whatever it is doing; one that has ended already stays so."""
         self.process.kill()
         self.process.wait()
         self.channel.close()
+        self.clock.close()
 
     def how_it_died(self) -> str:
         """In words, for one whose connection is closed."""
@@ -132,11 +135,14 @@ def spawn(folder: str, modules: Sequence[str] = (), memory: int | None = None) -
     """A fresh worker process that runs in ``folder``; ``memory``: bytes that it may allocate."""
     if sys.platform == "win32":
         raise LibraryMissing("engines run in processes of their own, which needs Linux or macOS; on Windows use WSL")
+    file = clock_file(folder)
     ours, theirs = socket.socketpair()
     try:
+        clock = Clock(file)
+        given = [str(theirs.fileno()), str(os.getpid()), str(file)]
         process = subprocess.Popen(
-            [sys.executable, "-m", "furiko.engines.workers.worker", str(theirs.fileno()), str(os.getpid())],
-            pass_fds=[theirs.fileno()],
+            [sys.executable, "-m", "furiko.engines.workers.worker", *given],
+            pass_fds=[theirs.fileno(), file],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
@@ -149,8 +155,9 @@ def spawn(folder: str, modules: Sequence[str] = (), memory: int | None = None) -
         raise
     finally:
         theirs.close()
+        os.close(file)
     ours.settimeout(SEND_TIMEOUT)
     channel = Channel(ours)
     with contextlib.suppress(OSError):  # if it has died, its closed connection will tell
         channel.send(Setup(tuple(os.path.abspath(path) for path in sys.path), tuple(modules), memory))
-    return WorkerProcess(process, channel)
+    return WorkerProcess(process, channel, clock)

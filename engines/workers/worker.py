@@ -16,8 +16,9 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 from .channel import Channel
+from .clock import Clock
 from .limits import LIMITS, limit_memory
-from .messages import Done, Failed, Ready, Setup
+from .messages import Done, Failed, Held, Ready, Setup, Step
 
 if TYPE_CHECKING:
     from .messages import Job
@@ -26,9 +27,12 @@ PR_SET_PDEATHSIG = 1
 
 
 def main() -> None:
-    """Serve until the other end closes: ``python -m furiko.engines.workers.worker FILE_DESCRIPTOR PARENT``."""
+    """Serve until the other end closes: ``python -m furiko.engines.workers.worker CONNECTION PARENT CLOCK``.
+
+    The first and the last are file descriptors.
+    """
     die_with_parent(int(sys.argv[2]))
-    channel = Channel(socket.socket(fileno=int(sys.argv[1])))
+    channel, clock = Channel(socket.socket(fileno=int(sys.argv[1]))), Clock(int(sys.argv[3]))
     setup = channel.receive()
     assert isinstance(setup, Setup)
     LIMITS.seconds, LIMITS.memory = None, setup.memory  # whoever gives it jobs keeps the clock
@@ -44,17 +48,26 @@ def main() -> None:
             job = channel.receive()
         except (EOFError, ConnectionError):
             return
-        serve(job, channel)  # type: ignore[arg-type]
+        serve(job, channel, clock)  # type: ignore[arg-type]
 
 
-def serve(job: Job, channel: Channel) -> None:
-    """Run one job to its end."""
-    sent = 0
+def serve(job: Job, channel: Channel, clock: Clock) -> None:
+    """Run one job to its end. What is held is sent before an engine is asked, which may take this process along."""
+    sent, at = 0, ""
 
     def send(message: object) -> None:
-        nonlocal sent
-        channel.send(message)
+        nonlocal sent, at
+        if isinstance(message, Step):
+            if message.engine or message.name != at:
+                channel.flush()
+            at = message.name
+            clock.show(message)
+            return
         sent += 1
+        if isinstance(message, Held):
+            channel.hold(message.message)
+        else:
+            channel.send(message)
 
     try:
         job.run(send)
