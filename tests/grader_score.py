@@ -68,19 +68,23 @@ def same_equations(known: KnownMistakes) -> dict[str, tuple[int, ...]]:
     }
 
 
-def singles(sizes: Sequence[int] = SIZES, seed: int = 1) -> Tally:
-    """Every mistake of the catalogue, alone."""
+def singles(sizes: Sequence[int] = SIZES, seed: int = 1, part: float = 1.0) -> Tally:
+    """Every mistake of the catalogue, alone; ``part``: of them, drawn at random."""
     tally, draw = Tally("single mistakes"), random.Random(seed)
     for m in _mechanisms(sizes):
         known = known_mistakes(View(m))
         classes = same_equations(known)
         for mistake in known.equivalent:
+            if part < 1 and draw.random() > part:
+                continue
             verdict = tally.timed(_grade, m, [mistake], draw).verdict
             tally.add(
                 "equivalent to right, called correct" if verdict == "correct" else "FALSELY ACCUSED",
                 "" if verdict == "correct" else mistake.name,
             )
         for entry in known.wrong:
+            if part < 1 and draw.random() > part:
+                continue
             answer = tally.timed(_grade, m, [entry.mistake], draw)
             tally.add(*_single(answer, entry.mistake, classes, m))
     return tally

@@ -65,8 +65,11 @@ def align(known: KnownMistakes, rows: Sequence[Vector], labels: Sequence[str]) -
 def singles(known: KnownMistakes, rows: Sequence[Vector]) -> list[tuple[Mistake, ...]]:
     """Single mistakes whose rows are the given ones, up to order and factors; some rows may be missing."""
     given = Counter(known.point.projective(row) for row in rows)
+    strange = given.keys() - set(known.right_projective)  # which the mistake itself must have made
     found: list[tuple[Mistake, ...]] = []
     for entry in known.wrong:
+        if not strange.issubset(entry.projective.values()):
+            continue
         made = Counter(entry.projective.get(i, right) for i, right in enumerate(known.right_projective))
         if given <= made and any(number in given for number in entry.projective.values()):
             found.append((entry.mistake,))

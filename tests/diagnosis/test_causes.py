@@ -311,15 +311,18 @@ def test_a_change_of_one_in_ten_billion_is_detected_and_sized(kind):
 
 
 @pytest.mark.slow
-def test_the_score_over_five_hundred_plants(capfd):
-    """Measured with 714 plants: all detected, 99.3 % named first; 600 sound models, none alarmed."""
-    scores = score(10)
+def test_the_score_over_two_hundred_plants(capfd):
+    """Measured with 714 plants: all detected, 99.3 % named first; 600 sound models, none alarmed.
+
+    ``python tests/score_causes.py`` measures it.
+    """
+    scores = score(4)
     planted, detected, first = (sum(getattr(s, a) for s in scores.values()) for a in ("planted", "detected", "first"))
-    assert planted >= 500
+    assert planted >= 200
     assert detected == planted
     assert first >= 0.95 * planted
     assert min(precision(scores).values()) >= 0.8
-    assert false_alarms(500) == []
+    assert false_alarms(120) == []
 
 
 @pytest.mark.slow

@@ -1,4 +1,5 @@
-"""What the grader must show, measured: a part in every run, all of it where slow tests run."""
+"""What the grader must show: as many of each kind as a minute takes. ``python tests/grader_score.py`` measures all of it:
+every single mistake, 1,000 pairs, 1,000 rewritings, 10,000 malformed inputs."""
 
 import pytest
 from grader_score import cold, hostile_inputs, pairs, rewritings, singles, table
@@ -17,35 +18,25 @@ def check_singles(tally):
 
 
 @pytest.mark.slow
-def test_single_mistakes_of_two_links():
-    check_singles(singles((2,)))
-
-
-@pytest.mark.slow
 def test_single_mistakes():
-    check_singles(singles())
+    check_singles(singles((2, 3)))
 
 
 @pytest.mark.slow
-def test_some_pairs():
-    assert share(pairs(60, (2, 3)), "both named", "right on a condition") >= 0.85
+def test_single_mistakes_of_four_links():
+    check_singles(singles((4,), part=0.1))
 
 
 @pytest.mark.slow
-def test_a_thousand_pairs():
-    tally = pairs(1000)
+def test_pairs():
+    tally = pairs(200)
     assert share(tally, "both named", "right on a condition") >= 0.85, table([tally])
     assert share(tally, "NOT") == 0
 
 
 @pytest.mark.slow
-def test_some_rewritings():
-    assert share(rewritings(100), "correct") == 1
-
-
-@pytest.mark.slow
-def test_a_thousand_rewritings():
-    tally = rewritings(1000)
+def test_rewritings():
+    tally = rewritings(250)
     assert share(tally, "correct") == 1, table([tally])
 
 
@@ -57,13 +48,8 @@ def check_hostile(tally):
 
 
 @pytest.mark.slow
-def test_some_hostile_inputs():
-    check_hostile(hostile_inputs(300))
-
-
-@pytest.mark.slow
-def test_ten_thousand_hostile_inputs():
-    check_hostile(hostile_inputs(10_000))
+def test_hostile_inputs():
+    check_hostile(hostile_inputs(1_500))
 
 
 def test_the_first_verdict_is_wrong_as_it_must_be():
