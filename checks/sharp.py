@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from ..engines import EngineInfo, Integrator
 from ..models.states import States
 from ..models.systems import DocumentSystem
+from ..models.trees.states import TreeStates
 from ..reference.rounding.maximal_elimination import spread_states
 from .cell import Cell, quotient, worst
 
@@ -87,7 +88,9 @@ class Line:
         }
 
 
-def line(error: Array, spread: Array, factor: float, states: States, asked: int, besides: Array | float = 0.0) -> Line:
+def line(
+    error: Array, spread: Array, factor: float, states: States | TreeStates, asked: int, besides: Array | float = 0.0
+) -> Line:
     """Hold errors (B, …) against their spreads; ``states``: those that were chosen, of ``asked``.
 
     A spread of zero is one where nothing but exact zeros meets: any error there is beyond the line. One that overflows

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ...records.check import Result
 from ...reference.rounding.bounds import EPSILON
 from .cell import TreeCell
+from .sharp import of_accelerations
 from .verdict import judged
 
 Array = NDArray[np.float64]
@@ -47,4 +48,4 @@ def compare(cell: TreeCell) -> Iterator[Result]:
 
     moving = size > size.max(initial=0.0) * EPSILON
     details = {"forward error": float(relative[moving].max(initial=0.0))}
-    yield judged(cell, NAME, residual, unit, says, details)
+    yield judged(cell, NAME, residual, unit, says, details, usual=of_accelerations(cell, error))

@@ -11,6 +11,7 @@ from ...engines import TreeQuantity
 from ...records.check import Result
 from ...reference.rounding.spatial import FORCE_ROUNDINGS
 from .cell import TreeCell
+from .sharp import Usual, of_bias, of_mass_matrix
 from .verdict import judged
 
 Array = NDArray[np.float64]
@@ -33,7 +34,8 @@ def compare(cell: TreeCell) -> Iterator[Result]:
             yield cell.result(f"{NAME} {part}", "skipped", reason=reason)
             continue
         got, expected, unit = ANSWERS[part](cell)
-        yield _result(cell, part, words, cell.answer(words, got, expected.shape), expected, unit)
+        got = cell.answer(words, got, expected.shape)
+        yield _result(cell, part, words, got, expected, unit, _usual(cell, part, got - expected))
 
 
 def _why_not(cell: TreeCell, part: str, quantity: TreeQuantity) -> str:
@@ -48,14 +50,24 @@ def _why_not(cell: TreeCell, part: str, quantity: TreeQuantity) -> str:
     return ""
 
 
-def _result(cell: TreeCell, part: str, words: str, got: Array, expected: Array, unit: Array) -> Result:
+def _usual(cell: TreeCell, part: str, error: Array) -> Usual | None:
+    """What rounding does to a part; forces of dampers and springs have so few roundings that the bound says it."""
+    if part == "M":
+        return of_mass_matrix(cell, error)
+    v = cell.states.v
+    return None if part == "passive" else of_bias(cell, 0 * v if part == "G" else v, error)
+
+
+def _result(
+    cell: TreeCell, part: str, words: str, got: Array, expected: Array, unit: Array, usual: Usual | None
+) -> Result:
     def says(state: int, index: tuple[int, ...]) -> str:
         where = ", ".join(cell.freedom(i) for i in index)
         at = (state, *index)
         return f"{words}: the entry of {where} is {got[at]:.9g}, and by the equations of motion {expected[at]:.9g}"
 
     theory = expected if part == "M" else None
-    return judged(cell, f"{NAME} {part}", got - expected, unit, says, {}, theory)
+    return judged(cell, f"{NAME} {part}", got - expected, unit, says, {}, theory, usual)
 
 
 def _mass_matrix(cell: TreeCell) -> tuple[Array, Array, Array]:

@@ -28,6 +28,10 @@ class TreeStates:
     def __len__(self) -> int:
         return len(self.labels)
 
+    def at(self, rows: NDArray[np.intp]) -> TreeStates:
+        """Some of them, by number."""
+        return TreeStates(tuple(self.labels[row] for row in rows), self.q[rows], self.v[rows])
+
 
 def tree_states(scene: TreeScene, random: int | None = None) -> TreeStates:
     """The scene's given state, its named ones, then its random ones; at most ``random`` of these, if given."""

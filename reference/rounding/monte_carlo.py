@@ -100,6 +100,10 @@ class Noisy:
         """Sine, rounded."""
         return self.noise(np.sin(self.value))
 
+    def sqrt(self) -> Noisy:
+        """Square root, rounded."""
+        return self.noise(np.sqrt(self.value))
+
 
 def _is(number: Noisy | float, exact: float) -> bool:
     """Whether it is this very number, so that an operation with it is exact."""

@@ -47,6 +47,7 @@ ROOMS = {
             ("integration",),
             (".",),
             ("truth", "rounding"),
+            ("spatial_spread",),
             ("proved",),
             ("chain",),
         ],

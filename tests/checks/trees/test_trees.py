@@ -137,7 +137,7 @@ def compare_accelerations(error, mass):
     """The result for such errors in units of ε, (1, n), where the unit of each row is one."""
     ones = SimpleNamespace(residual=lambda *_, **__: np.ones(error.shape[1]))
     cell = SimpleNamespace(
-        info=SimpleNamespace(algorithm="aba"),
+        info=SimpleNamespace(algorithm="other"),  # whose usual rounding is not known
         states=TreeStates(("one",), np.zeros_like(error), np.zeros_like(error)),
         facts=SimpleNamespace(error=lambda got: 2.0**-52 * error, mass_matrix=mass, high=np.ones_like(error)),
         engine=SimpleNamespace(accelerations=lambda q, v: np.ones_like(error)),
@@ -221,7 +221,7 @@ def test_twice_what_rounding_explains_is_beyond_it_and_half_is_not(part, outcome
     cell = SimpleNamespace(
         states=States(("one", "two"), np.zeros((2, 1)), np.zeros((2, 1))),
         roundings=np.array([20.0, 10.0]),
-        result=lambda check, found, **more: (check, found, more["measured"], more["allowed"]),
+        result=lambda check, **more: (check, more["outcome"], more["measured"], more["allowed"]),
     )
     error = np.array([[0.0], [part * 10 * 2.0**-52 * 3.0]])
     found = judged(cell, "energy", error, np.full((2, 1), 3.0), lambda *_: "off", {})

@@ -1,5 +1,8 @@
-"""What the grader must show: as many of each kind as a minute takes. ``python tests/grader_score.py`` measures all of it:
-every single mistake, 1,000 pairs, 1,000 rewritings, 10,000 malformed inputs."""
+"""What the grader must show: as many of each kind as a minute takes.
+
+``python tests/grader_score.py`` measures all of it: every single mistake, 1,000 pairs, 1,000 rewritings, 10,000
+malformed inputs.
+"""
 
 import pytest
 from grader_score import cold, hostile_inputs, pairs, rewritings, singles, table
