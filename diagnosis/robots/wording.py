@@ -28,6 +28,7 @@ INSTEAD: Mapping[str, str] = {
     "upper_euler_as_lower": "write quat in place of euler",
     "axis_not_normalised": "write quat in place of axisangle, or the axis with all its digits, of length one",
     "include_not_followed": "write the included elements into the file",
+    "later_sections_ignored": "put all that several <compiler> or <default> say into the first",
     "late_sections_ignored": "put <compiler> and <default> before <worldbody>",
     "bodies_in_frames_lost": "leave the <frame> out and write each body's own pose",
     "bare_bodies_lost": "give each body a name",
@@ -38,6 +39,7 @@ INSTEAD: Mapping[str, str] = {
     "pos_of_last_joint_for_all": "put each joint into a body of its own",
     "armature_needs_actuator": "add an actuator to the joint, or set the armature in the engine",
     "nested_class_inherits_nothing": "repeat the element in the nested class",
+    "space_behind_number_rejected": "write the number without the space behind it",
     "frame_ignored": "write each body's own pose in place of <frame>, and the copies in place of <replicate>",
 }
 

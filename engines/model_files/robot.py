@@ -176,7 +176,11 @@ ROBOT_READERS: dict[str, RobotReader] = {
             leaves_to_caller=("damping", "stiffness"),
             mistakes={
                 "mjcf": PINOCCHIO_MJCF,
-                "urdf": ("planar_axis_ignored", "damping_dropped_on_planar_and_floating"),
+                "urdf": (
+                    "planar_axis_ignored",
+                    "space_behind_number_rejected",
+                    "damping_dropped_on_planar_and_floating",
+                ),
             },
         ),
         RobotReader(

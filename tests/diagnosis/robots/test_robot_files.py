@@ -20,6 +20,7 @@ from furiko.models.readers.model_file import read_model
 
 INERTIAL = '<inertial pos="0.1 0 -0.4" mass="1.5" diaginertia="0.1 0.2 0.25"/>'
 LINK = '<link name="{}"><inertial><origin xyz="0.2 0 -1"/><mass value="1"/>{}</inertial>{}</link>'
+LINE_ENDS_IN = '<inertia ixx=".1" iyy=".12" izz=".14\n" ixy="0" ixz="0" iyz="0"/>'
 TENSOR = '<inertia ixx=".1" iyy=".12" izz=".14" ixy="0" ixz="0" iyz="0"/>'
 
 SOUND = {
@@ -106,6 +107,24 @@ MISREAD = {
         "first-worldbody-again",
         "'j2'",
     ),
+    "siblings.xml": (  # Pinocchio calls both joints aBisJoint_0, and gives the first of that name the armature twice
+        f"""<mujoco><worldbody><body name="a"><joint name="j" axis="0 1 0"/>{INERTIAL}
+        <body pos="0 0 1"><joint axis="1 0 0" armature="0.1" damping="0.2" frictionloss="0.3"/>{INERTIAL}</body>
+        <body pos="0 1 0"><joint axis="1 0 0" armature="0.4"/>{INERTIAL.replace("1.5", "3")}</body>
+        </body></worldbody></mujoco>""",
+        "pinocchio-aba",
+        "unnamed-sibling-twice",
+        "armature 0 kg m², the file says 0.4 kg m²",
+    ),
+    "space.urdf": (  # its reader wants nothing behind a number, no end of line and no space
+        f"""<robot name="r"><link name="world"/>{LINK.format("a", LINE_ENDS_IN, "")}
+        {LINK.format("b", TENSOR, "").replace('<mass value="1"', '<mass value=" 1 "')}
+        <joint name="j" type="continuous"><parent link="world"/><child link="a"/><axis xyz="0 1 0"/></joint>
+        <joint name="k" type="continuous"><parent link="a"/><child link="b"/><axis xyz=" 1 0 0 "/></joint></robot>""",
+        "pinocchio-aba",
+        "space-behind-number-rejected",
+        "link 'a': inertia (0, 0, 0, 0, 0, 0) kg m²",
+    ),
     "ref.xml": (
         f"""<mujoco><worldbody><body name="a" pos="0 0 1" euler="0 40 0">
         <joint name="j1" axis="1 2 0" pos="0.1 0 0.2" ref="30" stiffness="2" springref="10"/>
@@ -155,6 +174,24 @@ def test_the_one_unnamed_joint_that_is_read_is_the_first(tmp_path):
     assert [finding.cause for finding in found.findings] == ["first-root-only"], found.text()
 
 
+def test_a_robot_that_is_read_twice_has_joints_out_of_order(tmp_path):
+    """Its floor stands in a second <worldbody>. Pinocchio's joints are then numbered with each leg's second half behind
+    the other leg, and crba, which takes what a joint carries to be numbered next, leaves entries at zero."""
+    legs = "".join(
+        f"""<body name="{side}" pos="0 {y} 0"><joint name="{side}_hip" axis="0 1 0" armature="0.1"/>{INERTIAL}
+        <body name="{side}_shank" pos="0 0 -1"><joint name="{side}_knee" axis="0 1 0"/>{INERTIAL}</body></body>"""
+        for side, y in (("left", 1), ("right", -1))
+    )
+    text = f"""<mujoco><worldbody><body name="trunk" pos="0 0 3"><freejoint name="base"/>{INERTIAL}{legs}</body>
+        </worldbody><worldbody><geom type="plane" size="1 1 1"/></worldbody></mujoco>"""
+    found = diagnose(saved(tmp_path, "robot.xml", text))
+    assert [finding.cause for finding in found.findings] == ["first-worldbody-again", "joints-out-of-order"], (
+        found.text()
+    )
+    assert "the mass matrix at joint 'base' and joint 'right_hip' is 0" in found.findings[1].says
+    assert (found.verdict, found.engines["mujoco"]["status"]) == ("differs", "agrees")
+
+
 REFUSED_FOR = {
     "frame-ignored": (
         f"""<mujoco><worldbody><replicate count="2" offset="0 0 1"><body name="a"><joint/>{INERTIAL}</body></replicate>
@@ -164,6 +201,16 @@ REFUSED_FOR = {
     "bare-bodies-lost": (
         f"<mujoco><worldbody><body><freejoint/>{INERTIAL}</body></worldbody></mujoco>",
         "refuses: MJCF parser: no body found",
+    ),
+    "bare-bodies-lost, beside others": (
+        f"""<mujoco><worldbody><body><freejoint/>{INERTIAL}</body><body pos="0 0 1"><freejoint/>{INERTIAL}</body>
+        </worldbody></mujoco>""",
+        ", and reads only the first <body> of the world; read so: no joint is left. Instead",
+    ),
+    "later-sections-ignored": (
+        f"""<mujoco><default><joint damping="1"/></default><default><default class="servo"><joint axis="1 0 0"/>
+        </default></default><worldbody><body name="a"><joint class="servo"/>{INERTIAL}</body></worldbody></mujoco>""",
+        "class='servo': no <default> of that class. Instead, put all",
     ),
     "include-not-followed": (
         f"""<mujoco><include file="classes.xml"/><worldbody><body name="a" childclass="arm"><joint/>{INERTIAL}</body>
@@ -185,8 +232,17 @@ def test_a_refusal_has_the_mistake_that_leaves_nothing_to_read(tmp_path, cause):
     found = diagnose(saved(tmp_path, "arm.xml", text))
     assert found.engines["pinocchio-aba"]["status"] == "refused"
     assert found.engines["mujoco"]["status"] == "agrees"
-    assert [finding.cause for finding in found.findings] == [cause], found.text()
+    assert [finding.cause for finding in found.findings] == [cause.partition(",")[0]], found.text()
     assert part in found.findings[0].says
+
+
+def test_a_space_behind_a_joints_number_is_named_where_it_stands(tmp_path):
+    """What Pinocchio says, that the file does not contain a valid URDF model, tells nobody what to do."""
+    text = MISREAD["space.urdf"][0].replace("</joint>", '<dynamics damping="0.1 "/></joint>', 1)
+    found = diagnose(saved(tmp_path, "a.urdf", text))
+    assert found.engines["mujoco"]["status"] == "agrees"
+    assert [finding.cause for finding in found.findings] == ["space-behind-number-rejected"], found.text()
+    assert "<dynamics>: damping='0.1 ': no number" in found.findings[0].says
 
 
 @pytest.mark.parametrize("place", ["body", "inertial", "geom"])
