@@ -42,7 +42,7 @@ def lost_entry(bound: BoundRobot, mechanism: SpatialMechanism) -> LostEntry | No
     for k, unit in enumerate(units):
         expected = spatial_truth(mechanism, q[k], v[k]).mass_matrix.float
         wrong = np.triu(np.abs(matrices[k] - expected) > unit.roundings * EPSILON * unit.mass_matrix)
-        if (matrices[k][lost] != 0).any() or (wrong & ~lost).any():
+        if (matrices[k][lost] != 0).any() or wrong[np.logical_not(lost)].any():
             return None
         places = np.argwhere(wrong & lost)
         if first is None and len(places):
