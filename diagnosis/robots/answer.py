@@ -169,7 +169,7 @@ def _compared(reader: RobotReader, engine: RobotEngine, question: Question) -> R
         answer.measured = tuple(
             measured(bound, acting(answer.holds, reader.leaves_to_caller), factorised=reader.factorises)
         )
-        answer.findings += _computing(reader, bound, answer)
+        answer.findings += _computing(reader, bound, answer, places_in(question.file.spatial))
         if answer.measured and len(answer.measured) < ALL_MEASURED:
             answer.notes = (f"{reader.name}: a joint moves no mass: its accelerations are not determined",)
     except (ValueError, RuntimeError, InvalidInput, np.linalg.LinAlgError) as error:
@@ -236,7 +236,7 @@ def _reading(
     return named, explanation.left
 
 
-def _computing(reader: RobotReader, bound: BoundRobot, answer: RobotAnswer) -> list[Finding]:
+def _computing(reader: RobotReader, bound: BoundRobot, answer: RobotAnswer, places: Places) -> list[Finding]:
     """Where the engine's numbers are not those of the mechanism that it holds."""
     beyond = worst(answer.measured)
     if beyond is None or answer.holds is None:
@@ -251,7 +251,8 @@ def _computing(reader: RobotReader, bound: BoundRobot, answer: RobotAnswer) -> l
             return found
     known = armature_in_body_axes(bound, holds)
     if known is not None:
-        return [*found, armature_finding(reader.name, known)]
+        line = places.lines.get(f"joint {known.joint.name!r}", "")
+        return [*found, armature_finding(reader.name, known, line)]
     says = (
         f"{reader.name}: {beyond.quantity} at {beyond.where} is {beyond.found:.9g}, the mechanism that it holds has "
         f"{beyond.expected:.9g}; rounding explains {beyond.allowed:.2g}"

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 # Of the kinetic energy, lost or won in a run that keeps its energy: a tenth of this is seen in no plot.
 COARSE = 0.01
 MOST_PAIRS = 3  # of touching geoms, named
+MOST_SERVOS = 6  # named
 
 
 def simulation_findings(path: Path, meshes: tuple[Path, ...], mechanism: SpatialMechanism) -> list[Finding]:
@@ -58,15 +59,14 @@ def _said(run: Simulation) -> Iterator[Finding]:
 
 
 def servo_findings(servos: tuple[tuple[str, str], ...]) -> list[Finding]:
-    """Actuators that pull although their control is zero: (actuator, joint)."""
-    return [
-        Finding(
-            "servo",
-            f"actuator {actuator!r}",
-            None,
-            None,
-            f"mujoco: actuator {actuator!r} pulls at joint {joint!r} at ctrl = 0, wherever the joint is not at its "
-            "target or moves; the comparison is without it",
-        )
-        for actuator, joint in servos
-    ]
+    """Actuators that pull although their control is zero, (actuator, joint), in one sentence."""
+    if not servos:
+        return []
+    shown = ", ".join(f"{actuator!r} at joint {joint!r}" for actuator, joint in servos[:MOST_SERVOS])
+    more = f" and {len(servos) - MOST_SERVOS} more" if len(servos) > MOST_SERVOS else ""
+    count, them = ("1 actuator pulls", "it") if len(servos) == 1 else (f"{len(servos)} actuators pull", "them")
+    says = (
+        f"mujoco: {count} at ctrl = 0, wherever a joint is not at its target or moves: {shown}{more}; the comparison "
+        f"is without {them}"
+    )
+    return [Finding("servo", f"actuator {servos[0][0]!r}", None, None, says)]

@@ -10,9 +10,10 @@ from .numbers import FieldDifference
 
 MOST_PLACES = 6  # named in one finding
 DIGITS = (6, 9, 12, 17)  # of numbers: the first at which what was found and expected can be told apart
+APPLIED = "apply the damping in your own code, or, if it comes from a default class only, write <freejoint>"
 # What to write so that all engines read the file alike, by the mistake that is made otherwise.
 INSTEAD: Mapping[str, str] = {
-    "first_root_only": "put all bodies of the world into one body without joint",
+    "first_root_only": "put all bodies of the world that have no free joint into one body without joint",
     "geoms_without_contact_weigh_nothing": "give the body an <inertial>",
     "pose_of_first_fixed_body_dropped": "leave the body out and place what it carries in the world",
     "mesh_weighs_one_kilogram": "give the body an <inertial>",
@@ -35,7 +36,8 @@ INSTEAD: Mapping[str, str] = {
     "unnamed_sibling_twice": "give each body a name",
     "first_ref_ignored": "write ref='0' and the pose at zero into the body",
     "springdamper_ignored": "write the joint's stiffness and damping",
-    "damping_dropped_on_free_and_ball": "apply the damping in your own code",
+    "damping_dropped_on_free_and_ball": APPLIED,
+    "damping_dropped_on_free": APPLIED,
     "pos_of_last_joint_for_all": "put each joint into a body of its own",
     "armature_needs_actuator": "add an actuator to the joint, or set the armature in the engine",
     "nested_class_inherits_nothing": "repeat the element in the nested class",

@@ -53,6 +53,7 @@ DRAKE_MJCF = (
     "pos_of_last_joint_for_all",
     "armature_needs_actuator",
     "nested_class_inherits_nothing",
+    "damping_dropped_on_free",
     "frame_ignored",
     "total_mass_ignored",
     "inertia_group_ignored",

@@ -56,6 +56,7 @@ class MjcfRules:
     gravity_not_read: bool = _mistake("does not read gravity: 9.81 m/s² along −z, whatever the file says")
     gravity_flag_ignored: bool = _mistake('does not read <flag gravity="disable"/>: gravity acts')
     damping_dropped_on_free_and_ball: bool = _mistake("drops damping and dry friction of free and ball joints")
+    damping_dropped_on_free: bool = _mistake("drops damping of free joints")
     springdamper_ignored: bool = _mistake("ignores springdamper: joints have their own stiffness and damping")
     springs_not_held: bool = _mistake("has no joint springs")
     pos_of_last_joint_for_all: bool = _mistake(

@@ -34,11 +34,11 @@ def spatial_mjcf(mechanism: SpatialMechanism, model: str = "mechanism") -> str:
         compiler.set("boundinertia", repr(LEAST_INERTIA))  # MuJoCo refuses a point mass
     world = ElementTree.SubElement(root, "worldbody")
     names = unique_names(mechanism.bodies, "world")
-    top = _top(world, mechanism)
+    top = _top(world, mechanism)  # of bodies without a free joint, which must be on one of the world itself
     elements: list[ElementTree.Element] = []
     depths: list[int] = []
     for body, name, inertial in zip(mechanism.bodies, names, inertials, strict=True):
-        parent = top if body.parent == WORLD else elements[body.parent]
+        parent = elements[body.parent] if body.parent != WORLD else world if _free(body) else top
         depths.append(1 if body.parent == WORLD else depths[body.parent] + 1 + (len(body.joints) > 1))
         if depths[-1] > DEEPEST - 2:
             raise InvalidInput(f"bodies {DEEPEST} deep: MJCF nests them, and its readers take no more")
@@ -56,15 +56,18 @@ _MOVED = ("hinge", "slide")
 
 
 def _top(world: ElementTree.Element, mechanism: SpatialMechanism) -> ElementTree.Element:
-    """Where the bodies of the world are put: in one body without a pose if Pinocchio would lose some of them, or the
-    pose of the first; a free joint must be on a body of the world itself."""
-    roots = [body for body in mechanism.bodies if body.parent == WORLD]
-    free = any(joint.kind == "free" for body in roots for joint in body.joints)
+    """Where the bodies of the world that have no free joint are put: in one body without a pose if Pinocchio would lose
+    some of them, or the pose of the first."""
+    roots = [body for body in mechanism.bodies if body.parent == WORLD and not _free(body)]
     first_is_fixed = bool(roots) and len(roots[0].joints) != 1  # with several joints, what it stands in is
     posed = first_is_fixed and (roots[0].position.any() or not _unturned(roots[0]))
-    if free or not (len(roots) > 1 or posed):
+    if not (len(roots) > 1 or posed):
         return world
     return ElementTree.SubElement(world, "body", name="furiko_support")
+
+
+def _free(body: RigidBody) -> bool:
+    return any(joint.kind == "free" for joint in body.joints)
 
 
 def _unturned(body: RigidBody) -> bool:

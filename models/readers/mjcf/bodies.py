@@ -185,11 +185,9 @@ class Bodies:
             placement = HERE
         if rules.first_ref_ignored and len(joints) > 1:
             joints[0] = replace(joints[0], ref=0.0)
-        parent = at.parent
-        if rules.pos_of_last_joint_for_all and len(joints) > 1:
-            self.bodies.append(RigidBody(f"{name} before its last joint", parent, joints=tuple(joints[:-1])))
-            parent, joints = len(self.bodies) - 1, joints[-1:]
-        at_parent = (parent, placement.position, placement.quaternion)
+        if rules.pos_of_last_joint_for_all:
+            joints = [*(_before_the_pose(joint, placement) for joint in joints[:-1]), *joints[-1:]]
+        at_parent = (at.parent, placement.position, placement.quaternion)
         meshes = self.inertials.meshes.get(name, 0.0)
         self.bodies.append(RigidBody(name, *at_parent, tuple(joints), inertial, str(element), meshes))
         return len(self.bodies) - 1
@@ -263,3 +261,10 @@ class Bodies:
             if aligned == "true" or (aligned == "auto" and self.compiler.align_free):
                 self._aligned.append((len(self.bodies), given))
         return joint
+
+
+def _before_the_pose(joint: Joint, placement: Placement) -> Joint:
+    """The joint in its body's frame, where its numbers are meant in the frame that the body's ``placement`` is in."""
+    pose = placement.pose
+    axis = np.asarray(pose.rotation.T @ joint.axis)
+    return replace(joint, axis=axis, anchor=np.asarray(pose.rotation.T @ (joint.anchor - pose.translation)))

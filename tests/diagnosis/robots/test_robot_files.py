@@ -15,6 +15,7 @@ from furiko.diagnosis.finding import CAUSES
 from furiko.diagnosis.model_files.fix import write_fixed
 from furiko.diagnosis.robots.fields import field_differences
 from furiko.diagnosis.robots.misreadings import explain_reading
+from furiko.engines.model_files.robot import ROBOT_READERS
 from furiko.models import InvalidInput
 from furiko.models.readers.model_file import read_model
 
@@ -294,6 +295,34 @@ def test_the_fixed_file_is_read_alike(tmp_path, name):
     assert [f.cause for f in diagnose(out, path).findings] == []
 
 
+def test_a_fix_keeps_in_one_body_what_is_not_free_and_says_what_no_file_can_hold(tmp_path):
+    """A box before two arms: MJCF takes free joints in the world only, where Pinocchio reads the first body alone."""
+    arms = "".join(
+        f"""<body name="{side}" pos="0 {y} 0"><body name="{side}_hand"><joint name="{side}_j" axis="0 1 0"/>{INERTIAL}
+        </body></body>"""
+        for side, y in (("left", 1), ("right", -1))
+    )
+    text = f"""<mujoco><worldbody><body name="box"><joint type="free" name="f" damping="1"/>{INERTIAL}</body>{arms}
+        </worldbody></mujoco>"""
+    path, out = saved(tmp_path, "arms.xml", text), tmp_path / "fixed.xml"
+    free, damping = write_fixed(read_model(path), out)
+    assert "free must be there: 'box'" in free
+    assert damping.endswith("which MuJoCo alone has as written: 'f'")
+    found = diagnose(out)
+    assert [finding.cause for finding in found.findings] == ["first-root-only"], found.text()
+    assert "joint none" in found.findings[0].says
+    assert "_j'" not in found.findings[0].says
+    assert [f.cause for f in diagnose(out, path).findings if f.where.startswith("the file")] == []
+
+
+def test_a_fix_says_which_links_weigh_nothing(tmp_path):
+    text = f"""<robot name="r"><link name="world"/>{LINK.format("a", TENSOR, "")}<link name="tool"/>
+        <joint name="j" type="continuous"><parent link="world"/><child link="a"/><axis xyz="0 1 0"/></joint>
+        <joint name="k" type="continuous"><parent link="a"/><child link="tool"/><axis xyz="0 1 0"/></joint></robot>"""
+    (says,) = write_fixed(read_model(saved(tmp_path, "a.urdf", text)), tmp_path / "fixed.xml")
+    assert says == "MuJoCo refuses links that move and weigh nothing: 'tool'"
+
+
 def test_a_fix_is_not_written_over_the_file_itself_or_in_another_format(tmp_path):
     path = saved(tmp_path, "a.xml", SOUND["free.xml"])
     with pytest.raises(InvalidInput, match="is not overwritten"):
@@ -323,6 +352,28 @@ def test_servos_and_long_time_steps_are_said_and_change_no_verdict(tmp_path):
     assert {finding.cause for finding in found.simulation} == {"servo", "coarse-time-step"}
     assert any("'servo'" in f.says and "'q'" in f.says for f in found.simulation)
     assert any("actuator" in line for line in found.without)
+
+
+def test_many_servos_are_said_in_one_sentence(tmp_path):
+    servos = "".join(f'<position name="s{k}" joint="q" kp="12"/>' for k in range(8))
+    text = SOUND["cart-pole.xml"].replace("</worldbody>", f"</worldbody><actuator>{servos}</actuator>")
+    found = diagnose(saved(tmp_path, "a.xml", text), engines=["mujoco"])
+    (said,) = (finding for finding in found.simulation if finding.cause == "servo")
+    assert "8 actuators pull at ctrl = 0" in said.says
+    assert "'s5' at joint 'q' and 2 more;" in said.says
+
+
+def test_pinocchio_is_not_asked_for_a_workspace_that_fills_the_memory(tmp_path):
+    """Its Data of 675 freedoms takes 11 GB and a minute and a half."""
+
+    def sliding(count):
+        bodies = "".join(f'<body name="b{k}"><joint type="slide"/>{INERTIAL}</body>' for k in range(count))
+        return f'<mujoco><worldbody><body name="a">{bodies}</body></worldbody></mujoco>'
+
+    few, many = saved(tmp_path, "few.xml", sliding(3)), saved(tmp_path, "many.xml", sliding(401))
+    assert len(ROBOT_READERS["pinocchio-aba"].load(few, "mjcf").joints()) == 3
+    with pytest.raises(ValueError, match="workspace for 401 freedoms takes some 2 GB"):
+        ROBOT_READERS["pinocchio-aba"].load(many, "mjcf")
 
 
 def test_damping_that_pinocchio_leaves_to_its_caller_is_said(tmp_path):
