@@ -179,7 +179,7 @@ def _compared(reader: RobotReader, engine: RobotEngine, question: Question) -> R
         answer.rounded = rounded(answer.holds, question.file.spatial, reader.same_frame)
         answer.notes += (NEARLY_IN_FRAME.format(engine=reader.name, bodies=listed(kept), reach=reader.same_frame),)
     if reader.name == "mujoco" and question.file.language == "mjcf":
-        answer.simulation = simulation_findings(question.path, question.meshes, question.file.spatial)
+        answer.simulation = simulation_findings(engine, question.file.spatial)
     if answer.findings:
         answer.status = "differs"
     return answer

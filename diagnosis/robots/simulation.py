@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ...engines.model_files.robot import RobotEngine
 from ...models.spatial_mechanism import SpatialMechanism
 from ..finding import Finding
 from .states import probe_states
@@ -23,17 +23,21 @@ MOST_PAIRS = 3  # of touching geoms, named
 MOST_SERVOS = 6  # named
 
 
-def simulation_findings(path: Path, meshes: tuple[Path, ...], mechanism: SpatialMechanism) -> list[Finding]:
+def simulation_findings(engine: RobotEngine, mechanism: SpatialMechanism) -> list[Finding]:
     """Contacts at the start and a time step too long for the file, from MuJoCo's own run of it.
 
     The run starts at rest in a configuration inside the joints' ranges, without contacts, limits, dry friction,
-    dampers and actuators. Empty where MuJoCo cannot run it.
+    dampers and actuators. Empty for another engine, and where MuJoCo cannot run it.
     """
-    from ...engines.model_files.robot_simulation import simulate_file  # which imports MuJoCo
+    from ...engines.model_files.robot_mujoco import MujocoRobot
+    from ...engines.model_files.robot_simulation import simulate  # which imports MuJoCo
+
+    if not isinstance(engine, MujocoRobot):
+        return []
 
     q, _ = probe_states(mechanism, 2)
     try:
-        run = simulate_file(path, meshes, q[1], 0.0 * mechanism.per_freedom("armature"))
+        run = simulate(engine, q[1], 0.0 * mechanism.per_freedom("armature"))
     except (ValueError, RuntimeError):
         return []
     return list(_said(run))
