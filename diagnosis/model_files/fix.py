@@ -34,9 +34,9 @@ def write_fixed(model: ModelFile, out: Path) -> list[str]:
 
 
 def _not_alike(mechanism: SpatialMechanism, out: Path) -> Iterator[str]:
-    free = [body.name for body in mechanism.bodies if any(joint.kind == "free" for joint in body.joints)]
-    roots = sum(body.parent == WORLD for body in mechanism.bodies)
-    if out.suffix != ".urdf" and free and roots > 1:
+    roots = [link for link in moving_links(mechanism) if link.parent == WORLD]
+    free = [link.name for link in roots if any(seen.joint.kind == "free" for seen in link.joints)]
+    if out.suffix != ".urdf" and free and len(roots) > 1:
         yield (
             f"Pinocchio reads only the first body of the world, and one that is free must be there: {listed(free)}; "
             "ask it about each in a file of its own"

@@ -123,10 +123,17 @@ def _refused(reader: RobotReader, message: str, question: Question) -> RobotAnsw
     words = message.lower().removeprefix("error: ")
     of_file = "xml error" in words or words.startswith("mesh")  # whose message may advise another inertia
     inertia = not of_file and re.search(r"inertia\b|\bmass|eigenvalue", words) is not None
-    finding = Finding(
-        "inertia-rejected" if inertia else "file-refused", reader.name, None, None, f"{reader.name} refuses: {message}"
-    )
+    says = f"{reader.name} refuses: {message}" + ("" if inertia else _about_files(words))
+    finding = Finding("inertia-rejected" if inertia else "file-refused", reader.name, None, None, says)
     return RobotAnswer(reader.name, "refused", message, [finding])
+
+
+def _about_files(message: str) -> str:
+    """What helps where an engine does not get or read a mesh, as the end of a sentence."""
+    without = "--fix OUT writes the mechanism without meshes"
+    if "error opening file" in message:
+        return f". Name the folder that has it with --meshes; {without}"
+    return f". {without}" if "mesh" in message or "decoder" in message else ""
 
 
 def _unreadable_with(reader: RobotReader, message: str, question: Question) -> Finding | None:

@@ -13,7 +13,7 @@ DIGITS = (6, 9, 12, 17)  # of numbers: the first at which what was found and exp
 APPLIED = "apply the damping in your own code, or, if it comes from a default class only, write <freejoint>"
 # What to write so that all engines read the file alike, by the mistake that is made otherwise.
 INSTEAD: Mapping[str, str] = {
-    "first_root_only": "put all bodies of the world that have no free joint into one body without joint",
+    "first_root_only": "put all bodies of the world without a free joint into one body, and free ones into other files",
     "geoms_without_contact_weigh_nothing": "give the body an <inertial>",
     "pose_of_first_fixed_body_dropped": "leave the body out and place what it carries in the world",
     "mesh_weighs_one_kilogram": "give the body an <inertial>",

@@ -30,13 +30,14 @@ LONG_LISTS = {
 
 @dataclass
 class Element:
-    """One element: tag, attributes, children, and its file and line."""
+    """One element: tag, attributes, children, its file and line; ``unnamed``: whether a reader gave it its name."""
 
     tag: str
     attributes: dict[str, str]
     file: str = ""
     line: int = 0
     children: list[Element] = field(default_factory=list)
+    unnamed: bool = False
 
     def all(self, *tags: str) -> Iterator[Element]:
         """The children with one of these tags."""
@@ -52,7 +53,7 @@ class Element:
 
     def __str__(self) -> str:
         name = self.attributes.get("name")
-        called = f" name={name[:60]!r}" if name else ""
+        called = f" name={name[:60]!r}" if name and not self.unnamed else ""
         return f"{self.file}, line {self.line}, <{self.tag}{called}>"
 
     def wrong(self, says: str) -> InvalidInput:

@@ -26,6 +26,8 @@ def spatial_mjcf(mechanism: SpatialMechanism, model: str = "mechanism") -> str:
     with armature has a motor, without which Drake would drop it. Raises :class:`InvalidInput` for inertials on which
     engines do not agree, and for more than 450 bodies one in the other.
     """
+    if any(_free(body) for body in mechanism.bodies):
+        mechanism = _without_scenery(mechanism)
     root = ElementTree.Element("mujoco", model=model)
     compiler = ElementTree.SubElement(root, "compiler", angle="radian", balanceinertia="false", autolimits="false")
     ElementTree.SubElement(root, "option", gravity=row(mechanism.gravity))
@@ -53,6 +55,26 @@ def spatial_mjcf(mechanism: SpatialMechanism, model: str = "mechanism") -> str:
 
 
 _MOVED = ("hinge", "slide")
+
+
+def _without_scenery(mechanism: SpatialMechanism) -> SpatialMechanism:
+    """The mechanism without what neither moves nor carries anything that does, beside which Pinocchio would lose what
+    is free."""
+    bodies = mechanism.bodies
+    moves: list[bool] = []
+    for body in bodies:
+        moves.append(bool(body.joints) or (body.parent != WORLD and moves[body.parent]))
+    kept = list(moves)  # and what carries one of these
+    for index, body in reversed([*enumerate(bodies)]):
+        if kept[index] and body.parent != WORLD:
+            kept[body.parent] = True
+    places = np.cumsum(kept) - 1
+    left = [
+        replace(body, parent=body.parent if body.parent == WORLD else int(places[body.parent]))
+        for body, stays in zip(bodies, kept, strict=True)
+        if stays
+    ]
+    return replace(mechanism, bodies=tuple(left))
 
 
 def _top(world: ElementTree.Element, mechanism: SpatialMechanism) -> ElementTree.Element:

@@ -241,6 +241,7 @@ class Bodies:
         if name in taken:
             raise element.wrong(f"a second {kind} called {name[:60]!r}; names must be unique")
         taken.add(name)
+        element.unnamed |= not element.get("name")
         element.attributes["name"] = name
         return name
 

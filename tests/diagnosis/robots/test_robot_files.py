@@ -432,6 +432,34 @@ def test_an_element_of_half_a_million_attributes_is_refused_before_any_engine_re
         diagnose(saved(tmp_path, "a.xml", SOUND["free.xml"].replace("<mujoco>", f"<mujoco {many}>")))
 
 
+@pytest.mark.parametrize(
+    ("mesh", "help_"),
+    [
+        ("gone.stl", ". Name the folder that has it with --meshes; --fix OUT writes the mechanism without meshes"),
+        ("shape.dae", ". --fix OUT writes the mechanism without meshes"),
+    ],
+)
+def test_an_engine_that_does_not_get_a_mesh_is_told_what_helps(tmp_path, mesh, help_):
+    """The link has its inertial: its mesh has no part in the dynamics, and MuJoCo refuses the file all the same."""
+    shape = f'<collision><geometry><mesh filename="{mesh}"/></geometry></collision>'
+    text = SOUND["floating.urdf"].replace("</inertial>", f"</inertial>{shape}")
+    saved(tmp_path, "shape.dae", "<COLLADA/>")
+    path, out = saved(tmp_path, "a.urdf", text), tmp_path / "fixed.xml"
+    found = diagnose(path)
+    assert found.engines["pinocchio-aba"]["status"] == "agrees"
+    assert [(f.cause, f.where) for f in found.findings] == [("file-refused", "mujoco")]
+    assert found.findings[0].says.endswith(help_)
+    assert write_fixed(read_model(path), out) == []
+    assert diagnose(out).verdict == "agrees"
+
+
+def test_what_has_no_name_is_told_by_its_line_alone(tmp_path):
+    text = f"""<mujoco><worldbody><body name="a"><freejoint/>{INERTIAL}</body>
+        <body name="b"><freejoint/>{INERTIAL}</body></worldbody></mujoco>"""
+    (finding,) = diagnose(saved(tmp_path, "a.xml", text)).findings
+    assert "line 2, <freejoint>)" in finding.says
+
+
 def test_an_unknown_engine_is_refused(tmp_path):
     with pytest.raises(InvalidInput, match="mujocoo"):
         diagnose(saved(tmp_path, "a.xml", SOUND["free.xml"]), engines=["mujocoo"])
