@@ -193,6 +193,17 @@ def test_a_robot_that_is_read_twice_has_joints_out_of_order(tmp_path):
     assert (found.verdict, found.engines["mujoco"]["status"]) == ("differs", "agrees")
 
 
+def test_joints_that_share_one_made_up_name_are_still_asked(tmp_path):
+    """Pinocchio has three composite joints of one name; what it holds and computes is compared, not given up."""
+    two = f"""<joint axis="1 0 0"/><joint type="slide" axis="0 1 0"/>{INERTIAL}"""
+    text = f"""<mujoco><worldbody><body name="base"><joint name="b" axis="0 1 0"/>{INERTIAL}
+        <body pos="0 0 1">{two}</body><body pos="0 1 0"><joint axis="1 0 0"/>{INERTIAL}</body></body></worldbody>
+        </mujoco>"""
+    found = diagnose(saved(tmp_path, "a.xml", text))
+    assert (found.verdict, found.engines["pinocchio-aba"]["status"]) == ("differs", "differs"), found.text()
+    assert found.engines["mujoco"]["status"] == "agrees"
+
+
 REFUSED_FOR = {
     "frame-ignored": (
         f"""<mujoco><worldbody><replicate count="2" offset="0 0 1"><body name="a"><joint/>{INERTIAL}</body></replicate>
