@@ -18,6 +18,7 @@ from furiko.diagnosis.robots.misreadings import explain_reading
 from furiko.engines.model_files.robot import ROBOT_READERS
 from furiko.models import InvalidInput
 from furiko.models.readers.model_file import read_model
+from furiko.models.readers.rules import with_mistakes
 
 INERTIAL = '<inertial pos="0.1 0 -0.4" mass="1.5" diaginertia="0.1 0.2 0.25"/>'
 LINK = '<link name="{}"><inertial><origin xyz="0.2 0 -1"/><mass value="1"/>{}</inertial>{}</link>'
@@ -410,6 +411,22 @@ def test_a_range_that_an_engine_does_not_hold_is_left_where_ranges_count(tmp_pat
 
     explanation = explain_reading(lambda rules: said, "mjcf", left, ("first_root_only",))
     assert [difference.cause for difference in explanation.left] == causes
+
+
+def test_no_file_is_read_again_for_what_is_explained(tmp_path):
+    """As documented, with the first mistake, and no more: a large file takes tens of milliseconds to read."""
+    path = saved(tmp_path, "a.xml", MISREAD["roots.xml"][0])
+    readings = []
+
+    def read(rules):
+        readings.append(rules)
+        return read_model(path, rules).spatial
+
+    holds = read_model(path, with_mistakes("mjcf", ["first_root_only"])).spatial
+    candidates = ROBOT_READERS["pinocchio-aba"].mistakes["mjcf"]
+    found = explain_reading(read, "mjcf", lambda reading: field_differences(holds, reading), candidates)
+    assert [flag for flag, _ in found.mistakes] == ["first_root_only"]
+    assert len(readings) == 2
 
 
 def test_another_robot_is_compared_number_by_number(tmp_path):
