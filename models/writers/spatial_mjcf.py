@@ -79,8 +79,11 @@ def _without_scenery(mechanism: SpatialMechanism) -> SpatialMechanism:
 
 def _top(world: ElementTree.Element, mechanism: SpatialMechanism) -> ElementTree.Element:
     """Where the bodies of the world that have no free joint are put: in one body without a pose if Pinocchio would lose
-    some of them, or the pose of the first."""
-    roots = [body for body in mechanism.bodies if body.parent == WORLD and not _free(body)]
+    some of them, or the pose of the first; in their order in the world behind a free one, which alone it reads."""
+    roots = [body for body in mechanism.bodies if body.parent == WORLD]
+    if roots and _free(roots[0]):
+        return world
+    roots = [body for body in roots if not _free(body)]
     first_is_fixed = bool(roots) and len(roots[0].joints) != 1  # with several joints, what it stands in is
     posed = first_is_fixed and (roots[0].position.any() or not _unturned(roots[0]))
     if not (len(roots) > 1 or posed):

@@ -308,13 +308,13 @@ def test_the_fixed_file_is_read_alike(tmp_path, name):
 
 
 def test_a_fix_keeps_in_one_body_what_is_not_free_and_says_what_no_file_can_hold(tmp_path):
-    """A box before two arms: MJCF takes free joints in the world only, where Pinocchio reads the first body alone."""
+    """Two arms before a box: MJCF takes free joints in the world only, where Pinocchio reads the first body alone."""
     arms = "".join(
         f"""<body name="{side}" pos="0 {y} 0"><body name="{side}_hand"><joint name="{side}_j" axis="0 1 0"/>{INERTIAL}
         </body></body>"""
         for side, y in (("left", 1), ("right", -1))
     )
-    text = f"""<mujoco><worldbody><body name="box"><joint type="free" name="f" damping="1"/>{INERTIAL}</body>{arms}
+    text = f"""<mujoco><worldbody>{arms}<body name="box"><joint type="free" name="f" damping="1"/>{INERTIAL}</body>
         </worldbody></mujoco>"""
     path, out = saved(tmp_path, "arms.xml", text), tmp_path / "fixed.xml"
     free, damping = write_fixed(read_model(path), out)
@@ -325,6 +325,9 @@ def test_a_fix_keeps_in_one_body_what_is_not_free_and_says_what_no_file_can_hold
     assert "joint none" in found.findings[0].says
     assert "_j'" not in found.findings[0].says
     assert [f.cause for f in diagnose(out, path).findings if f.where.startswith("the file")] == []
+    free_first = text.replace(arms, "").replace("</worldbody>", f"{arms}</worldbody>")
+    write_fixed(read_model(saved(tmp_path, "box-first.xml", free_first)), out)
+    assert [joint.joint.name for joint in read_model(out).spatial.joints] == ["f", "left_j", "right_j"]
 
 
 def test_a_fix_says_which_links_weigh_nothing(tmp_path):
