@@ -80,6 +80,7 @@ CAUSES: dict[str, str] = {
     "wrong-rate": "another link's rate is squared",
     "wrong-acceleration": "another link's acceleration is multiplied",
     "free-armature-in-body-axes": "the armature of a free joint acts along the body's axes, not the world's",
+    "joints-out-of-order": "joints are not numbered subtree by subtree, and the mass matrix lacks entries",
     "servo": "an actuator pulls although its control is zero",
     "coarse-time-step": "the file's time step is too long for its integrator",
     "float32": "single precision",

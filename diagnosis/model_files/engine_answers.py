@@ -66,7 +66,7 @@ def ask(reader: Reader, file: ModelFile) -> EngineAnswer:
             engine = reader.load(file)
         except ImportError as error:
             return EngineAnswer(reader.name, "missing", f"{installing(reader.package)} [{error}]", native=reader.native)
-        except (ValueError, RuntimeError) as error:
+        except (ValueError, RuntimeError, LookupError) as error:  # LookupError: Pinocchio, of a class that it has not
             return _refused(reader, _one_line(error)[:LONGEST_MESSAGE])
         return _compared(reader, engine, file)
 

@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 from ...models import InvalidInput
 from ...models.readers.model_file import ModelFile
+from ...models.spatial_mechanism import WORLD, SpatialMechanism
 from ...models.writers.spatial_mjcf import spatial_mjcf
 from ...models.writers.spatial_urdf import spatial_urdf
 from ...models.writers.whole_file import write_whole
+from ..robots.answer import listed
+from ..robots.moving_links import moving_links
 
 WRITERS = {".xml": spatial_mjcf, ".mjcf": spatial_mjcf, ".urdf": spatial_urdf}
 
 
-def write_fixed(model: ModelFile, out: Path) -> None:
+def write_fixed(model: ModelFile, out: Path) -> list[str]:
     """Write the mechanism of a file that was read to ``out``; its ending says in which format.
 
-    Every number stands where it acts: inertials in place of geoms, no default classes, no includes, names on all.
+    Every number stands where it acts: inertials in place of geoms, no default classes, no includes, names on all. What
+    comes back are sentences on what the mechanism has that no file can say to all engines alike.
     Raises :class:`InvalidInput` for another ending, for the file itself, and where the format cannot hold the
     mechanism.
     """
@@ -25,6 +30,26 @@ def write_fixed(model: ModelFile, out: Path) -> None:
     if out.exists() and _same(out, model.path):
         raise InvalidInput(f"{out}: this is the file itself, which is not overwritten; give another name")
     write_whole(out, WRITERS[out.suffix](model.spatial))
+    return list(_not_alike(model.spatial, out))
+
+
+def _not_alike(mechanism: SpatialMechanism, out: Path) -> Iterator[str]:
+    roots = [link for link in moving_links(mechanism) if link.parent == WORLD]
+    free = [link.name for link in roots if any(seen.joint.kind == "free" for seen in link.joints)]
+    if out.suffix != ".urdf" and free and len(roots) > 1:
+        yield (
+            f"Pinocchio reads only the first body of the world, and one that is free must be there: {listed(free)}; "
+            "ask it about each in a file of its own"
+        )
+    acting = ("armature", "damping", "friction")
+    turning = [joint for body in mechanism.bodies for joint in body.joints if joint.kind in ("free", "ball")]
+    names = [joint.name for joint in turning if any(getattr(joint, name) for name in acting)]
+    if names:
+        what = "armature, damping and dry friction of free and ball joints"
+        yield f"{what}, which MuJoCo alone has as written: {listed(names)}"
+    weightless = [link.name for link in moving_links(mechanism) if link.inertial.weightless]
+    if weightless:
+        yield f"MuJoCo refuses links that move and weigh nothing: {listed(weightless)}"
 
 
 def _same(out: Path, path: str) -> bool:

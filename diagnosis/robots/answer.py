@@ -20,8 +20,9 @@ from ...models.spatial_mechanism import SpatialMechanism
 from ..finding import Finding
 from .fields import field_differences
 from .free_armature import armature_finding, armature_in_body_axes
-from .measures import Measured, measured, worst
+from .measures import MASS_MATRIX, Measured, measured, worst
 from .misreadings import explain_reading
+from .numbering import lost_entry, lost_entry_finding
 from .numbers import FieldDifference, plain
 from .same_frame import frames_kept, moved_back, rounded
 from .same_names import called_as
@@ -53,8 +54,17 @@ class Question:
         return read_model(self.path, rules, self.meshes).spatial
 
 
-# Mistakes that lose elements, after which there may be no mechanism left, or classes that are not there.
-LOSING = ("include_not_followed", "frame_ignored", "bare_bodies_lost")
+# Mistakes after which there may be no mechanism left, or classes that are not there. Each is tried alone, and then
+# beside the other one if an engine makes that too.
+LOSING = (
+    "include_not_followed",
+    "frame_ignored",
+    "bare_bodies_lost",
+    "late_sections_ignored",
+    "later_sections_ignored",
+    "space_behind_number_rejected",
+)
+BESIDE_LOSING = "first_root_only"
 
 
 @dataclass
@@ -113,24 +123,40 @@ def _refused(reader: RobotReader, message: str, question: Question) -> RobotAnsw
     words = message.lower().removeprefix("error: ")
     of_file = "xml error" in words or words.startswith("mesh")  # whose message may advise another inertia
     inertia = not of_file and re.search(r"inertia\b|\bmass|eigenvalue", words) is not None
-    finding = Finding(
-        "inertia-rejected" if inertia else "file-refused", reader.name, None, None, f"{reader.name} refuses: {message}"
-    )
+    says = f"{reader.name} refuses: {message}" + ("" if inertia else _about_files(words))
+    finding = Finding("inertia-rejected" if inertia else "file-refused", reader.name, None, None, says)
     return RobotAnswer(reader.name, "refused", message, [finding])
+
+
+def _about_files(message: str) -> str:
+    """What helps where an engine does not get or read a mesh, as the end of a sentence."""
+    without = "--fix OUT writes the mechanism without meshes"
+    if "error opening file" in message:
+        return f". Name the folder that has it with --meshes; {without}"
+    return f". {without}" if "mesh" in message or "decoder" in message else ""
 
 
 def _unreadable_with(reader: RobotReader, message: str, question: Question) -> Finding | None:
     """The engine's known mistake with which furiko's own reader, too, finds no mechanism in the file."""
     language = question.file.language
-    for flag in (lost for lost in LOSING if lost in reader.mistakes.get(language, ())):
-        try:
-            left = "" if question.read(with_mistakes(language, [flag])).joints else "no joint is left"
-        except InvalidInput as error:
-            left = str(error)
-        if left:
-            says = f"{reader.name} refuses: {message}. It {mistakes_in(language)[flag]}; read so: {left}"
-            return Finding(flag.replace("_", "-"), reader.name, None, None, says + instead(flag))
+    known = reader.mistakes.get(language, ())
+    beside = [(), (BESIDE_LOSING,)] if BESIDE_LOSING in known else [()]
+    for others in beside:
+        for flag in (lost for lost in LOSING if lost in known):
+            left = _what_is_left(question, [flag, *others])
+            if left:
+                does = ", and ".join(mistakes_in(language)[one] for one in (flag, *others))
+                says = f"{reader.name} refuses: {message.rstrip('.')}. It {does}; read so: {left}"
+                return Finding(flag.replace("_", "-"), reader.name, None, None, says + instead(flag))
     return None
+
+
+def _what_is_left(question: Question, flags: Sequence[str]) -> str:
+    """Why nothing can be made of the file, read with these mistakes; nothing if something can."""
+    try:
+        return "" if question.read(with_mistakes(question.file.language, flags)).joints else "no joint is left"
+    except InvalidInput as error:
+        return str(error)
 
 
 def _compared(reader: RobotReader, engine: RobotEngine, question: Question) -> RobotAnswer:
@@ -150,7 +176,7 @@ def _compared(reader: RobotReader, engine: RobotEngine, question: Question) -> R
         answer.measured = tuple(
             measured(bound, acting(answer.holds, reader.leaves_to_caller), factorised=reader.factorises)
         )
-        answer.findings += _computing(reader, bound, answer)
+        answer.findings += _computing(reader, bound, answer, places_in(question.file.spatial))
         if answer.measured and len(answer.measured) < ALL_MEASURED:
             answer.notes = (f"{reader.name}: a joint moves no mass: its accelerations are not determined",)
     except (ValueError, RuntimeError, InvalidInput, np.linalg.LinAlgError) as error:
@@ -160,7 +186,7 @@ def _compared(reader: RobotReader, engine: RobotEngine, question: Question) -> R
         answer.rounded = rounded(answer.holds, question.file.spatial, reader.same_frame)
         answer.notes += (NEARLY_IN_FRAME.format(engine=reader.name, bodies=listed(kept), reach=reader.same_frame),)
     if reader.name == "mujoco" and question.file.language == "mjcf":
-        answer.simulation = simulation_findings(question.path, question.meshes, question.file.spatial)
+        answer.simulation = simulation_findings(engine, question.file.spatial)
     if answer.findings:
         answer.status = "differs"
     return answer
@@ -217,19 +243,28 @@ def _reading(
     return named, explanation.left
 
 
-def _computing(reader: RobotReader, bound: BoundRobot, answer: RobotAnswer) -> list[Finding]:
+def _computing(reader: RobotReader, bound: BoundRobot, answer: RobotAnswer, places: Places) -> list[Finding]:
     """Where the engine's numbers are not those of the mechanism that it holds."""
     beyond = worst(answer.measured)
     if beyond is None or answer.holds is None:
         return []
-    known = armature_in_body_axes(bound, acting(answer.holds, reader.leaves_to_caller))
+    holds = acting(answer.holds, reader.leaves_to_caller)
+    found = []
+    lost = lost_entry(bound, holds) if beyond.quantity == MASS_MATRIX else None
+    if lost is not None:
+        found.append(lost_entry_finding(reader.name, lost))
+        beyond = worst([one for one in answer.measured if one.quantity != MASS_MATRIX])
+        if beyond is None:
+            return found
+    known = armature_in_body_axes(bound, holds)
     if known is not None:
-        return [armature_finding(reader.name, known)]
+        line = places.lines.get(f"joint {known.joint.name!r}", "")
+        return [*found, armature_finding(reader.name, known, line)]
     says = (
         f"{reader.name}: {beyond.quantity} at {beyond.where} is {beyond.found:.9g}, the mechanism that it holds has "
         f"{beyond.expected:.9g}; rounding explains {beyond.allowed:.2g}"
     )
-    return [Finding("unexplained", f"{reader.name}: {beyond.where}", beyond.found, beyond.expected, says)]
+    return [*found, Finding("unexplained", f"{reader.name}: {beyond.where}", beyond.found, beyond.expected, says)]
 
 
 def places_in(mechanism: SpatialMechanism) -> Places:

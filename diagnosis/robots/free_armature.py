@@ -38,12 +38,13 @@ def armature_in_body_axes(bound: BoundRobot, mechanism: SpatialMechanism) -> Pla
     return free[0]
 
 
-def armature_finding(engine: str, placed: PlacedJoint) -> Finding:
-    """The cause in words."""
+def armature_finding(engine: str, placed: PlacedJoint, line: str) -> Finding:
+    """The cause in words; ``line``: the joint's element and line in the file, or nothing."""
     joint = placed.joint
     says = (
         f"{engine}: the armature {joint.armature:g} of the free joint {joint.name!r} acts along the body's axes, "
-        f"MuJoCo's along the world's: at rest the same, in motion the forces differ by armature·(ω × v) "
-        f"({joint.where}). Instead, leave armature off free joints"
+        "MuJoCo's along the world's: at rest the same, in motion the forces differ by armature·(ω × v)"
+        f"{f' ({line})' if line else ''}. Instead, leave armature off free joints: "
+        "<freejoint> takes none from a default class"
     )
     return Finding("free-armature-in-body-axes", f"{engine}: joint {joint.name!r}", None, None, says)

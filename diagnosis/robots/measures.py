@@ -17,6 +17,7 @@ from .states import STATES, probe_states, random_torques
 
 # Of so many freedoms one state moves each in a posture of its own; what is wrong in all postures shows in three.
 MANY, STATES_OF_MANY = 300, 3
+MASS_MATRIX = "mass matrix"  # what it is called as a quantity
 
 
 @dataclass(frozen=True)
@@ -84,10 +85,10 @@ def _terms(
 ) -> Iterator[Measured]:
     q, v = (np.array([getattr(t, name) for t in truths]) for name in "qv")
     nv = mechanism.nv
-    matrix = _finite("mass matrix", bound.mass_matrix(q), (len(q), nv, nv))
+    matrix = _finite(MASS_MATRIX, bound.mass_matrix(q), (len(q), nv, nv))
     expected = np.array([truth.mass_matrix.float for truth in truths])
     allowed = np.array([unit.roundings * EPSILON * unit.mass_matrix for unit in units])
-    yield _worst("mass matrix", mechanism, matrix, expected, allowed)
+    yield _worst(MASS_MATRIX, mechanism, matrix, expected, allowed)
     bias = _finite("bias", bound.bias(q, v), v.shape)
     allowed = np.array([unit.roundings * EPSILON * unit.bias for unit in units])
     yield _worst("bias", mechanism, bias, np.array([truth.bias.float for truth in truths]), allowed)

@@ -50,7 +50,12 @@ class _Search:
         self._known: dict[frozenset[str], SpatialMechanism | None] = {}
 
     def explained(self, candidates: Sequence[str]) -> Explanation:
-        effective = [flag for flag in candidates if self._changes(flag, ())]
+        effective: list[str] = []
+        for flag in candidates:
+            if self._changes(flag, ()):
+                effective.append(flag)
+                if self._fits(effective):  # the likelier ones explain all: each other one would be read in vain
+                    break
         if not self._fits(effective):
             effective = self._besides(effective, candidates)
         chosen = self._smallest(effective) if self._fits(effective) else self._greedy(effective)

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ...engines.model_files.robot import RobotEngine
 from ...models.spatial_mechanism import SpatialMechanism
 from ..finding import Finding
 from .states import probe_states
@@ -20,19 +20,24 @@ if TYPE_CHECKING:
 # Of the kinetic energy, lost or won in a run that keeps its energy: a tenth of this is seen in no plot.
 COARSE = 0.01
 MOST_PAIRS = 3  # of touching geoms, named
+MOST_SERVOS = 6  # named
 
 
-def simulation_findings(path: Path, meshes: tuple[Path, ...], mechanism: SpatialMechanism) -> list[Finding]:
+def simulation_findings(engine: RobotEngine, mechanism: SpatialMechanism) -> list[Finding]:
     """Contacts at the start and a time step too long for the file, from MuJoCo's own run of it.
 
     The run starts at rest in a configuration inside the joints' ranges, without contacts, limits, dry friction,
-    dampers and actuators. Empty where MuJoCo cannot run it.
+    dampers and actuators. Empty for another engine, and where MuJoCo cannot run it.
     """
-    from ...engines.model_files.robot_simulation import simulate_file  # which imports MuJoCo
+    from ...engines.model_files.robot_mujoco import MujocoRobot
+    from ...engines.model_files.robot_simulation import simulate  # which imports MuJoCo
+
+    if not isinstance(engine, MujocoRobot):
+        return []
 
     q, _ = probe_states(mechanism, 2)
     try:
-        run = simulate_file(path, meshes, q[1], 0.0 * mechanism.per_freedom("armature"))
+        run = simulate(engine, q[1], 0.0 * mechanism.per_freedom("armature"))
     except (ValueError, RuntimeError):
         return []
     return list(_said(run))
@@ -58,15 +63,14 @@ def _said(run: Simulation) -> Iterator[Finding]:
 
 
 def servo_findings(servos: tuple[tuple[str, str], ...]) -> list[Finding]:
-    """Actuators that pull although their control is zero: (actuator, joint)."""
-    return [
-        Finding(
-            "servo",
-            f"actuator {actuator!r}",
-            None,
-            None,
-            f"mujoco: actuator {actuator!r} pulls at joint {joint!r} at ctrl = 0, wherever the joint is not at its "
-            "target or moves; the comparison is without it",
-        )
-        for actuator, joint in servos
-    ]
+    """Actuators that pull although their control is zero, (actuator, joint), in one sentence."""
+    if not servos:
+        return []
+    shown = ", ".join(f"{actuator!r} at joint {joint!r}" for actuator, joint in servos[:MOST_SERVOS])
+    more = f" and {len(servos) - MOST_SERVOS} more" if len(servos) > MOST_SERVOS else ""
+    count, them = ("1 actuator pulls", "it") if len(servos) == 1 else (f"{len(servos)} actuators pull", "them")
+    says = (
+        f"mujoco: {count} at ctrl = 0, wherever a joint is not at its target or moves: {shown}{more}; the comparison "
+        f"is without {them}"
+    )
+    return [Finding("servo", f"actuator {servos[0][0]!r}", None, None, says)]

@@ -10,9 +10,10 @@ from .numbers import FieldDifference
 
 MOST_PLACES = 6  # named in one finding
 DIGITS = (6, 9, 12, 17)  # of numbers: the first at which what was found and expected can be told apart
+APPLIED = "apply the damping in your own code, or, if it comes from a default class only, write <freejoint>"
 # What to write so that all engines read the file alike, by the mistake that is made otherwise.
 INSTEAD: Mapping[str, str] = {
-    "first_root_only": "put all bodies of the world into one body without joint",
+    "first_root_only": "put all bodies of the world without a free joint into one body, and free ones into other files",
     "geoms_without_contact_weigh_nothing": "give the body an <inertial>",
     "pose_of_first_fixed_body_dropped": "leave the body out and place what it carries in the world",
     "mesh_weighs_one_kilogram": "give the body an <inertial>",
@@ -28,16 +29,19 @@ INSTEAD: Mapping[str, str] = {
     "upper_euler_as_lower": "write quat in place of euler",
     "axis_not_normalised": "write quat in place of axisangle, or the axis with all its digits, of length one",
     "include_not_followed": "write the included elements into the file",
+    "later_sections_ignored": "put all that several <compiler> or <default> say into the first",
     "late_sections_ignored": "put <compiler> and <default> before <worldbody>",
     "bodies_in_frames_lost": "leave the <frame> out and write each body's own pose",
     "bare_bodies_lost": "give each body a name",
     "unnamed_sibling_twice": "give each body a name",
     "first_ref_ignored": "write ref='0' and the pose at zero into the body",
     "springdamper_ignored": "write the joint's stiffness and damping",
-    "damping_dropped_on_free_and_ball": "apply the damping in your own code",
+    "damping_dropped_on_free_and_ball": APPLIED,
+    "damping_dropped_on_free": APPLIED,
     "pos_of_last_joint_for_all": "put each joint into a body of its own",
     "armature_needs_actuator": "add an actuator to the joint, or set the armature in the engine",
     "nested_class_inherits_nothing": "repeat the element in the nested class",
+    "space_behind_number_rejected": "write the number without the space behind it",
     "frame_ignored": "write each body's own pose in place of <frame>, and the copies in place of <replicate>",
 }
 

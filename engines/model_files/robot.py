@@ -53,6 +53,7 @@ DRAKE_MJCF = (
     "pos_of_last_joint_for_all",
     "armature_needs_actuator",
     "nested_class_inherits_nothing",
+    "damping_dropped_on_free",
     "frame_ignored",
     "total_mass_ignored",
     "inertia_group_ignored",
@@ -176,7 +177,11 @@ ROBOT_READERS: dict[str, RobotReader] = {
             leaves_to_caller=("damping", "stiffness"),
             mistakes={
                 "mjcf": PINOCCHIO_MJCF,
-                "urdf": ("planar_axis_ignored", "damping_dropped_on_planar_and_floating"),
+                "urdf": (
+                    "planar_axis_ignored",
+                    "space_behind_number_rejected",
+                    "damping_dropped_on_planar_and_floating",
+                ),
             },
         ),
         RobotReader(

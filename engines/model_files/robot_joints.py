@@ -68,9 +68,14 @@ def match(mechanism: SpatialMechanism, held: Sequence[HeldJoint], engine: str) -
 def _pairs(mechanism: SpatialMechanism, held: Sequence[HeldJoint]) -> tuple[dict[int, int], list[int], list[int]]:
     """Indices of the mechanism's joints with those of ``held``, and what is left over of both."""
     placed = mechanism.joints
-    by_name = {joint.name: j for j, joint in enumerate(held) if joint.name}
+    by_name = {joint.name: j for j, joint in reversed([*enumerate(held)]) if joint.name}  # the first of one name
     found = {i: by_name[p.joint.name] for i, p in enumerate(placed) if p.joint.name in by_name}
     used = set(found.values())
+    for j, name in enumerate(unique(joint.shown for joint in held)):  # what a mechanism made of the engine calls them
+        i = next((i for i, p in enumerate(placed) if i not in found and p.joint.name == name), None)
+        if i is not None and j not in used:
+            found[i] = j
+            used.add(j)
     unnamed = [j for j, joint in enumerate(held) if joint.unnamed and j not in used]
     for body in {held[j].body for j in unnamed} - {""}:
         ours = [i for i, p in enumerate(placed) if i not in found and mechanism.bodies[p.body].name == body]

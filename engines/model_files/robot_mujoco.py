@@ -16,6 +16,7 @@ own plugins exerts passive forces.
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Iterator, Sequence
 from importlib import import_module
 from pathlib import Path
@@ -61,13 +62,14 @@ SET_TO_ZERO = (
 
 
 class MujocoRobot:
-    """The file in MuJoCo."""
+    """The file in MuJoCo; ``as_written``: its ``MjModel`` with all that it has, which takes long to compile."""
 
     def __init__(self, path: Path, language: str, folders: Sequence[Path] = ()) -> None:
         # Otherwise MuJoCo writes a file MUJOCO_LOG.TXT into the current folder where a model is nearly singular.
         mujoco.set_mju_user_warning(lambda message: None)
         with silenced():
-            self._model = mujoco.MjModel.from_xml_path(str(path), elsewhere(path, folders))
+            self.as_written = mujoco.MjModel.from_xml_path(str(path), elsewhere(path, folders))
+        self._model = copy.copy(self.as_written)
         if self._model.nflex:
             raise ValueError("the file has flexible bodies, whose forces MuJoCo cannot leave out")
         _switch_off(self._model)

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import copy
 from dataclasses import dataclass
 from importlib import import_module
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..protocol import Array
-from ..quiet import silenced
-from .robot_mujoco import elsewhere
+from .robot_mujoco import MujocoRobot
 
 mujoco: Any = import_module("mujoco")
 
@@ -42,14 +40,12 @@ class Simulation:
         return abs(self.energy[1] - self.energy[0]) / self.kinetic if self.kinetic > 0 else 0.0
 
 
-def simulate_file(path: Path, folders: Sequence[Path], q: Array, v: Array) -> Simulation:
+def simulate(robot: MujocoRobot, q: Array, v: Array) -> Simulation:
     """Step the file's own model from ``q`` (nq,), ``v`` (nv,), MuJoCo's coordinates, with its own integrator and step.
 
-    Raises ValueError where MuJoCo refuses the file or has other coordinates.
+    Raises ValueError where MuJoCo has other coordinates.
     """
-    mujoco.set_mju_user_warning(lambda message: None)
-    with silenced():
-        model = mujoco.MjModel.from_xml_path(str(path), elsewhere(path, folders))
+    model = copy.copy(robot.as_written)
     if (model.nq, model.nv) != (len(q), len(v)):
         raise ValueError(f"MuJoCo has {model.nq} coordinates, not {len(q)}")
     data = mujoco.MjData(model)
@@ -94,4 +90,7 @@ def _reset(data: Any) -> bool:
 
 def _geom(model: Any, geom: int) -> str:
     found = model.geom(int(geom))
-    return repr(found.name) if found.name else f"a geom of body {model.body(int(found.bodyid[0])).name!r}"
+    if found.name:
+        return repr(found.name)
+    body = model.body(int(found.bodyid[0]))
+    return f"a geom of body {body.name!r}" if body.name else f"a geom of an unnamed body, the file's number {body.id}"

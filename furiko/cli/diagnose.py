@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -97,7 +97,8 @@ def _one(model: Path, asked: _Asked, fix: Path | None, out: Path | None, as_json
     if fix is not None:
         from ..diagnosis.model_files.fix import write_fixed
 
-        write_fixed(file, fix)
+        not_alike = [f"{fix}: {says}" for says in write_fixed(file, fix)]
+        found = replace(found, notes=(*found.notes, *not_alike))
     if out is not None:
         _write_page(found, file, out)
     if as_json:

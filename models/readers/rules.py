@@ -45,7 +45,7 @@ class MjcfRules:
     )
     include_not_followed: bool = _mistake("does not follow <include>")
     late_sections_ignored: bool = _mistake("ignores <default> and <compiler> after <worldbody>")
-    later_sections_ignored: bool = _mistake("of several <compiler> or <default> reads only the first")
+    later_sections_ignored: bool = _mistake("reads only the first of several <compiler> or <default>")
     bare_bodies_lost: bool = _mistake(
         "loses a <body> without any attribute, with its joints, and hangs its children in the world"
     )
@@ -56,6 +56,7 @@ class MjcfRules:
     gravity_not_read: bool = _mistake("does not read gravity: 9.81 m/s² along −z, whatever the file says")
     gravity_flag_ignored: bool = _mistake('does not read <flag gravity="disable"/>: gravity acts')
     damping_dropped_on_free_and_ball: bool = _mistake("drops damping and dry friction of free and ball joints")
+    damping_dropped_on_free: bool = _mistake("drops damping of free joints")
     springdamper_ignored: bool = _mistake("ignores springdamper: joints have their own stiffness and damping")
     springs_not_held: bool = _mistake("has no joint springs")
     pos_of_last_joint_for_all: bool = _mistake(
@@ -76,6 +77,9 @@ class UrdfRules:
     damping_dropped_on_planar_and_floating: bool = _mistake("drops damping and friction of planar and floating joints")
     fixed_massless_inertia_dropped: bool = _mistake(
         "drops the inertia of a link without mass where it is fixed to another link (fusestatic)"
+    )
+    space_behind_number_rejected: bool = _mistake(
+        "takes a number with a space or an end of line behind it for none, and leaves out the inertial from there on"
     )
     inertial_rotation_lost: bool = _mistake("drops the rotation of an inertial: <inertial><origin rpy=…/>")
     collision_weighs: bool = _mistake("gives links without <inertial> the mass of their collision geometry, 1000 kg/m³")

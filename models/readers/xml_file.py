@@ -30,13 +30,14 @@ LONG_LISTS = {
 
 @dataclass
 class Element:
-    """One element: tag, attributes, children, and its file and line."""
+    """One element: tag, attributes, children, its file and line; ``unnamed``: whether a reader gave it its name."""
 
     tag: str
     attributes: dict[str, str]
     file: str = ""
     line: int = 0
     children: list[Element] = field(default_factory=list)
+    unnamed: bool = False
 
     def all(self, *tags: str) -> Iterator[Element]:
         """The children with one of these tags."""
@@ -52,7 +53,7 @@ class Element:
 
     def __str__(self) -> str:
         name = self.attributes.get("name")
-        called = f" name={name[:60]!r}" if name else ""
+        called = f" name={name[:60]!r}" if name and not self.unnamed else ""
         return f"{self.file}, line {self.line}, <{self.tag}{called}>"
 
     def wrong(self, says: str) -> InvalidInput:
@@ -66,8 +67,31 @@ def read_xml(path: Path) -> Element:
 
 
 def parse_xml(content: bytes, file: str) -> Element:
-    """The root element of an XML text; ``file`` is what messages call it. Raises :class:`InvalidInput`."""
-    return _Builder(file).build(content)
+    """The root element of an XML text; ``file`` is what messages call it. Raises :class:`InvalidInput`.
+
+    Comments may have ``--`` in them, which XML does not allow: MuJoCo, Pinocchio and Drake read such files.
+    """
+    try:
+        return _Builder(file).build(content)
+    except _NotWellFormed as error:
+        bare = _without_comments(content)
+        if bare == content:
+            raise error from None
+    return _Builder(file).build(bare)
+
+
+class _NotWellFormed(InvalidInput):
+    """A text that the parser stops at."""
+
+
+def _without_comments(content: bytes) -> bytes:
+    """The text with a space for each character of its comments, whose lines stay."""
+    parts, at = [], 0
+    while (start := content.find(b"<!--", at)) >= 0 and (end := content.find(b"-->", start + 4)) >= 0:
+        inside = content[start : end + 3].split(b"\n")
+        parts += [content[at:start], b"\n".join(b" " * len(line) for line in inside)]
+        at = end + 3
+    return b"".join([*parts, content[at:]])
 
 
 def write_xml(root: Element) -> str:
@@ -105,7 +129,7 @@ class _Builder:
         try:
             self._parser.Parse(content, True)
         except expat.ExpatError as error:
-            raise InvalidInput(
+            raise _NotWellFormed(
                 f"{self._file}, line {error.lineno}: not well-formed XML: {expat.ErrorString(error.code)}"
             ) from None
         except (LookupError, ValueError) as error:

@@ -26,6 +26,8 @@ def spatial_mjcf(mechanism: SpatialMechanism, model: str = "mechanism") -> str:
     with armature has a motor, without which Drake would drop it. Raises :class:`InvalidInput` for inertials on which
     engines do not agree, and for more than 450 bodies one in the other.
     """
+    if any(_free(body) for body in mechanism.bodies):
+        mechanism = _without_scenery(mechanism)
     root = ElementTree.Element("mujoco", model=model)
     compiler = ElementTree.SubElement(root, "compiler", angle="radian", balanceinertia="false", autolimits="false")
     ElementTree.SubElement(root, "option", gravity=row(mechanism.gravity))
@@ -34,11 +36,11 @@ def spatial_mjcf(mechanism: SpatialMechanism, model: str = "mechanism") -> str:
         compiler.set("boundinertia", repr(LEAST_INERTIA))  # MuJoCo refuses a point mass
     world = ElementTree.SubElement(root, "worldbody")
     names = unique_names(mechanism.bodies, "world")
-    top = _top(world, mechanism)
+    top = _top(world, mechanism)  # of bodies without a free joint, which must be on one of the world itself
     elements: list[ElementTree.Element] = []
     depths: list[int] = []
     for body, name, inertial in zip(mechanism.bodies, names, inertials, strict=True):
-        parent = top if body.parent == WORLD else elements[body.parent]
+        parent = elements[body.parent] if body.parent != WORLD else world if _free(body) else top
         depths.append(1 if body.parent == WORLD else depths[body.parent] + 1 + (len(body.joints) > 1))
         if depths[-1] > DEEPEST - 2:
             raise InvalidInput(f"bodies {DEEPEST} deep: MJCF nests them, and its readers take no more")
@@ -55,16 +57,42 @@ def spatial_mjcf(mechanism: SpatialMechanism, model: str = "mechanism") -> str:
 _MOVED = ("hinge", "slide")
 
 
+def _without_scenery(mechanism: SpatialMechanism) -> SpatialMechanism:
+    """The mechanism without what neither moves nor carries anything that does, beside which Pinocchio would lose what
+    is free."""
+    bodies = mechanism.bodies
+    moves: list[bool] = []
+    for body in bodies:
+        moves.append(bool(body.joints) or (body.parent != WORLD and moves[body.parent]))
+    kept = list(moves)  # and what carries one of these
+    for index, body in reversed([*enumerate(bodies)]):
+        if kept[index] and body.parent != WORLD:
+            kept[body.parent] = True
+    places = np.cumsum(kept) - 1
+    left = [
+        replace(body, parent=body.parent if body.parent == WORLD else int(places[body.parent]))
+        for body, stays in zip(bodies, kept, strict=True)
+        if stays
+    ]
+    return replace(mechanism, bodies=tuple(left))
+
+
 def _top(world: ElementTree.Element, mechanism: SpatialMechanism) -> ElementTree.Element:
-    """Where the bodies of the world are put: in one body without a pose if Pinocchio would lose some of them, or the
-    pose of the first; a free joint must be on a body of the world itself."""
+    """Where the bodies of the world that have no free joint are put: in one body without a pose if Pinocchio would lose
+    some of them, or the pose of the first; in their order in the world behind a free one, which alone it reads."""
     roots = [body for body in mechanism.bodies if body.parent == WORLD]
-    free = any(joint.kind == "free" for body in roots for joint in body.joints)
+    if roots and _free(roots[0]):
+        return world
+    roots = [body for body in roots if not _free(body)]
     first_is_fixed = bool(roots) and len(roots[0].joints) != 1  # with several joints, what it stands in is
     posed = first_is_fixed and (roots[0].position.any() or not _unturned(roots[0]))
-    if free or not (len(roots) > 1 or posed):
+    if not (len(roots) > 1 or posed):
         return world
     return ElementTree.SubElement(world, "body", name="furiko_support")
+
+
+def _free(body: RigidBody) -> bool:
+    return any(joint.kind == "free" for joint in body.joints)
 
 
 def _unturned(body: RigidBody) -> bool:

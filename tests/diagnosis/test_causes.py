@@ -74,6 +74,7 @@ def test_every_cause_that_can_be_named_is_told_and_planted():
         "servo",
         "coarse-time-step",
         "free-armature-in-body-axes",
+        "joints-out-of-order",
     }
     # Planted in engines' derivatives: tests/checks/comparisons/test_derivatives.py.
     of_derivatives = {

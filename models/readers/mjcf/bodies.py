@@ -76,9 +76,11 @@ class Bodies:
     _once: dict[int, Inertial] = field(default_factory=dict)  # the inertial of a body, however often it is read
     _aligned: list[tuple[int, Element]] = field(default_factory=list)
     _roots: int = 0
+    _worlds: int = 0  # read so far, and this one
 
     def read(self, world: Element) -> None:
         """Add the bodies of a ``<worldbody>``. Raises :class:`InvalidInput`."""
+        self._worlds += 1
         childclass = world.get("childclass", "main")
         pending: list[Pending] = []
         for place in reversed(list(self._contents(world, childclass))):
@@ -155,8 +157,9 @@ class Bodies:
             return [Pending(place.element, WORLD, place.frame, place.childclass, "") for place in children]
         called = element.get("name") or f"{at.above}Bis"
         index = first = self._add(at, inside, childclass)
-        if rules.unnamed_sibling_twice or rules.first_worldbody_again:
-            first = self._first.setdefault(called, index)
+        known = self._first.setdefault(called, index)
+        if rules.unnamed_sibling_twice or (rules.first_worldbody_again and self._worlds > 1):
+            first = known
         if first == index:
             self._once[index] = self.bodies[index].inertial
         else:
@@ -182,20 +185,21 @@ class Bodies:
             placement = HERE
         if rules.first_ref_ignored and len(joints) > 1:
             joints[0] = replace(joints[0], ref=0.0)
-        parent = at.parent
-        if rules.pos_of_last_joint_for_all and len(joints) > 1:
-            self.bodies.append(RigidBody(f"{name} before its last joint", parent, joints=tuple(joints[:-1])))
-            parent, joints = len(self.bodies) - 1, joints[-1:]
-        at_parent = (parent, placement.position, placement.quaternion)
+        if rules.pos_of_last_joint_for_all:
+            joints = [*(_before_the_pose(joint, placement) for joint in joints[:-1]), *joints[-1:]]
+        at_parent = (at.parent, placement.position, placement.quaternion)
         meshes = self.inertials.meshes.get(name, 0.0)
         self.bodies.append(RigidBody(name, *at_parent, tuple(joints), inertial, str(element), meshes))
         return len(self.bodies) - 1
 
     def _read_again(self, first: int, index: int) -> None:
-        """Have the body ``index`` be the ``first`` again, whose inertial grows by as much, as one reader has it."""
+        """Have the body ``index`` be the ``first`` again, whose inertial grows by as much, as one reader has it.
+
+        That reader looks a joint up by its name to give it armature, and finds the first of that name each time.
+        """
         master, again = self.bodies[first], self.bodies[index]
         own = again.joints + tuple(replace(j, name=f"{j.name} of {again.name}") for j in master.joints)
-        joints = tuple(replace(j, name=other.name) for j, other in zip(master.joints, own, strict=False))
+        joints = tuple(replace(j, name=other.name, armature=0.0) for j, other in zip(master.joints, own, strict=False))
         self.bodies[index] = replace(master, name=again.name, joints=joints, inertial=ZERO_INERTIAL)
         if joints:  # what is fixed weighs once, however often it is read
             self.bodies[first] = replace(master, inertial=master.inertial + self._once[first])
@@ -237,6 +241,7 @@ class Bodies:
         if name in taken:
             raise element.wrong(f"a second {kind} called {name[:60]!r}; names must be unique")
         taken.add(name)
+        element.unnamed |= not element.get("name")
         element.attributes["name"] = name
         return name
 
@@ -257,3 +262,10 @@ class Bodies:
             if aligned == "true" or (aligned == "auto" and self.compiler.align_free):
                 self._aligned.append((len(self.bodies), given))
         return joint
+
+
+def _before_the_pose(joint: Joint, placement: Placement) -> Joint:
+    """The joint in its body's frame, where its numbers are meant in the frame that the body's ``placement`` is in."""
+    pose = placement.pose
+    axis = np.asarray(pose.rotation.T @ joint.axis)
+    return replace(joint, axis=axis, anchor=np.asarray(pose.rotation.T @ (joint.anchor - pose.translation)))

@@ -42,6 +42,8 @@ def read_joint(full: Element, given: Element, frame: Placement, compiler: Compil
     rules = compiler.rules
     if rules.damping_dropped_on_free_and_ball and not single:
         joint = replace(joint, damping=0.0, friction=0.0)
+    if rules.damping_dropped_on_free and kind == "free":
+        joint = replace(joint, damping=0.0)
     if rules.springs_not_held:
         joint = replace(joint, stiffness=0.0)
     return joint

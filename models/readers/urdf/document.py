@@ -20,6 +20,7 @@ from .folders import MeshFolders
 from .inertials import Inertials, weighed_by_meshes
 from .joints import placement, read_joints, rotor_inertias
 from .notes import Notes
+from .spaces import refuse_spaces
 from .tree import Place, read_tree
 
 GRAVITY = "URDF says nothing of gravity: 9.81 m/s² along −z is taken"
@@ -53,6 +54,8 @@ def read_urdf(root: Element, path: Path, rules: UrdfRules | None = None, meshes:
     rules = UrdfRules() if rules is None else rules
     notes = Notes()
     notes.add(GRAVITY)
+    if rules.space_behind_number_rejected:
+        refuse_spaces(root)
     places = read_tree(root)
     notes.sections(root)
     tell(root, notes)

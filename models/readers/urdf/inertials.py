@@ -17,6 +17,7 @@ from .folders import MeshFolders
 from .geometry import DENSITY, collision_inertial
 from .joints import kind_of, placement
 from .notes import Notes
+from .spaces import space_behind
 from .tree import Place
 
 SIX = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
@@ -71,6 +72,11 @@ class Inertials:
                 f"<inertia {' '.join(f'{name}=' for name in SIX)}> is needed, {', '.join(missing)} missing"
             )
         tensor = symmetric(*(number(moments, name) for name in SIX))
+        if self._rules.space_behind_number_rejected:
+            if space_behind(mass_element, "value"):
+                return ZERO_INERTIAL
+            if space_behind(moments, *SIX):
+                tensor = np.zeros((3, 3))
         found = Inertial(mass, np.zeros(3), tensor)
         if _impossible(found):
             self._notes.add(_why(found), given)

@@ -9,6 +9,7 @@ import pytest
 from compared_robots import as_read, assert_same_dynamics, assert_same_numbers, states
 from handwritten_robots import ALIKE, INERTIAL, LINK, URDFS, mjcf, urdf, urdf_joint
 
+from furiko import diagnose
 from furiko.engines.model_files.robot import ROBOT_READERS
 from furiko.models.spatial_mechanism import Joint, RigidBody, SpatialMechanism
 
@@ -126,6 +127,22 @@ def test_damping_acts(read):
     np.testing.assert_allclose(bound.passive(q, v), passive, rtol=1e-15)
     left = np.einsum("bij,bj->bi", bound.mass_matrix(q), bound.accelerations(q, v, torque)) + bound.bias(q, v)
     np.testing.assert_allclose(left, torque + passive, rtol=1e-12, atol=1e-13)
+
+
+def test_damping_of_a_free_joint_is_dropped(read):
+    text = mjcf(f'<body name="a"><joint type="free" damping="0.3"/>{INERTIAL.format(1)}</body>')
+    assert [placed.joint.damping for placed in read("drake", text).compiled().joints] == [0]
+
+
+def test_a_pose_of_a_body_with_several_joints_is_the_only_cause(tmp_path):
+    """Not the order of its joints: what is held and what is read with that mistake have the same bodies."""
+    path = tmp_path / "a.xml"
+    path.write_text(
+        mjcf(f"""<body name="a" pos="0 0 1"><joint name="x" axis="1 0 0"/><joint name="y" axis="0 1 0"/>
+        <joint name="z"/>{INERTIAL.format(1)}</body>""")
+    )
+    found = diagnose(path, engines=["drake"])
+    assert [finding.cause for finding in found.findings] == ["pos-of-last-joint-for-all"], found.text()
 
 
 def test_a_urdf_hangs_on_its_root_and_mimic_joints_are_independent(read):

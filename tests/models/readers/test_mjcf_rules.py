@@ -247,6 +247,26 @@ def test_a_mistake_reproduces_what_drake_has(flag):
     assert not alike(mass_matrix_and_gravity(documented, q)[:1], [np.array(matrix)])
 
 
+def test_a_pose_at_the_last_joint_leaves_the_bodies_and_joints_as_they_are():
+    """Drake's massless bodies between the joints are none of the file's: they are not told as another tree."""
+    text = DRAKES["pos_of_last_joint_for_all"][0].replace("<joint axis", '<joint name="first" axis', 1)
+    (body,) = read(text, with_mjcf("pos_of_last_joint_for_all").mjcf).bodies
+    assert (body.name, len(body.joints)) == ("b", 3)
+    # Turned about x by 90° and 1 m up, the world's y axis is the body's −z, and the point 0.5 m up is 0.5 m along −y.
+    np.testing.assert_allclose(body.joints[0].axis, [0, 0, -1], atol=1e-15)
+    np.testing.assert_allclose(body.joints[0].anchor, [0, -0.5, 0], atol=1e-15)
+
+
+def test_damping_of_free_joints_is_dropped():
+    text = mjcf(
+        '<body name="a"><joint type="free" damping="2" frictionloss="1"/><inertial pos="0 0 0" mass="1" '
+        'diaginertia="1 1 1"/><body name="b"><joint type="ball" damping="3"/><inertial pos="0 0 0" mass="1" '
+        'diaginertia="1 1 1"/></body></body>'
+    )
+    joints = [body.joints[0] for body in read(text, with_mjcf("damping_dropped_on_free").mjcf).bodies]
+    assert [(joint.damping, joint.friction) for joint in joints] == [(0, 1), (3, 0)]
+
+
 def test_armature_of_a_driven_joint_stays():
     text = mjcf(arm(joint='<joint name="j" armature="3"/>'), "", '<actuator><motor joint="j"/></actuator>')
     assert read(text, with_mjcf("armature_needs_actuator").mjcf).bodies[0].joints[0].armature == 3
@@ -260,7 +280,7 @@ def test_the_gravity_flag_is_not_read():
 
 def test_every_mistake_has_its_sentence_and_its_test():
     tested = {*FILES, *DRAKES, "include_not_followed", "damping_dropped_on_free_and_ball", "springs_not_held"}
-    tested |= {"gravity_flag_ignored", "springdamper_ignored"}
+    tested |= {"gravity_flag_ignored", "springdamper_ignored", "damping_dropped_on_free"}
     tested |= {"first_worldbody_again", "inertial_without_inertia_is_unit"}  # on files in tests/diagnosis/robots
     assert tested == set(flags_of(MjcfRules))
     assert not any(getattr(AS_DOCUMENTED.mjcf, flag) for flag in flags_of(MjcfRules))

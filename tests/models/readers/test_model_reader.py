@@ -236,6 +236,20 @@ def test_what_is_no_file(path):
         read_model(path)
 
 
+@pytest.mark.parametrize("comment", ["<!-- left -- right -->", "<!---- a\n-- b --->", "<!--- <a> -->"])
+def test_comments_may_have_two_hyphens(comment):
+    """MuJoCo, Pinocchio and Drake read them; lines are counted as they stand."""
+    root = parse_xml(f"<mujoco>{comment}\n<a/><!-- plain --><b c='1'/></mujoco>".encode(), "m")
+    assert [(child.tag, child.line) for child in root.children] == [(t, comment.count("\n") + 2) for t in "ab"]
+    with pytest.raises(InvalidInput, match=f"line {comment.count(chr(10)) + 2}: not well-formed"):
+        parse_xml(f"<mujoco>{comment}\n<a</mujoco>".encode(), "m")
+
+
+def test_a_comment_without_end_is_refused_in_no_time():
+    with pytest.raises(InvalidInput, match="not well-formed"):
+        parse_xml(b"<mujoco>" + b"<!-- -- " * 500_000, "m")
+
+
 def test_xml_is_written_as_it_was_read():
     text = b'<a x="1 &lt; 2" y=\'"\'><b/><c><d z="&#233;"/></c></a>'
     root = parse_xml(text, "text")
