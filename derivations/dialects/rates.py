@@ -14,9 +14,10 @@ LONE = ("_v", "_a")  # read only where both are there
 BEFORE = ("d", "dd", "d2")
 NAME = r"\\?[A-Za-zα-ωΑ-Ω]+(?:\s*_\s*(?:\{\s*\w{1,4}\s*\}|\w))?[0-9₀-₉]{0,2}"
 SPACE = r"(?:\s|\\[,;!]|&)*"
+D = r"(?:\\mathrm\s*\{\s*d\s*\}|\\rm d|d)"
 ROW = re.compile(
     rf"^{SPACE}(?:\\dot\s*\{{?\s*(?P<a>\\?[A-Za-z]+)\s*(?P<ai>_\s*(?:\{{\s*\w+\s*\}}|\w))?\s*\}}?\s*(?P<aj>_\s*(?:\{{\s*\w+\s*\}}|\w))?"
-    rf"|(?P<b>{NAME})\s*'|d\s*(?P<c>{NAME})\s*/\s*d\s*t|(?P<d>{NAME})_?dot|(?P<e>[A-Za-zα-ω]_?[0-9]?)\u0307(?P<ei>_?[0-9]?))"
+    rf"|(?P<b>{NAME})\s*'|d\s*(?P<c>{NAME})\s*/\s*d\s*t|(?P<d>{NAME})_?dot|\\[dt]?frac\s*\{{\s*{D}\s*(?P<f>{NAME})\s*(?:\(\s*t\s*\))?\s*\}}\s*\{{\s*{D}\s*t\s*\}}|(?P<e>[A-Za-zα-ω]_?[0-9]?)\u0307(?P<ei>_?[0-9]?))"
     rf"{SPACE}={SPACE}(?P<rate>{NAME}){SPACE}(?:\\\\)?{SPACE}[,;.]?{SPACE}$"
 )
 
@@ -60,8 +61,19 @@ def named_rates(data: dict[str, Any], coordinates: Sequence[str], taken: frozens
             kept.append((label, line))
     if not rates or not kept:
         return data
+    kept = [(label, _second(line, rates)) for label, line in kept]
     rows: Any = dict(kept) if isinstance(equations, dict) else [line for _, line in kept]
     return data | {"equations": rows, "define": {**rates, **define}}
+
+
+def _second(line: Any, rates: dict[str, str]) -> Any:
+    r"""\frac{d\omega}{dt} of a rate with a name as the acceleration that it is."""
+    for name, rate in rates.items():
+        spelled = re.escape(name.strip())
+        over = rf"\\[dt]?frac\s*\{{\s*{D}\s*{spelled}\s*(?:\(\s*t\s*\))?\s*\}}\s*\{{\s*{D}\s*t\s*\}}"
+        beside = rf"(?<![A-Za-z\\])d\s*{spelled}\s*/\s*d\s*t(?![A-Za-z0-9_])"
+        line = re.sub(rf"{over}|{beside}", lambda _, r=rate: f" {r}' ", line) if isinstance(line, str) else line  # type: ignore[misc]
+    return line
 
 
 def _coordinate(found: re.Match[str]) -> str:
@@ -69,4 +81,4 @@ def _coordinate(found: re.Match[str]) -> str:
         return found["a"] + (found["ai"] or found["aj"] or "")
     if found["e"]:
         return found["e"] + (found["ei"] or "")
-    return str(found["b"] or found["c"] or found["d"])
+    return str(found["b"] or found["c"] or found["d"] or found["f"])

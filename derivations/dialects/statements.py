@@ -37,6 +37,7 @@ ANONYMOUS = re.compile(
 )
 KEYWORDS = re.compile(r"^(?:(?:const|let|var|mut|auto|double|float|f64|real)\s+){1,3}")
 ASSIGNED = re.compile(r"^(?P<target>[^=<>!+*/^]{1,120}?)(?::\s*\w{1,12}\s*)?=(?![=>])\s*(?P<value>.+)$", re.DOTALL)
+LAST = re.compile(r"\[[^=]+\]$", re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,7 @@ def is_program(text: str) -> bool:
     return STARTS.match(text) is not None
 
 
-def function_of(text: str) -> Function:  # noqa: PLR0912 -- one for each way to say what is returned
+def function_of(text: str) -> Function:  # noqa: PLR0912, PLR0915 -- one for each way to say what is returned
     """The one function of a text that returns something. Raises InvalidInput where that is not plain."""
     if len(text) > LONGEST_PROGRAM:
         raise InvalidInput(f"this program is longer than {LONGEST_PROGRAM} characters; give the function alone")
@@ -96,6 +97,10 @@ def function_of(text: str) -> Function:  # noqa: PLR0912 -- one for each way to 
         if returned:
             functions.append(Function(parameters, tuple(assigned), returned[1].strip()))
             is_open, out = False, ""
+            continue
+        if LAST.match(line) and not out:  # Julia's function gives back its last expression
+            functions.append(Function(parameters, tuple(assigned), line))
+            is_open = False
             continue
         assigned += _assignments(line)
     out = out or _filled(assigned, parameters)

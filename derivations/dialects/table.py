@@ -28,6 +28,8 @@ MOST_LINES, MOST_BODIES, LONGEST_NAME = 50, 8, 80
 OF_TIME = re.compile(
     r"(?<=[A-Za-z0-9_}₀-₉\u0307\u0308'])(?<!sin)(?<!cos)(?<!tan)\s*(?:\\left\s*)?\(\s*t\s*(?:\\right\s*)?\)"
 )
+GRAVITY = re.compile(r"(?<![A-Za-z\\])g(?![A-Za-z])")
+DRIVE_OF_TIME = re.compile(r"(?<=[A-Za-z0-9_}])(?<!sin)(?<!cos)\s*\(\s*t\s*\)")
 NUMBER = re.compile(r"\s*([0-9]{1,3}(?:\.[0-9]{0,8})?)\s*;?\s*(?:m\s*/\s*s(?:\^2|²|\*\*2))?\s*$")
 WHERE = re.compile(
     r"(?:[,;.]|\\[,;]|\\q?quad|\s){0,20}(?:\\q?quad|\\(?:text|mbox|textrm|mathrm)\s*\{\s*(?:where|with|mit|wobei|où|avec|ただし)(?:\s[^{}$=\\]{0,60})?\s*:?\s*\}|[,;]\s*(?:where|with))"
@@ -71,6 +73,7 @@ def translated(data: dict[str, Any], count: int = 0) -> dict[str, Any]:
     """
     if not _is_small(data):
         return data
+    data = _of_no_time(data)
     known = known_of(data)
     define = data.get("define")
     names = frozenset(map(str, define)) if isinstance(define, dict) else frozenset()
@@ -82,6 +85,18 @@ def translated(data: dict[str, Any], count: int = 0) -> dict[str, Any]:
     made = _said_behind(made)
     made = named_rates(made, known.coordinates, known.quantities)
     return short_waves(made, known)
+
+
+def _of_no_time(data: dict[str, Any]) -> dict[str, Any]:
+    """M(t) of a body is M: which function of time it is, the equations do not ask."""
+    bodies = data.get("bodies")
+    if not isinstance(bodies, list) or not all(isinstance(b, dict) for b in bodies):
+        return data
+    made = [
+        {k: DRIVE_OF_TIME.sub("", v) if k == "drive" and isinstance(v, str) else v for k, v in b.items()}
+        for b in bodies
+    ]
+    return data | {"bodies": made}
 
 
 def _with_any_gravity(data: dict[str, Any]) -> dict[str, Any]:
@@ -96,7 +111,9 @@ def _with_any_gravity(data: dict[str, Any]) -> dict[str, Any]:
     others = {name: line for name, line in define.items() if name != "g"}
     digits = number[1].rstrip("0").rstrip(".")
     held = str([data.get(name) for name in (*TABLES[1:], *ENERGIES)]) + str(others)
-    return data if digits in held else data | {"define": others}
+    if digits in held or not GRAVITY.search(held):  # the number itself, or what it went into
+        return data
+    return data | {"define": others}
 
 
 def _is_small(data: Mapping[str, Any]) -> bool:

@@ -17,14 +17,20 @@ from .names import WRITTEN, plain_name
 
 _SPACE = r"(?:\s|\\[,;:! ])*"
 _NAME = r"(?:\\(?:Omega|omega|gamma|nu|beta|alpha|lambda|sigma)|[ΩωγνβαλσA-Za-z])(?:_?\{?[0-9A-Za-z]\}?)?"
-_ANGLE = rf"(?P<rate>{_NAME}){_SPACE}(?:\*|\\cdot(?![A-Za-z])|·|⋅)?{_SPACE}t"
+_TIMES = r"(?:\*|\\cdot(?![A-Za-z])|·|⋅)"
+_ANGLE = rf"(?P<rate>{_NAME}){_SPACE}{_TIMES}?{_SPACE}t"
+_WORD = r"[A-Za-z]\w{0,14}"
+# A rate of several letters, or a number, has its sign of a product; what is added is a phase
+_LONG = rf"(?:(?P<long>{_WORD}|[0-9]{{1,6}}(?:\.[0-9]{{1,6}})?){_SPACE}{_TIMES}{_SPACE})?t(?![A-Za-z0-9_])"
+_SHIFT = rf"(?:{_SPACE}(?P<sign>[+−-]){_SPACE}(?P<shift>\\?{_WORD})(?![A-Za-z0-9_(]))?"
 PHASE = re.compile(
     rf"(?:(?<![A-Za-z\\])(?:np\.|math\.|Math\.)?|\\)(?P<wave>cos|sin){_SPACE}"
-    rf"(?:(?:\\left)?[(\{{\[]{_SPACE}{_ANGLE}{_SPACE}(?:\\right)?[)\}}\]]"
+    rf"(?:(?:\\left)?[(\{{\[]{_SPACE}(?:{_ANGLE}(?![A-Za-z0-9_])|{_LONG}){_SHIFT}{_SPACE}(?:\\right)?[)\}}\]]"
     rf"|{_ANGLE.replace('P<rate>', 'P<bare>')}(?![A-Za-z0-9_]))"
 )
 FIELDS = ("equations", "solved")
 ENERGIES = ("lagrangian", "kinetic", "potential", "hamiltonian")
+Wave = tuple[str, str, str]  # cos or sin, the rate, and the phase behind it
 
 
 def with_times(data: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
@@ -35,7 +41,7 @@ def with_times(data: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
     if not isinstance(define, dict) or not _has_phase([data.get(f) for f in (*FIELDS, *ENERGIES)]):
         return data, []
     given = {plain_name(str(b.get("coordinate", ""))): b for b in bodies if b.get("motion") == "given"}
-    waves: dict[tuple[str, str], str] = {}
+    waves: dict[Wave, str] = {}
     constants: list[str] = []
     kept = {}
     for name, line in define.items():
@@ -50,16 +56,16 @@ def with_times(data: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
         if any("spring" in b for b in bodies):
             raise InvalidInput(f"define.{name}: with a spring in the mechanism, leave cosines out; write "
                                f"{coordinate}'' and {coordinate} in the rows")  # fmt: skip
-        rate = found["rate"] or found["bare"]
+        rate = _rate(found)
         written = str(given[coordinate]["coordinate"]).replace("\\", "")
         second, first = f"(-{written}''/(({amplitude})*{rate}^2))", f"({written}'/(({amplitude})*{rate}))"
         other = "sin" if found["wave"] == "cos" else "cos"
         first = f"(-{first})" if other == "sin" else first
         for wave, text in ((found["wave"], second), (other, first)):
-            if (wave, plain_name(rate)) in waves:
+            if (wave, *_key(found)[1:]) in waves:
                 raise InvalidInput(f"define.{name}: two motions with one frequency; write the rows with {coordinate}''")
-            waves[wave, plain_name(rate) or ""] = text
-        constants += [*_names_in(amplitude), rate]
+            waves[wave, *_key(found)[1:]] = text
+        constants += [*_names_in(amplitude), *_names_in(rate)]
     moved = bool(waves)
     waves |= _of_drives(bodies, waves, constants)
     if moved and any(_has_phase([data.get(f)]) for f in ENERGIES):
@@ -73,6 +79,16 @@ def with_times(data: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
     if "define" not in data:
         del made["define"]
     return data | made, list(dict.fromkeys(constants))
+
+
+def _rate(found: re.Match[str]) -> str:
+    """The rate of a cosine of time; 1 of cos t."""
+    return found["rate"] or found["bare"] or found["long"] or "1"
+
+
+def _key(found: re.Match[str]) -> Wave:
+    rate = _rate(found)
+    return found["wave"], plain_name(rate) or rate, (found["sign"] or "") + (plain_name(found["shift"] or "") or "")
 
 
 def _motion(name: str, line: str) -> tuple[str, re.Match[str]]:
@@ -90,15 +106,12 @@ def _motion(name: str, line: str) -> tuple[str, re.Match[str]]:
     return amplitude, found[0]
 
 
-def _of_drives(
-    bodies: list[Any], known: Mapping[tuple[str, str], str], constants: list[str]
-) -> dict[tuple[str, str], str]:
+def _of_drives(bodies: list[Any], known: Mapping[Wave, str], constants: list[str]) -> dict[Wave, str]:
     """A quantity for each cosine in a drive."""
-    made: dict[tuple[str, str], str] = {}
+    made: dict[Wave, str] = {}
     for body in bodies:
         for found in PHASE.finditer(str(body.get("drive", ""))[:200]):
-            rate = found["rate"] or found["bare"]
-            key = (found["wave"], plain_name(rate) or "")
+            key = _key(found)
             if key not in known and key not in made:
                 made[key] = f"{found['wave'][0]}wave{len(made) + 1}"
     constants += made.values()
@@ -114,15 +127,14 @@ def _has_phase(values: list[Any]) -> bool:
     return any(_is_plain(x) and PHASE.search(x) for x in lines)
 
 
-def _mapped(value: Any, waves: Mapping[tuple[str, str], str], where: str) -> Any:
+def _mapped(value: Any, waves: Mapping[Wave, str], where: str) -> Any:
     if isinstance(value, dict):
         return {k: _mapped(v, waves, f"{where}.{k}") for k, v in value.items()}
     if isinstance(value, list):
         return [_mapped(v, waves, where) for v in value]
 
     def one(found: re.Match[str]) -> str:
-        rate = found["rate"] or found["bare"]
-        text = waves.get((found["wave"], plain_name(rate) or ""))
+        text = waves.get(_key(found))
         if text is None:
             raise InvalidInput(
                 f"{where}: column {found.start() + 1}: {found[0].strip()[:30]} is a function of time; say what "

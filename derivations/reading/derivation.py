@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from typing import Any
 
+from ...models.errors import InvalidInput
 from ..dialects.blocks import rows_of_blocks
 from ..dialects.code.programs import plain_programs
 from ..dialects.functions import whole_functions
 from ..dialects.letters.by_rule import by_rule
-from ..dialects.letters.indices import number_for_gravity, plain_indices
+from ..dialects.letters.indices import plain_indices
 from ..dialects.letters.left_sides import without_left_sides
 from ..dialects.markup.pages import from_pages
 from ..dialects.table import translated
 from ..dialects.times import with_times
+from ..dialects.traced.rows import traced
 from ..dialects.vectors import with_vectors
 from ..dialects.worksheets.sessions import from_worksheets
 from .declaration import PRESETS
@@ -32,12 +35,43 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     """
     known_fields(data)
     data = by_rule(without_left_sides(plain_indices(data)))
+    refused: InvalidInput | None = None
+    try:
+        program = traced(data)
+        if program is not None:
+            return _read(program[0], slashes, program[1])
+    except InvalidInput as error:
+        refused = error
+    try:
+        return _read(data, slashes)
+    except InvalidInput:
+        if refused is not None:
+            raise refused from None
+        raise
+
+
+def _read(data: dict[str, Any], slashes: int, lines: Mapping[str, str] | None = None) -> Submission:
+    """Read rows, or a program that is followed line by line. ``lines``: what definitions of ours stand for."""
+    try:
+        return _read_rows(data, slashes)
+    except InvalidInput as error:
+        found = re.match(r"define\.(\w+): (?:column [0-9]+: )?(.*)", str(error), re.DOTALL)
+        line = (lines or {}).get(found[1]) if found else None
+        if lines is not None and line is None:  # a column of ours says nothing
+            raise InvalidInput(re.sub(r"column [0-9]+: ", "", str(error))) from None
+        if found is None or line is None:
+            raise
+        raise InvalidInput(f"equations.1: {line!r:.80}: {found[2]}") from None
+
+
+def _read_rows(data: dict[str, Any], slashes: int) -> Submission:
     count, coordinates = _shape(data)
     data = from_worksheets(from_pages(plain_programs(data, count), count))
-    data = with_vectors(_with_positions(rows_of_blocks(whole_functions(data, count, coordinates))), count)
+    free = _free(data, coordinates)
+    data = whole_functions(data, len(free) or count, free)
+    data = with_vectors(_with_positions(rows_of_blocks(data)), count)
     data, constants = with_times(data)
     data = translated(data, count)
-    number_for_gravity(data)
     forces = constraint_forces(data, count)
     reader = opened(data, slashes, [*constants, *forces], forces=forces)
     if is_staged(data, reader.evaluation.space.n):
@@ -57,6 +91,15 @@ def _with_positions(data: dict[str, Any]) -> dict[str, Any]:
                if name[:1] in "xy" for text in energies):  # fmt: skip
         return data
     return data | {"define": {**define, **positions}}
+
+
+def _free(data: dict[str, Any], coordinates: list[str]) -> list[str]:
+    """The coordinates whose motion is asked for: those of a program's state."""
+    bodies = data.get("bodies")
+    given = [isinstance(b, dict) and "motion" in b for b in bodies] if isinstance(bodies, list) else []
+    if len(given) != len(coordinates):
+        return coordinates
+    return [name for name, is_given in zip(coordinates, given, strict=True) if not is_given]
 
 
 def _shape(data: dict[str, Any]) -> tuple[int, list[str]]:

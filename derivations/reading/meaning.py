@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from fractions import Fraction
+
+from flint import fmpq
 
 from ..algebra.quotient import Quotient
-from ..algebra.trig import Formula, Space
+from ..algebra.trig import Formula, Space, constant
 from .momenta import Variable
 from .tokens import fail
 
@@ -14,6 +18,7 @@ WORDS = {
     "t": "angle", "w": "rate", "a": "acceleration", "l": "length", "m": "mass", "I": "inertia",
     "c": "distance of a centre of mass",
 }  # fmt: skip
+GRAVITY = re.compile(r"\s*\+?([0-9]{1,4}(?:\.[0-9]{0,8})?)\s*;?\s*(?:m\s*/\s*s(?:\^2|²|\*\*2))?\s*")
 MASSLESS = ("n-leg", "point-masses")
 
 
@@ -117,3 +122,9 @@ class Meaning:
     def equal_masses(self) -> bool:
         """Whether m without an index stands for all masses."""
         return self.space.n > 1 and ("m", 0) in self.used
+
+
+def number_of_gravity(line: object) -> Formula | None:
+    """What g is, where its definition is a number: 0 of a mechanism that lies flat; None elsewhere."""
+    found = GRAVITY.fullmatch(line) if isinstance(line, str) else None
+    return None if found is None else constant(fmpq(*Fraction(found[1]).as_integer_ratio()))

@@ -15,7 +15,7 @@ from ...models.readers.toml_text import parse_toml
 from ..algebra.quotient import Quotient
 from ..algebra.signs import without_squares
 from ..algebra.symbols import KINDS, Symbols, symbols_of
-from ..algebra.trig import NOTHING, Formula, Space
+from ..algebra.trig import Formula, Space
 from ..dialects.lines import FULL_WIDTH, LONGEST_LINE
 from ..dialects.names import base_and_index, base_word, plain_name
 from ..dialects.srepr import from_srepr
@@ -29,7 +29,7 @@ from .evaluation import Evaluation
 from .forces import eliminated
 from .layout import LEFT_SIDE, equations_of, laid_out
 from .matrices import Grid, added
-from .meaning import Meaning, momentum_symbols, own_symbols
+from .meaning import Meaning, momentum_symbols, number_of_gravity, own_symbols
 from .momenta import Variable, has_momenta, variable, with_variable
 from .nodes import Symbol
 from .parser import Slashes, parse_equation, parse_expression
@@ -82,7 +82,7 @@ class Submission:
     mechanism: Declared | None = None  # where the file declares it body by body
     first_order: FirstOrder | None = None  # a Hamiltonian, or equations with momenta, as they were written
     stages: Stages | None = None  # a derivation stated stage by stage; then there is nothing else
-    weightless: bool = False  # g = 0 is said: its mechanism lies flat
+    gravity: Formula | None = None  # where g is said to be a number: 0 of a mechanism that lies flat
 
     @property
     def relative(self) -> bool:
@@ -246,7 +246,6 @@ def _texts(data: dict[str, Any]) -> Iterable[str]:
             yield left.sub("", data[name]).translate(FULL_WIDTH)
 
 
-NO_GRAVITY = re.compile(r"[+-]?0+(?:\.0*)?")
 ACCELERATION = re.compile("\\\\ddot|''|″|ddot|\u0308")
 
 
@@ -264,7 +263,7 @@ class Reader:
         self.lines: list[tuple[str, str]] = []
         self.defined: list[tuple[str, str]] = []
         self.doubtful: list[str] = []
-        self.weightless = False
+        self.gravity: Formula | None = None
         self.forces: tuple[str, ...] = ()
         self.typesetter = Typesetter(words)
 
@@ -279,7 +278,7 @@ class Reader:
         return Submission(
             meaning.kind, meaning.space, rows, lagrangian, self.convention, self.stated, frozenset(meaning.used),
             meaning.equal_lengths, meaning.equal_masses, tuple(self.lines), tuple(dict.fromkeys(self.doubtful)),
-            self.words, tuple(self.defined), self.source, self.mechanism, weightless=self.weightless,
+            self.words, tuple(self.defined), self.source, self.mechanism, gravity=self.gravity,
         )  # fmt: skip
 
     @property
@@ -290,9 +289,9 @@ class Reader:
     def define(self, table: dict[str, Any]) -> None:
         """Read the file's own names."""
         for name, line in table.items():
-            if name == "g" and isinstance(line, str) and NO_GRAVITY.fullmatch(line.strip()):
-                self.weightless = True
-                self.defined.append((name, "0"))
+            if name == "g" and (gravity := number_of_gravity(line)) is not None:
+                self.gravity = gravity
+                self.defined.append((name, str(line).strip()))
                 continue
             if self._says_the_same(name, line):
                 continue
@@ -403,12 +402,12 @@ class Reader:
         else:
             found = [difference.numerator]
         space = self.evaluation.space
-        found = [self._weightless(f) for f in found]
+        found = [self._with_gravity(f) for f in found]
         return [without_squares(space, f) for f in found], text
 
-    def _weightless(self, f: Formula) -> Formula:
+    def _with_gravity(self, f: Formula) -> Formula:
         space = self.evaluation.space
-        return space.replace(f, {4 * space.n: NOTHING}) if self.weightless else f
+        return f if self.gravity is None else space.replace(f, {4 * space.n: self.gravity})
 
     def lagrangian(self, line: object) -> Formula:
         """The Lagrangian."""
@@ -419,7 +418,7 @@ class Reader:
         value = self.quotient(where, label, line)
         if value.denominator:
             raise InvalidInput(f"{where}: column 1: a sum in a denominator; here there is none")
-        return self._weightless(value.numerator)
+        return self._with_gravity(value.numerator)
 
     def quotient(self, where: str, label: str, line: object) -> Quotient:
         """An expression; what people write in front of an energy is left out."""

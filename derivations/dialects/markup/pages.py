@@ -14,11 +14,11 @@ from .asciimath import from_asciimath
 from .chains import hamiltons_signs, two_statements
 from .html import from_html
 from .mathml import from_mathml
-from .prose import from_arrow, from_displays, from_headed, from_quoted, numbered
+from .prose import from_arrow, from_displays, from_headed, from_inline, from_quoted, numbered
 from .typst import from_typst
 
-READERS = (from_quoted, from_mathml, from_html, from_typst, from_asciimath, from_displays, from_headed, from_arrow,
-           hamiltons_signs)  # fmt: skip
+READERS = (from_quoted, from_mathml, from_html, from_typst, from_asciimath, from_inline, from_displays,
+           from_headed, from_arrow, hamiltons_signs)  # fmt: skip
 MOST_ROWS = 16
 
 

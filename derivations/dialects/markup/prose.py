@@ -17,6 +17,9 @@ AROUND = re.compile(
     r"\\(?:begin|end|label|tag|ref|eqref)\*?\s*\{[^{}]{0,40}\}|\\(?:noindent|nonumber|notag|centering|par)(?![A-Za-z])"
 )
 INLINE = re.compile(r"(?<!\$)\$[^$]{1,200}\$(?!\$)|\\\([^$]{1,200}?\\\)")
+ALONE = re.compile(
+    r"^\s*(?:[-*+]\s+|[0-9]{1,2}\.\s+|>\s*)?(?:\$\$(?P<two>[^$]+)\$\$|\$`?(?P<one>[^$]+?)`?\$|\\\((?P<round>.+?)\\\))\s*[.,;]?\s*(?:\\\\|<br\s*/?>)?\s*$"
+)
 DENIED = re.compile(
     r"\b(?:wrong|incorrect|mistaken?|erroneous|not|isn't|doesn't|falsch|nicht|kein\w*|faux|fausse|incorrecte?|instead|rather than|should be"
     r"|neglect\w*|approximat\w*|linear\w*|small)\b|誤|間違|でない|ではない|近似|無視|線形",
@@ -63,6 +66,15 @@ def from_displays(text: str) -> str:
     parts = [(m["a"] or m["b"] or m[0]).strip() for m in found]
     rows = [re.sub(r"\s*(?:\\,|\\;|\\ |~)?[.,;，．、。；]\s*$", "", part) for part in parts]
     return " \\\\ ".join(re.sub(r"\s+", " ", row) for row in rows)
+
+
+def from_inline(text: str) -> str:
+    """Lines that are one formula in dollar signs each, as a README has them, without these; any other text as it is."""
+    lines = [line for line in text.split("\n") if line.strip()]
+    found = [ALONE.match(line) for line in lines]
+    if len(lines) < 2 or not all(found):
+        return text
+    return "\n".join((m["one"] or m["two"] or m["round"]).strip().rstrip(" .,;") for m in found if m)
 
 
 def from_headed(text: str) -> str:

@@ -79,3 +79,44 @@ def test_what_moves_so_has_to_be_said():
     with pytest.raises(InvalidInput, match="fixed in direction"):
         grade_text(SUPPORT.format("y", "up", "a*cos(w*t)", "l*theta'' + cos(w*t) = 0").replace("joint = 'slide'\n", "")
                    .replace("along = 'up'\n", ""))  # fmt: skip
+
+
+TWO_WAYS = """system = 'mechanism'
+from = 'down'
+[[bodies]]
+coordinate = 'xp'
+joint = 'slide'
+mass = '0'
+along = 'right'
+motion = 'given'
+[[bodies]]
+coordinate = 'yp'
+joint = 'slide'
+mass = '0'
+along = 'up'
+motion = 'given'
+[[bodies]]
+coordinate = 'th'
+mass = 'm'
+length = 'l'
+[define]
+xp = 'ax*cos(omegax*t + phix)'
+yp = 'ay*cos(omegay*t + phiy)'
+[equations]
+1 = "l*th'' = {} - (g - ay*omegay^2*cos(omegay*t + phiy))*sin(th)"
+"""
+
+
+def test_a_support_without_mass_that_moves_in_two_directions():
+    """l θ'' = -x_p'' cos θ - (g + y_p'') sin θ, with both motions put in."""
+    right = "ax*omegax^2*cos(omegax*t + phix)*cos(th)"
+    assert grade_text(TWO_WAYS.format(right)).verdict == "correct"
+    assert grade_text(TWO_WAYS.format(f"2*{right}")).verdict == "wrong"
+    with pytest.raises(InvalidInput, match="function of time"):
+        grade_text(TWO_WAYS.format(right.replace("+ phix", "- phix")))
+
+
+def test_a_torque_cos_t():
+    row = "m l^2 phi'' + c phi' + m g l sin(phi) = cos(t)"
+    assert grade_text(DRIVEN.replace("K cos(w t)", "cos(t)").format(row)).verdict == "correct"
+    assert grade_text(DRIVEN.replace("K cos(w t)", "cos(t)").format(row.replace("= cos", "= 2*cos"))).verdict == "wrong"

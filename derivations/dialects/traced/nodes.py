@@ -1,0 +1,220 @@
+"""A program's text as a tree: expressions and statements, one kind for Python and MATLAB. Nothing is run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number as it is written."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Text:
+    """A text in quotes."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Word:
+    """A name."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class Member:
+    """``of.name``"""
+
+    of: Node
+    name: str
+
+
+@dataclass(frozen=True)
+class At:
+    """Entries in square brackets, or in MATLAB's braces."""
+
+    of: Node
+    places: tuple[Node, ...]
+
+
+@dataclass(frozen=True)
+class Call:
+    """A function of arguments; in MATLAB also the entries of a matrix."""
+
+    of: Node
+    arguments: tuple[Node, ...]
+    named: tuple[tuple[str, Node], ...] = ()
+
+
+@dataclass(frozen=True)
+class Unary:
+    """A sign in front."""
+
+    sign: str
+    of: Node
+
+
+@dataclass(frozen=True)
+class Binary:
+    """Two values and an operator between them, as MATLAB writes it: * of arrays is ``.*`` where that is meant."""
+
+    sign: str
+    left: Node
+    right: Node
+
+
+@dataclass(frozen=True)
+class Turned:
+    """A transposed matrix."""
+
+    of: Node
+
+
+@dataclass(frozen=True)
+class Listed:
+    """A list or a tuple."""
+
+    items: tuple[Node, ...]
+
+
+@dataclass(frozen=True)
+class Block:
+    """A matrix in MATLAB's brackets, of matrices too."""
+
+    rows: tuple[tuple[Node, ...], ...]
+
+
+@dataclass(frozen=True)
+class Span:
+    """From here to there; both ends may be left out."""
+
+    first: Node | None = None
+    last: Node | None = None
+    step: Node | None = None
+
+
+@dataclass(frozen=True)
+class Dots:
+    """The ellipsis of x[..., 0]."""
+
+
+@dataclass(frozen=True)
+class Nameless:
+    """A function without a name."""
+
+    parameters: tuple[str, ...]
+    value: Node
+
+
+@dataclass(frozen=True)
+class Strange:
+    """An expression of a kind that is not followed."""
+
+    text: str
+
+
+Node = (
+    Number
+    | Text
+    | Word
+    | Member
+    | At
+    | Call
+    | Unary
+    | Binary
+    | Turned
+    | Listed
+    | Block
+    | Span
+    | Dots
+    | Nameless
+    | Strange
+)
+
+
+@dataclass(frozen=True)
+class Assign:
+    """``targets`` = ``value``; ``sign``: of an assignment in place, as + of +=."""
+
+    target: Node
+    value: Node
+    line: str
+    sign: str = ""
+
+
+@dataclass(frozen=True)
+class Return:
+    """What a function gives back."""
+
+    value: Node | None
+    line: str
+
+
+@dataclass(frozen=True)
+class Do:
+    """An expression that stands alone."""
+
+    value: Node
+    line: str
+
+
+@dataclass(frozen=True)
+class Define:
+    """A function. ``outs``: the names of what it gives back, in MATLAB; ``is_method``: its first parameter is self."""
+
+    name: str
+    parameters: tuple[str, ...]
+    outs: tuple[str, ...]
+    body: tuple[Statement, ...]
+    of: str = ""
+
+
+@dataclass(frozen=True)
+class Repeat:
+    """A loop that counts."""
+
+    name: str
+    over: Node
+    body: tuple[Statement, ...]
+    line: str
+
+
+@dataclass(frozen=True)
+class Unfollowed:
+    """A statement of a kind that is not followed. ``names``: what it may change; refused where one is needed."""
+
+    line: str
+    names: tuple[str, ...] = ()
+
+
+Statement = Assign | Return | Do | Define | Repeat | Unfollowed
+
+
+def dotted(node: Node) -> str | None:
+    """self.p.m of such names."""
+    if isinstance(node, Word):
+        return node.name
+    if isinstance(node, Member):
+        of = dotted(node.of)
+        return None if of is None else f"{of}.{node.name}"
+    return None
+
+
+def set_by(target: Node) -> list[str]:
+    """The names that an assignment sets."""
+    match target:
+        case Word(name=name):
+            return [name]
+        case Member():
+            path = dotted(target)
+            return [path] if path else []
+        case Listed(items=items):
+            return [name for item in items for name in set_by(item)]
+        case At(of=of) | Call(of=of):
+            return set_by(of)
+    return []

@@ -1,0 +1,186 @@
+"""Python's text as a tree, by Python's own parser; nothing is run."""
+
+from __future__ import annotations
+
+import ast
+import re
+import textwrap
+
+from . import nodes
+
+SIGNS: dict[type[ast.operator], str] = {
+    ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "^", ast.MatMult: "@",
+    ast.FloorDiv: "//",
+}  # fmt: skip
+PRINTED = re.compile(r"(?m)^([ \t]*)print[ \t]+[^(=\n][^\n]*$")
+PROMPT = re.compile(r"(?m)^(?:>>>|\.\.\.) ?|^In \[[0-9]{1,3}\]: ?")
+HEAD = re.compile(r"^(?P<blank>[ \t]*)(?:def|class)\b.*:\s*(?:#.*)?$")
+MATLAB = re.compile(r"(?m)^\s*function\b|^\s*end\s*;?\s*$")
+NOT_SELF = ("self", "cls", "this")
+DEEPEST = 60
+
+
+def python_tree(text: str) -> tuple[nodes.Statement, ...] | None:
+    """The statements; None where the text is no Python."""
+    if "\\begin" in text or "\\frac" in text or MATLAB.search(text):
+        return None
+    text = PRINTED.sub(r"\1pass", PROMPT.sub("", text))
+    whole = textwrap.dedent(text.expandtabs()).strip("\n")
+    for version in (whole, whole.strip(), _indented(whole)):
+        try:
+            tree = ast.parse(version)
+        except (SyntaxError, ValueError, RecursionError, MemoryError):
+            continue
+        reader = _Reader(version.split("\n"))
+        try:
+            return reader.body(tree.body)
+        except RecursionError:
+            return None
+    return None
+
+
+def _indented(text: str) -> str:
+    """A function whose body has lost its indentation."""
+    lines = text.split("\n")
+    start = next((k for k, line in enumerate(lines) if HEAD.match(line)), None)
+    if start is None:
+        return text
+    return "\n".join([*lines[: start + 1], *("    " + line for line in lines[start + 1 :])])
+
+
+class _Reader:
+    def __init__(self, lines: list[str]) -> None:
+        self.lines = lines
+
+    def line(self, node: ast.stmt) -> str:
+        return self.lines[node.lineno - 1].strip()
+
+    def body(self, body: list[ast.stmt], of: str = "") -> tuple[nodes.Statement, ...]:
+        return tuple(one for statement in body for one in self.statement(statement, of))
+
+    def statement(self, node: ast.stmt, of: str) -> list[nodes.Statement]:  # noqa: PLR0911 -- one for each kind
+        line = self.line(node)
+        match node:
+            case ast.FunctionDef(name=name, args=args, body=body):
+                return [nodes.Define(name, _parameters(args), (), self.body(body), of)]
+            case ast.ClassDef(name=name, body=body):
+                return list(self.body(body, of=name))
+            case ast.Assign(targets=targets, value=value):
+                return [nodes.Assign(_tree(target), _tree(value), line) for target in targets]
+            case ast.AnnAssign(target=target, value=value):
+                return [nodes.Assign(_tree(target), _tree(value), line)] if value else []
+            case ast.AugAssign(target=target, op=op, value=value):
+                sign = SIGNS.get(type(op))
+                return [
+                    nodes.Assign(_tree(target), _tree(value), line, sign)
+                    if sign
+                    else nodes.Unfollowed(line, _names(node))
+                ]
+            case ast.Return(value=value):
+                return [nodes.Return(_tree(value) if value else None, line)]
+            case (
+                ast.Expr(value=ast.Constant())
+                | ast.Pass()
+                | ast.Import()
+                | ast.ImportFrom()
+                | ast.Global()
+                | ast.Assert()
+            ):
+                return []
+            case ast.Expr(value=value):
+                return [nodes.Do(_tree(value), line)]
+            case ast.Nonlocal() | ast.Raise():
+                return []
+            case ast.If(test=test, body=body, orelse=otherwise):
+                if (_only_guards(body) and _only_guards(otherwise)) or _is_default(test, body, otherwise):
+                    return []
+                return [nodes.Unfollowed(line, _names(node))] if not _is_main(test) else []
+            case ast.For(target=ast.Name(id=name), iter=over, body=body, orelse=[]):
+                return [nodes.Repeat(name, _tree(over), self.body(body), line)]
+        return [nodes.Unfollowed(line, _names(node))]
+
+
+def _names(node: ast.stmt) -> tuple[str, ...]:
+    """What a statement may change; "return" where it may be the last."""
+    found = [ast.unparse(n) for n in ast.walk(node) if isinstance(n, ast.Attribute | ast.Name)]
+    return tuple(dict.fromkeys([*found, *("return" for n in ast.walk(node) if isinstance(n, ast.Return))]))
+
+
+def _only_guards(body: list[ast.stmt]) -> bool:
+    """Whether nothing is done but to raise, print or pass."""
+    return all(
+        isinstance(one, ast.Raise | ast.Pass | ast.Assert)
+        or (isinstance(one, ast.Expr) and (isinstance(one.value, ast.Constant) or _only_says(one.value)))
+        for one in body
+    )
+
+
+def _only_says(value: ast.expr) -> bool:
+    """print(…), warnings.warn(…)"""
+    name = value.func if isinstance(value, ast.Call) else None
+    said = name.id if isinstance(name, ast.Name) else name.attr if isinstance(name, ast.Attribute) else ""
+    return said in ("print", "warn", "info", "debug", "warning", "exit")
+
+
+def _is_default(test: ast.expr, body: list[ast.stmt], otherwise: list[ast.stmt]) -> bool:
+    """if u is None: u = 0; what the parameter is otherwise is what counts."""
+    match test, body:
+        case (
+            ast.Compare(left=ast.Name(id=name), ops=[ast.Is()], comparators=[ast.Constant(value=None)]),
+            [ast.Assign(targets=[ast.Name(id=target)])],
+        ):
+            return name == target and not otherwise
+    return False
+
+
+def _is_main(test: ast.expr) -> bool:
+    """if __name__ == "__main__"."""
+    return isinstance(test, ast.Compare) and isinstance(test.left, ast.Name) and test.left.id == "__name__"
+
+
+def _parameters(args: ast.arguments) -> tuple[str, ...]:
+    names = [a.arg for a in (*args.posonlyargs, *args.args, *args.kwonlyargs)]
+    return tuple(name for name in names if name not in NOT_SELF)
+
+
+def _tree(node: ast.expr) -> nodes.Node:  # noqa: PLR0911, PLR0912 -- one for each kind
+    match node:
+        case ast.Constant(value=bool()):
+            return nodes.Text(str(node.value))
+        case ast.Constant(value=int() | float() as value):
+            return nodes.Number(repr(value))
+        case ast.Constant(value=str() as value):
+            return nodes.Text(value)
+        case ast.Constant(value=None) | ast.Dict(keys=[]):
+            return nodes.Text("None")
+        case ast.Constant(value=value) if value is ...:
+            return nodes.Dots()
+        case ast.Name(id=name):
+            return nodes.Word(name)
+        case ast.Attribute(attr="T", value=of):
+            return nodes.Turned(_tree(of))
+        case ast.Attribute(attr=name, value=of):
+            return nodes.Member(_tree(of), name)
+        case ast.Subscript(value=of, slice=ast.Tuple(elts=places)):
+            return nodes.At(_tree(of), tuple(map(_tree, places)))
+        case ast.Subscript(value=of, slice=place):
+            return nodes.At(_tree(of), (_tree(place),))
+        case ast.Slice(lower=first, upper=last, step=step):
+            return nodes.Span(*(_tree(x) if x else None for x in (first, last, step)))
+        case ast.Call(func=of, args=arguments, keywords=named):
+            return nodes.Call(
+                _tree(of), tuple(map(_tree, arguments)), tuple((k.arg or "", _tree(k.value)) for k in named)
+            )
+        case ast.UnaryOp(op=ast.USub() | ast.UAdd() as op, operand=of):
+            return nodes.Unary("-" if isinstance(op, ast.USub) else "+", _tree(of))
+        case ast.BinOp(left=left, op=op, right=right) if type(op) in SIGNS:
+            return nodes.Binary(SIGNS[type(op)], _tree(left), _tree(right))
+        case ast.List(elts=items) | ast.Tuple(elts=items):
+            return nodes.Listed(tuple(_tree(item) for item in items))
+        case ast.Starred(value=of):
+            return nodes.Unary("*", _tree(of))
+        case ast.Lambda(args=args, body=value):
+            return nodes.Nameless(_parameters(args), _tree(value))
+        case ast.Compare(left=left, ops=[ast.Eq()], comparators=[right]):
+            return nodes.Binary("==", _tree(left), _tree(right))
+    return nodes.Strange(ast.unparse(node)[:60])
