@@ -96,7 +96,8 @@ def _with_any_gravity(data: dict[str, Any]) -> dict[str, Any]:
     others = {name: line for name, line in define.items() if name != "g"}
     digits = number[1].rstrip("0").rstrip(".")
     held = str([data.get(name) for name in (*TABLES[1:], *ENERGIES)]) + str(others)
-    return data if digits in held else data | {"define": others}
+    has_letter = re.search(r"(?<![A-Za-z\\])g(?![A-Za-z])", held) is not None
+    return data | {"define": others} if has_letter and digits not in held else data
 
 
 def _is_small(data: Mapping[str, Any]) -> bool:

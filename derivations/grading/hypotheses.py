@@ -12,7 +12,7 @@ from math import gcd, lcm
 
 from flint import fmpq
 
-from ..algebra.trig import NOTHING, Formula, Space, constant
+from ..algebra.trig import Formula, Space, constant
 from ..reading.submission import Submission
 from ..steps.conventions import Convention, conventions
 from ..steps.families import Choices, family
@@ -105,8 +105,8 @@ def hypotheses(s: Submission, *, pinned: bool = False) -> Iterator[Hypothesis]:
                 mechanism = s.mechanism.mechanism(convention)
             else:
                 mechanism = family(s.kind, s.space, convention, variant.choices).with_values(merged(s, variant))
-            if s.weightless:
-                mechanism = replace(mechanism, weight=NOTHING)
+            if s.weight is not None:
+                mechanism = replace(mechanism, weight=s.weight)
             yield Hypothesis(mechanism, convention, variant, assumes)
 
 

@@ -15,7 +15,7 @@ from ...models.readers.toml_text import parse_toml
 from ..algebra.quotient import Quotient
 from ..algebra.signs import without_squares
 from ..algebra.symbols import KINDS, Symbols, symbols_of
-from ..algebra.trig import NOTHING, Formula, Space
+from ..algebra.trig import Formula, Space
 from ..dialects.lines import FULL_WIDTH, LONGEST_LINE
 from ..dialects.names import base_and_index, base_word, plain_name
 from ..dialects.srepr import from_srepr
@@ -82,7 +82,7 @@ class Submission:
     mechanism: Declared | None = None  # where the file declares it body by body
     first_order: FirstOrder | None = None  # a Hamiltonian, or equations with momenta, as they were written
     stages: Stages | None = None  # a derivation stated stage by stage; then there is nothing else
-    weightless: bool = False  # g = 0 is said: its mechanism lies flat
+    weight: Formula | None = None  # what g is said to be: 0 where it lies flat, a number, ω_0²
 
     @property
     def relative(self) -> bool:
@@ -246,7 +246,6 @@ def _texts(data: dict[str, Any]) -> Iterable[str]:
             yield left.sub("", data[name]).translate(FULL_WIDTH)
 
 
-NO_GRAVITY = re.compile(r"[+-]?0+(?:\.0*)?")
 ACCELERATION = re.compile("\\\\ddot|''|″|ddot|\u0308")
 
 
@@ -264,7 +263,7 @@ class Reader:
         self.lines: list[tuple[str, str]] = []
         self.defined: list[tuple[str, str]] = []
         self.doubtful: list[str] = []
-        self.weightless = False
+        self.weight: Formula | None = None
         self.forces: tuple[str, ...] = ()
         self.typesetter = Typesetter(words)
 
@@ -279,7 +278,7 @@ class Reader:
         return Submission(
             meaning.kind, meaning.space, rows, lagrangian, self.convention, self.stated, frozenset(meaning.used),
             meaning.equal_lengths, meaning.equal_masses, tuple(self.lines), tuple(dict.fromkeys(self.doubtful)),
-            self.words, tuple(self.defined), self.source, self.mechanism, weightless=self.weightless,
+            self.words, tuple(self.defined), self.source, self.mechanism, weight=self.weight,
         )  # fmt: skip
 
     @property
@@ -290,9 +289,10 @@ class Reader:
     def define(self, table: dict[str, Any]) -> None:
         """Read the file's own names."""
         for name, line in table.items():
-            if name == "g" and isinstance(line, str) and NO_GRAVITY.fullmatch(line.strip()):
-                self.weightless = True
-                self.defined.append((name, "0"))
+            if name == "g" and isinstance(line, str) and plain_name(line.strip()) != "g":
+                node = _located("define.g", self._expression, line)
+                self.weight = _located("define.g", self.evaluation.weight, node)
+                self.defined.append((name, self.typesetter.equation((node,))))
                 continue
             if self._says_the_same(name, line):
                 continue
@@ -403,12 +403,11 @@ class Reader:
         else:
             found = [difference.numerator]
         space = self.evaluation.space
-        found = [self._weightless(f) for f in found]
-        return [without_squares(space, f) for f in found], text
+        return [without_squares(space, self._weighed(f)) for f in found], text
 
-    def _weightless(self, f: Formula) -> Formula:
+    def _weighed(self, f: Formula) -> Formula:
         space = self.evaluation.space
-        return space.replace(f, {4 * space.n: NOTHING}) if self.weightless else f
+        return f if self.weight is None else space.replace(f, {4 * space.n: self.weight})
 
     def lagrangian(self, line: object) -> Formula:
         """The Lagrangian."""
@@ -419,7 +418,7 @@ class Reader:
         value = self.quotient(where, label, line)
         if value.denominator:
             raise InvalidInput(f"{where}: column 1: a sum in a denominator; here there is none")
-        return self._weightless(value.numerator)
+        return self._weighed(value.numerator)
 
     def quotient(self, where: str, label: str, line: object) -> Quotient:
         """An expression; what people write in front of an energy is left out."""
@@ -431,7 +430,8 @@ class Reader:
             node = parse_expression(written, self.names, self.words, self.slashes)
             self._doubts(written)
             self.lines.append((label, self.typesetter.equation((node,))))
-            return self.evaluation.scalar(node)
+            found = self.evaluation.scalar(node)
+            return replace(found, numerator=self._weighed(found.numerator))
 
         return _located(where, read)
 

@@ -4,12 +4,11 @@ r"""Indices in any font or alphabet: m_\mathrm{c}, J_\Delta, c₁₂; ell for �
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 from typing import Any
 
 from ....models.errors import InvalidInput
 from ..names import FIGURES, GREEK
-from .every_text import everywhere, lines_of
+from .every_text import everywhere
 
 _GREEK = "|".join(sorted(GREEK, key=len, reverse=True))
 _FONT = r"\\(?:mathrm|mathit|mathsf|mathbf|text|textrm|textit|textnormal|operatorname|rm)"
@@ -80,15 +79,3 @@ def _from_one(data: dict[str, Any], bodies: list[dict[str, Any]]) -> dict[str, A
         return re.sub(rf"(?<![A-Za-z\\]){re.escape(x)}\s*\[\s*([0-9])\s*\]", lambda m: f"{x}_{int(m[1]) + 1}", text)
 
     return everywhere(data, one)
-
-
-def number_for_gravity(data: Mapping[str, Any]) -> None:
-    """Raises InvalidInput, with what to write, where g is said to be a number that the rows count on."""
-    define = data.get("define")
-    value = define.get("g") if isinstance(define, dict) else None
-    if not isinstance(value, str) or not re.fullmatch(r"\s*[0-9.]{1,12}\s*", value) or not float(value.strip(".") or 0):
-        return
-    figures = value.strip().rstrip("0").rstrip(".")
-    if any(figures in line for line in lines_of(data)):
-        raise InvalidInput(f"define.g: {value.strip()}, and the rows have this number; write g for it, also where it "
-                           "went into other numbers, and leave g out of [define]")  # fmt: skip

@@ -92,10 +92,11 @@ def test_numbers_with_units_and_a_number_for_g():
     row = r"\qty{2}{\kilogram}\cdot\num{0,5} \ddot\theta + \SI{2}{kg} g \sin\theta = 0"
     assert one(row, m="2", l="0.5") == "correct"
     assert one(row.replace("0,5", "0,25"), m="2", l="0.5") == "wrong"
-    with pytest.raises(InvalidInput, match="write g for it"):
-        grade_text(
-            ONE.format(q="\\theta", m="m", l="l", row=r"l\ddot\theta + 9.80 \sin\theta = 0") + "[define]\ng = '9.80'\n"
-        )
+    earth = ONE.format(q="\\theta", m="m", l="l", row=r"l\ddot\theta + 9.80 \sin\theta = 0") + "[define]\ng = '9.80'\n"
+    assert grade_text(earth).verdict == "correct"
+    # What went into other numbers counts as well: 19.6/2 is 9.8, and 19.6 is not
+    assert grade_text(earth.replace("9.80 ", "\\frac{19.6}{2} ")).verdict == "correct"
+    assert grade_text(earth.replace("9.80 ", "19.6 ")).verdict == "wrong"
 
 
 def test_coordinates_that_are_counted_from_nothing():
