@@ -37,6 +37,9 @@ PUT = re.compile(
 )
 SLICE = re.compile(r"(?<![\w.])(?P<x>[^\W\d]\w*)\s*(?:\[|\()\s*(?P<a>-?\d)?\s*:\s*(?P<b>\d)?\s*[\])]")
 PART = re.compile(r"(?P<x>[^\W\d]\w*)\s*(?:\[|\()\s*(?P<a>-?\d)?\s*:\s*(?P<b>\d)?\s*[\])]")
+ENTRY = re.compile(  # params[0], p->l, model.m[1]
+    r"\(?\s*(?P<of>[^\W\d]\w*)(?P<path>(?:\s*(?:->|\.)\s*[^\W\d]\w*)*)(?P<at>\s*[\[(]\s*\d{1,2}\s*[\])])?\s*\)?"
+)
 NUMBER = re.compile(r"[-+]?\s*(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 NUMERIC = re.compile(r"[-+*/().\s0-9eE]*[0-9][-+*/().\s0-9eE]*")
 DATA_OF = re.compile(

@@ -11,7 +11,7 @@ from ..languages.expressions import in_rows, parts_of_vectors
 from ..languages.program import ALLOCATED, CALL, RETURN, Function, Statement
 from ..markup.calls import closing, parts_of
 from ..names import plain_name
-from .words import CHANGES, DATA_OF, NUMERIC, PART, PUT, Index, Words
+from .words import CHANGES, DATA_OF, ENTRY, NUMERIC, PART, PUT, Index, Words
 
 
 @dataclass
@@ -106,9 +106,9 @@ class Writer(Words):
                 if kind != "number" and owner not in self.number_parameters():
                     self.aliases[name] = owner
                     return
-        entry = re.fullmatch(
-            r"\(?\s*(?P<of>[^\W\d]\w*)(?:\s*[\[(]\s*\d{1,2}\s*[\])]|(?:\s*(?:->|\.)\s*[^\W\d]\w*)+)\s*\)?", bare
-        )
+        entry = ENTRY.fullmatch(bare)
+        if entry and not (entry["path"] or entry["at"]):
+            entry = None
         if entry and self.is_quantity(entry["of"], bare, name):
             source = re.sub(r"\s", "", bare)
             if self.sources.setdefault(source, name) != name:
@@ -129,6 +129,7 @@ class Writer(Words):
             self.constants.add(name)  # a number of its own, which is no quantity's value
         text = self.written(value)
         if text.strip() == self.local(name):
+            self.quantities.add(name)
             return
         bare_text = text.strip()
         if (
@@ -163,6 +164,8 @@ class Writer(Words):
             return False
         if owner in self.entries or (owner in self.locals and not of and owner not in self.types):
             return False
+        if re.search(r"[\[(]", bare) and re.search(r"->|\.", bare):
+            return (plain_name(name.strip("_")) or name) in self.known
         if re.search(r"[\[(]", bare):
             return bool(of) or owner not in self.locals
         last = plain_name(re.split(r"->|\.", bare)[-1].strip(" )").strip("_"))

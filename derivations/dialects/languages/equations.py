@@ -18,7 +18,8 @@ TOOLKIT = re.compile(
     r"\bDifferential\s*\(|@mtkmodel\b|\bD_nounits\b|@(?:variables|parameters|independent_variables)\b|@equations\b|\bODE(?:System|Problem)\b"
 )
 BEGINS = re.compile(
-    r"@equations\s+begin\b(?P<a>.*?)\n\s*end\b|\b(?P<name>\w+)\s*=\s*(?:Equation)?\[(?=[^\]]*~)", re.DOTALL
+    r"@equations\s+begin\b(?P<a>.*?)\n\s*end\b|\b(?:(?P<name>\w+)\s*=\s*(?:Equation)?|ODESystem\s*\(\s*)\[(?=[^\]]*~)",
+    re.DOTALL,
 )
 XPP = re.compile(r"(?m)^[ \t]*(?:[A-Za-z]\w*'|d[A-Za-z]\w*/dt)[ \t]*=")
 XPP_PAR = re.compile(r"(?mi)^[ \t]*(?:par(?:am(?:eter)?s?)?[ \t]+\w+[ \t]*=|done[ \t]*$|@[ \t]|init[ \t]+\w+)")

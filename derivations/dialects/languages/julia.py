@@ -35,6 +35,7 @@ MARKED = re.compile("(?P<x>[A-Za-zα-ωΑ-Ωϕ])(?P<index>[₀-₉0-9]*)(?P<dots
 ONE_LINE = re.compile(
     r"(?m)^[ \t]*(?P<name>[A-Za-z_]\w*)!?\((?P<of>[^()\n]*)\)\s*=(?!=)\s*(?P<body>[^\n]+(?:\n[ \t]+[^\n]+)*)$"
 )
+PICKED = re.compile(r"(?P<x>[^\W\d]\w*)\[\s*\[(?P<of>\s*\d(?:\s*,\s*\d)*)\s*\]\s*\]")  # x[SA[1, 2]]
 BEGINS = re.compile(
     r"^\s*(?:(?:Base\.)?@\w+\s+)*(?P<of>function|if|for|while|let|begin|struct|mutable\s+struct|abstract\s+type|module|quote|try|macro)\b(?P<rest>.*)$"
 )
@@ -53,6 +54,7 @@ def from_julia(text: str) -> Program | None:
     text = MARKED.sub(lambda m: f"{m['x']}{'d' * len(m['dots'])}ot{m['index']}{m['behind']}", text).translate(FIGURES)
     text = BESIDE.sub(lambda m: m["n"] + "*", text)
     text = re.sub(r"(?<=[\w)\]\s])\.(?=[-+*/^=])", "", re.sub(r"\b(vcat|hcat)\s*\(", r"\1(", text))
+    text = PICKED.sub(lambda m: "[" + ", ".join(f"{m['x']}[{k}]" for k in re.findall(r"\d", m["of"])) + "]", text)
     text = re.sub(r"\[\s*:\s*\]", "", text).replace("\\", "⧵")
     text = _lists(text)
     no_leading_signs(text)

@@ -8,7 +8,9 @@ import re
 from pathlib import Path
 
 import pytest
-from mechanisms import (
+from mechanisms import (  # fmt: skip
+    I1,
+    I2,
     F,
     M,
     a1,
@@ -21,10 +23,14 @@ from mechanisms import (
     l,
     l1,
     l2,
+    lc1,
+    lc2,
+    links,
     m,
     m1,
     m2,
     pendulum,
+    tau,
     th,
     th1,
     th2,
@@ -34,7 +40,7 @@ from mechanisms import (
     x,
     xdd,
 )
-from sympy import cos, sin
+from sympy import cos, sin, symbols
 from truth import compare
 
 from furiko.derivations.grading.grade import grade, grade_text
@@ -64,6 +70,27 @@ FAMILIES = {
 @pytest.mark.parametrize("family", FAMILIES)
 def test_the_formulas_that_the_programs_share_are_right(family):
     assert compare(FAMILIES[family], bobs((l1, m1), (l2, m2))) is None
+
+
+def test_those_of_the_acrobot_are_right():
+    """Links with centres in their middles and inertia about them, relative angles, torque at the elbow."""
+    c2, tmp = cos(th2), l1 * l2 * m2 * sin(th2) / 2
+    m11 = m1 * l1**2 / 4 + I1 + m2 * (l1**2 + l2**2 / 4 + l1 * l2 * c2) + I2
+    m12, m22 = m2 * (l2**2 / 4 + l1 * l2 * c2 / 2) + I2, l2**2 * m2 / 4 + I2
+    outer = g * m2 * l2 * sin(th1 + th2) / 2
+    rows = [
+        m11 * a1 + m12 * a2 - (2 * w1 * w2 + w2**2) * tmp + g * (m1 * l1 / 2 + m2 * l1) * sin(th1) + outer,
+        m12 * a1 + m22 * a2 + tmp * w1**2 + outer - tau,
+    ]
+    halves = {lc1: l1 / 2, lc2: l2 / 2}
+    assert compare(rows, links(False, relative=True, forces={th2: tau}), halves) is None
+
+
+def test_that_of_the_motor_is_right():
+    """J a'' = m g l sin a - (b + K²/R) a' + K/R u, from the upward vertical; J is about the pivot."""
+    turn, drag, push = symbols("J b u")  # b for b + K²/R, u for K u/R: each stands for one quantity of its own
+    rows = [al - (m * g * l * sin(th) - drag * w + push) / turn]
+    assert compare(rows, pendulum(inertia=turn - m * l**2, up=True, forces={th: push - drag * w})) is None
 
 
 def test_those_of_one_bob_and_of_the_cart_are_right():
