@@ -14,7 +14,7 @@ from ..languages.equations import stated
 from ..languages.fortran import from_fortran
 from ..languages.haskell import from_haskell
 from ..languages.julia import from_julia
-from ..languages.program import RETURN, Function, Program
+from ..languages.program import LONGEST_PROGRAM, RETURN, Function, Program
 from ..languages.r import from_r
 from ..letters.every_text import rows_of
 from ..names import plain_name
@@ -22,6 +22,7 @@ from ..statements import DOWNWARDS
 from ..table import known_of
 from .neutral import Asked, neutral, state_of
 
+DEEPEST = 40  # brackets in one another
 ENTRY = re.compile(r"(?P<name>\w+)\s*[\[(]\s*(?P<k>\d{1,2})\s*[\])]")
 
 WAVE = re.compile(r"\b[dD]?(?:sin|cos)f?\s*\(|\.(?:sin|cos)\s*\(|solve|inverse", re.IGNORECASE)
@@ -38,6 +39,8 @@ def from_languages(data: dict[str, Any], count: int) -> dict[str, Any]:
     ):
         return data
     label, text = rows[0]
+    if len(text) > LONGEST_PROGRAM or _depth(text) > DEEPEST:
+        return data  # what is so large or so deep, the reader refuses
     try:
         asked = asked_of(data, define, count)
         names = {*asked.known, *asked.coordinates, *(str(key) for key in define)}
@@ -62,6 +65,15 @@ def from_languages(data: dict[str, Any], count: int) -> dict[str, Any]:
 def _of_haskell(text: str, asked: Asked, names: Collection[str]) -> Program | tuple[list[str], dict[str, str]] | None:
     found = from_haskell(text, names, asked.coordinates)
     return (found, {}) if isinstance(found, list) else found
+
+
+def _depth(text: str) -> int:
+    """How deep brackets stand in one another, at most."""
+    depth = deepest = 0
+    for c in text:
+        depth += (c in "([{") - (c in ")]}")
+        deepest = max(deepest, depth)
+    return deepest
 
 
 def program_of(text: str, known: Collection[str] = ()) -> Program | None:
