@@ -18,7 +18,7 @@ INDEX = re.compile(r"(?<![A-Za-z0-9_\\])(?P<x>[A-Za-z]+)\[\s*(?P<i>[0-9]{1,2})\s
 ORDERED = re.compile(r"\bt\s*\$\s*2")
 QUOTED = re.compile(r"'(?=diff\s*\()")
 OPERATOR = re.compile(
-    rf"(?<![A-Za-z\\])(?P<of>der|D)\(\s*(?:(?P<two>(?P=of))\(\s*(?P<x>{WORD}){_OF_TIME}\s*\)|(?P<y>{WORD}){_OF_TIME})\s*\)"
+    rf"(?<![A-Za-z\\])(?P<of>der(?=\s*\()|D(?=\())\s*\(\s*(?:(?P<two>(?P=of))\s*\(\s*(?P<x>{WORD}){_OF_TIME}\s*\)|(?P<y>{WORD}){_OF_TIME})\s*\)"
 )
 TWO_EQUALS = re.compile(r"(?<![=<>!])==(?!=)")
 TILDE = re.compile(r"(?<=\s)~(?=\s)")

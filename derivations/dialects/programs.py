@@ -37,7 +37,7 @@ def program(line: str, names: frozenset[str]) -> str:
         line = STD.sub(lambda found: " " * len(found[0]), line)
         line = OF_RATE.sub(lambda found: found[0] if found[0] in names else padded(f"{found['x']}'", found), line)
         line = KEYWORDS.sub(lambda found: " " * len(found[0]), line)
-        line = _methods(line)
+        line = methods(line)
     return _squares(_powers(line))
 
 
@@ -58,7 +58,7 @@ def _powers(line: str) -> str:
     return line
 
 
-def _methods(line: str) -> str:
+def methods(line: str) -> str:
     """x.sin() of Rust and its kin as sin(x), x.powi(2) as (x)^2."""
     for _ in range(MOST_FUNCTIONS):
         found = METHOD.search(line)

@@ -13,11 +13,14 @@ SECOND = ("ddot", "_ddot", "dotdot", "_dot_dot", "_dd", "_acc", "acc", "_a", "_d
 LONE = ("_v", "_a")  # read only where both are there
 BEFORE = ("d", "dd", "d2")
 NAME = r"\\?[A-Za-zα-ωΑ-Ω]+(?:\s*_\s*(?:\{\s*\w{1,4}\s*\}|\w))?[0-9₀-₉]{0,2}"
+D = r"(?:\\mathrm\s*\{?\s*d\s*\}?|\\rm d|d)"
 SPACE = r"(?:\s|\\[,;!]|&)*"
-D = r"(?:\\mathrm\s*\{\s*d\s*\}|\\rm d|d)"
 ROW = re.compile(
     rf"^{SPACE}(?:\\dot\s*\{{?\s*(?P<a>\\?[A-Za-z]+)\s*(?P<ai>_\s*(?:\{{\s*\w+\s*\}}|\w))?\s*\}}?\s*(?P<aj>_\s*(?:\{{\s*\w+\s*\}}|\w))?"
-    rf"|(?P<b>{NAME})\s*'|d\s*(?P<c>{NAME})\s*/\s*d\s*t|(?P<d>{NAME})_?dot|\\[dt]?frac\s*\{{\s*{D}\s*(?P<f>{NAME})\s*(?:\(\s*t\s*\))?\s*\}}\s*\{{\s*{D}\s*t\s*\}}|(?P<e>[A-Za-zα-ω]_?[0-9]?)\u0307(?P<ei>_?[0-9]?))"
+    rf"|(?P<b>{NAME})\s*'|d\s*(?P<c>{NAME})\s*/\s*d\s*t|(?P<d>{NAME})_?dot"
+    rf"|\\[dt]?frac\s*\{{\s*{D}\s*(?P<f>{NAME})\s*(?:\(\s*t\s*\))?\s*\}}\s*\{{\s*{D}\s*t\s*\}}"
+    rf"|\\[dt]?frac\s*\{{\s*{D}\s*\}}\s*\{{\s*{D}\s*t\s*\}}{SPACE}(?P<g>{NAME})"
+    rf"|(?P<e>[A-Za-zα-ω]_?[0-9]?)\u0307(?P<ei>_?[0-9]?))"
     rf"{SPACE}={SPACE}(?P<rate>{NAME}){SPACE}(?:\\\\)?{SPACE}[,;.]?{SPACE}$"
 )
 
@@ -61,6 +64,7 @@ def named_rates(data: dict[str, Any], coordinates: Sequence[str], taken: frozens
             kept.append((label, line))
     if not rates or not kept:
         return data
+    kept = [(label, _bracketed(line, rates) if isinstance(line, str) else line) for label, line in kept]
     kept = [(label, _second(line, rates)) for label, line in kept]
     rows: Any = dict(kept) if isinstance(equations, dict) else [line for _, line in kept]
     return data | {"equations": rows, "define": {**rates, **define}}
@@ -76,9 +80,18 @@ def _second(line: Any, rates: dict[str, str]) -> Any:
     return line
 
 
+def _bracketed(line: str, rates: Iterable[str]) -> str:
+    r"""\frac{d}{dt} \omega_1 with brackets around a name for a rate, which is all that the derivative acts on there."""
+    for rate in map(re.escape, rates):
+        over, below = rf"\\[dt]?frac\s*\{{\s*{D}\s*", rf"\s*\{{\s*{D}\s*t\s*\}}"
+        line = re.sub(rf"{over}(?P<x>{rate})\s*\}}{below}(?=\s*=)", r"\\frac{d}{dt}(\g<x>)", line)
+        line = re.sub(rf"(?P<d>{over}\}}{below}){SPACE}(?P<x>{rate})(?=\s*=)", r"\g<d>(\g<x>)", line)
+    return line
+
+
 def _coordinate(found: re.Match[str]) -> str:
     if found["a"]:
         return found["a"] + (found["ai"] or found["aj"] or "")
     if found["e"]:
         return found["e"] + (found["ei"] or "")
-    return str(found["b"] or found["c"] or found["d"] or found["f"])
+    return str(found["b"] or found["c"] or found["d"] or found["f"] or found["g"])

@@ -105,8 +105,8 @@ def hypotheses(s: Submission, *, pinned: bool = False) -> Iterator[Hypothesis]:
                 mechanism = s.mechanism.mechanism(convention)
             else:
                 mechanism = family(s.kind, s.space, convention, variant.choices).with_values(merged(s, variant))
-            if s.gravity is not None:
-                mechanism = replace(mechanism, weight=s.gravity)
+            if s.weight is not None:
+                mechanism = replace(mechanism, weight=s.weight)
             yield Hypothesis(mechanism, convention, variant, assumes)
 
 

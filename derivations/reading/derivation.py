@@ -9,10 +9,13 @@ from typing import Any
 from ...models.errors import InvalidInput
 from ..dialects.blocks import rows_of_blocks
 from ..dialects.code.programs import plain_programs
+from ..dialects.followed.chosen import from_languages
 from ..dialects.functions import whole_functions
 from ..dialects.letters.by_rule import by_rule
+from ..dialects.letters.gravity import said_of_gravity, said_of_squares
 from ..dialects.letters.indices import plain_indices
 from ..dialects.letters.left_sides import without_left_sides
+from ..dialects.letters.members import without_low_lines
 from ..dialects.markup.pages import from_pages
 from ..dialects.table import translated
 from ..dialects.times import with_times
@@ -34,7 +37,7 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     Raises InvalidInput, with the place, where it is none.
     """
     known_fields(data)
-    data = by_rule(without_left_sides(plain_indices(data)))
+    data = by_rule(without_left_sides(plain_indices(said_of_squares(without_low_lines(data)))))
     refused: InvalidInput | None = None
     try:
         program = traced(data)
@@ -66,14 +69,16 @@ def _read(data: dict[str, Any], slashes: int, lines: Mapping[str, str] | None = 
 
 def _read_rows(data: dict[str, Any], slashes: int) -> Submission:
     count, coordinates = _shape(data)
+    data = from_languages(data, count)
     data = from_worksheets(from_pages(plain_programs(data, count), count))
     free = _free(data, coordinates)
     data = whole_functions(data, len(free) or count, free)
     data = with_vectors(_with_positions(rows_of_blocks(data)), count)
     data, constants = with_times(data)
     data = translated(data, count)
+    data, of_gravity = said_of_gravity(data)
     forces = constraint_forces(data, count)
-    reader = opened(data, slashes, [*constants, *forces], forces=forces)
+    reader = opened(data, slashes, [*constants, *of_gravity, *forces], forces=forces)
     if is_staged(data, reader.evaluation.space.n):
         return read_stages(data, reader)
     if "hamiltonian" in data or (reader.variable is not None and reader.variable.kind == "momentum"):

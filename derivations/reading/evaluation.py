@@ -39,6 +39,14 @@ class Evaluation:
             )
         return value
 
+    def weight(self, node: Node) -> Formula:
+        """What g is said to be: 0, 9.81 or ω_0². Raises InvalidInput where that needs g, or is a quotient of sums."""
+        value, space = self.scalar(node), self.meaning.space
+        if value.denominator or 4 * space.n in space.places(value.numerator):
+            fail(node.at, 'a number, or a product of quantities as in "w0^2", is needed; say what other letters are by '
+                          'g, as in [define] k = "g/l"')  # fmt: skip
+        return value.numerator
+
     def value(self, node: Node) -> Value:  # noqa: PLR0911, PLR0912 -- one for each kind of node
         """The formula or the matrix of a tree. Raises InvalidInput, with the column, where it has no meaning."""
         match node:

@@ -82,7 +82,7 @@ class Submission:
     mechanism: Declared | None = None  # where the file declares it body by body
     first_order: FirstOrder | None = None  # a Hamiltonian, or equations with momenta, as they were written
     stages: Stages | None = None  # a derivation stated stage by stage; then there is nothing else
-    gravity: Formula | None = None  # where g is said to be a number: 0 of a mechanism that lies flat
+    weight: Formula | None = None  # what g is said to be: 0 where it lies flat, a number, ω_0²
 
     @property
     def relative(self) -> bool:
@@ -263,7 +263,7 @@ class Reader:
         self.lines: list[tuple[str, str]] = []
         self.defined: list[tuple[str, str]] = []
         self.doubtful: list[str] = []
-        self.gravity: Formula | None = None
+        self.weight: Formula | None = None
         self.forces: tuple[str, ...] = ()
         self.typesetter = Typesetter(words)
 
@@ -278,7 +278,7 @@ class Reader:
         return Submission(
             meaning.kind, meaning.space, rows, lagrangian, self.convention, self.stated, frozenset(meaning.used),
             meaning.equal_lengths, meaning.equal_masses, tuple(self.lines), tuple(dict.fromkeys(self.doubtful)),
-            self.words, tuple(self.defined), self.source, self.mechanism, gravity=self.gravity,
+            self.words, tuple(self.defined), self.source, self.mechanism, weight=self.weight,
         )  # fmt: skip
 
     @property
@@ -289,9 +289,14 @@ class Reader:
     def define(self, table: dict[str, Any]) -> None:
         """Read the file's own names."""
         for name, line in table.items():
-            if name == "g" and (gravity := number_of_gravity(line)) is not None:
-                self.gravity = gravity
-                self.defined.append((name, str(line).strip()))
+            if name == "g" and isinstance(line, str) and plain_name(line.strip()) != "g":
+                self.weight = number_of_gravity(line)  # with its unit
+                if self.weight is None:
+                    node = _located("define.g", self._expression, line)
+                    self.weight = _located("define.g", self.evaluation.weight, node)
+                    self.defined.append((name, self.typesetter.equation((node,))))
+                else:
+                    self.defined.append((name, line.strip()))
                 continue
             if self._says_the_same(name, line):
                 continue
@@ -402,12 +407,11 @@ class Reader:
         else:
             found = [difference.numerator]
         space = self.evaluation.space
-        found = [self._with_gravity(f) for f in found]
-        return [without_squares(space, f) for f in found], text
+        return [without_squares(space, self._weighed(f)) for f in found], text
 
-    def _with_gravity(self, f: Formula) -> Formula:
+    def _weighed(self, f: Formula) -> Formula:
         space = self.evaluation.space
-        return f if self.gravity is None else space.replace(f, {4 * space.n: self.gravity})
+        return f if self.weight is None else space.replace(f, {4 * space.n: self.weight})
 
     def lagrangian(self, line: object) -> Formula:
         """The Lagrangian."""
@@ -418,7 +422,7 @@ class Reader:
         value = self.quotient(where, label, line)
         if value.denominator:
             raise InvalidInput(f"{where}: column 1: a sum in a denominator; here there is none")
-        return self._with_gravity(value.numerator)
+        return self._weighed(value.numerator)
 
     def quotient(self, where: str, label: str, line: object) -> Quotient:
         """An expression; what people write in front of an energy is left out."""
@@ -430,7 +434,8 @@ class Reader:
             node = parse_expression(written, self.names, self.words, self.slashes)
             self._doubts(written)
             self.lines.append((label, self.typesetter.equation((node,))))
-            return self.evaluation.scalar(node)
+            found = self.evaluation.scalar(node)
+            return replace(found, numerator=self._weighed(found.numerator))
 
         return _located(where, read)
 

@@ -1,4 +1,4 @@
-"""Programs made plainer before a function is followed: loops, matrices filled entry by entry, C's pointers, Julia.
+"""Programs made plainer before a function is followed: loops, matrices filled entry by entry.
 
 Texts are changed as data; nothing of them is run, and what is unrolled is bounded.
 

@@ -6,11 +6,8 @@ from typing import Any
 
 from ....models.errors import InvalidInput
 from ..letters.every_text import rows_of
-from ..table import known_of
 from .entries import filled
-from .julia import plain_julia
 from .loops import unrolled
-from .pointers import from_pointers, from_struct
 
 
 def plain_programs(data: dict[str, Any], count: int) -> dict[str, Any]:
@@ -20,11 +17,7 @@ def plain_programs(data: dict[str, Any], count: int) -> dict[str, Any]:
         return data
     label, text = rows[0]
     try:
-        pointed = from_pointers(text, known_of(data).coordinates)
-        if pointed:
-            made = {str(k): row for k, row in enumerate(pointed[0], 1)}
-            return data | {"equations": made, "define": {**define, **pointed[1]}}
-        changed = filled(unrolled(plain_julia(from_struct(text)), count))
+        changed = filled(unrolled(text, count))
     except InvalidInput as error:
         raise InvalidInput(f"equations.{label:.40}: {error}") from None
     return data | {"equations": {label: changed}} if changed != text else data

@@ -18,7 +18,9 @@ SAID = re.compile(
     re.DOTALL,
 )
 FORCE = re.compile(r"(?:[TNRSHVPF]|lambda)\w?")
-MOVING = re.compile(r"\\d?dot|''|″|\u0308|\bder\s*\(|\bdiff\s*\(|Derivative|ddot|acc\b")
+MOVING = re.compile(
+    r"\\d?dot|''|″|\u0308|\bder\s*\(|\bdiff\s*\(|Derivative|ddot|acc\b|\\[dt]?frac\s*\{\s*(?:\\mathrm\s*\{?\s*)?d\b"
+)
 MOST_ROWS, MOST_DEFINITIONS = 40, 30
 Definitions = dict[str, str]
 

@@ -95,6 +95,11 @@ def test_numbers_with_units_and_a_number_for_g():
     text = ONE.format(q="\\theta", m="m", l="l", row=r"2 l\ddot\theta + 19.6 \sin\theta = 0") + "[define]\ng = '9.80'\n"
     assert grade_text(text).verdict == "correct"
     assert grade_text(text.replace("19.6", "9.80")).verdict == "wrong"
+    earth = ONE.format(q="\\theta", m="m", l="l", row=r"l\ddot\theta + 9.80 \sin\theta = 0") + "[define]\ng = '9.80'\n"
+    assert grade_text(earth).verdict == "correct"
+    # What went into other numbers counts as well: 19.6/2 is 9.8, and 19.6 is not
+    assert grade_text(earth.replace("9.80 ", "\\frac{19.6}{2} ")).verdict == "correct"
+    assert grade_text(earth.replace("9.80 ", "19.6 ")).verdict == "wrong"
 
 
 def test_coordinates_that_are_counted_from_nothing():
