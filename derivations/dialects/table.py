@@ -21,7 +21,7 @@ from .rates import named_rates, suffixed
 from .short_waves import short_waves
 from .sums import sums
 
-TABLES = ("define", "positions", "velocities", "momenta", "equations", "solved")
+TABLES = ("define", "positions", "velocities", "momenta", "equations", "solved", "steps")
 ENERGIES = ("kinetic", "potential", "lagrangian", "hamiltonian")
 MOST_LINES, MOST_BODIES, LONGEST_NAME = 50, 8, 80
 # Behind a name, in a declared mechanism, where no coordinate is called t

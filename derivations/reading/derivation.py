@@ -5,13 +5,17 @@ from __future__ import annotations
 import re
 from typing import Any
 
+from ...models.errors import InvalidInput
 from ..dialects.blocks import rows_of_blocks
 from ..dialects.code.programs import plain_programs
 from ..dialects.functions import whole_functions
 from ..dialects.letters.by_rule import by_rule
+from ..dialects.letters.every_text import lines_of
 from ..dialects.letters.indices import number_for_gravity, plain_indices
 from ..dialects.letters.left_sides import without_left_sides
 from ..dialects.markup.pages import from_pages
+from ..dialects.markup.prose import FormulasInWords
+from ..dialects.notes.note import as_note, is_worded
 from ..dialects.table import translated
 from ..dialects.times import with_times
 from ..dialects.vectors import with_vectors
@@ -22,7 +26,11 @@ from .forms.hamilton import read_hamilton
 from .forms.stages import is_staged, read_stages
 from .submission import WORDS, Submission, known_fields, opened, read_fields
 
-MOST_POSITIONS = 16
+MOST_POSITIONS, MOST_NAMED = 16, 8
+ANGLES = {  # letters of angles, the likeliest first, and how they are written
+    "theta": r"theta|θ|ϑ", "varphi": r"varphi|φ", "phi": r"phi|ϕ", "psi": r"psi|ψ",
+    "alpha": r"\\ddot\s*\{?\s*\\alpha|α̈", "q": r"\\ddot\s*\{?\s*q|\bq",
+}  # fmt: skip
 
 
 def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
@@ -31,6 +39,33 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     Raises InvalidInput, with the place, where it is none.
     """
     known_fields(data)
+    try:
+        plain = _plain(data)
+    except FormulasInWords as refusal:
+        first: InvalidInput = refusal
+    else:
+        try:
+            return _meant(*plain, slashes)
+        except InvalidInput as refusal:
+            first = refusal
+    return _meant(*_plain(_as_note(data, first)), slashes)
+
+
+def _as_note(data: dict[str, Any], first: InvalidInput) -> dict[str, Any]:
+    """The fields as a note's. Raises the first refusal where they are none, else what the note lacks."""
+    try:
+        note = as_note(data, _bodies(data))
+    except InvalidInput as error:
+        if is_worded(data) or str(error).startswith("bodies: "):
+            raise
+        raise first from None
+    if note is None:
+        raise first
+    return note
+
+
+def _plain(data: dict[str, Any]) -> tuple[dict[str, Any], list[str], int]:
+    """The fields in the reader's notation, names of constants that these need, and how many coordinates there are."""
     data = by_rule(without_left_sides(plain_indices(data)))
     count, coordinates = _shape(data)
     data = from_worksheets(from_pages(plain_programs(data, count), count))
@@ -38,8 +73,14 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     data, constants = with_times(data)
     data = translated(data, count)
     number_for_gravity(data)
+    return data, constants, count
+
+
+def _meant(data: dict[str, Any], constants: list[str], count: int, slashes: int) -> Submission:
+    """What they mean."""
     forces = constraint_forces(data, count)
     reader = opened(data, slashes, [*constants, *forces], forces=forces)
+    reader.hold(data.get("steps", {}))
     if is_staged(data, reader.evaluation.space.n):
         return read_stages(data, reader)
     if "hamiltonian" in data or (reader.variable is not None and reader.variable.kind == "momentum"):
@@ -57,6 +98,20 @@ def _with_positions(data: dict[str, Any]) -> dict[str, Any]:
                if name[:1] in "xy" for text in energies):  # fmt: skip
         return data
     return data | {"define": {**define, **positions}}
+
+
+def _bodies(data: dict[str, Any]) -> list[dict[str, str]]:
+    """The bodies of a usual mechanism, in the letters that its author has; none where a file declares its own."""
+    system, bodies = data.get("system"), data.get("bodies")
+    if not isinstance(system, str) or bodies is not None:
+        return []
+    if system in PRESETS:
+        return PRESETS[system]
+    count, _ = _shape(data)
+    text = "\n".join(lines_of(data))
+    letter = next((x for x, written in ANGLES.items() if re.search(written, text)), "theta")
+    index = [""] if count == 1 else [f"_{k}" for k in range(1, min(count, MOST_NAMED) + 1)]
+    return [{"coordinate": f"{letter}{k}", "mass": f"m{k}", "length": f"l{k}"} for k in index]
 
 
 def _shape(data: dict[str, Any]) -> tuple[int, list[str]]:
