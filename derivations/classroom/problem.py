@@ -33,7 +33,8 @@ from ...models.readers.bounded_file import read_text, shown
 from ...models.readers.toml_text import parse_toml
 from ..grading.hypotheses import Hypothesis, hypotheses
 from ..reading.declaration import PRESETS
-from ..reading.submission import ORIGINS, WORDS, Submission, read_table
+from ..reading.motion.convention import ORIGINS
+from ..reading.submission import WORDS, Submission, read_table
 from ..steps.stages import STAGES, StageName
 
 LARGEST_FILE = 100_000  # bytes

@@ -41,6 +41,7 @@ SYSTEM = re.compile(
 )
 ROW_ENDS = re.compile(r"\\\\(?:\s*\[[^\[\]]{1,12}\])?")
 BETWEEN = re.compile(r"[,;.]?\s*(?:\\q?quad(?![A-Za-z])\s*)+(?:[,;]\s*)?|[,;]\s+")
+WIDE_AND_SIGN = re.compile(r"(?<![,;.\s])\s*&?\s*(?:\\q?quad(?![A-Za-z])\s*)+[+−–-]")
 WORDS = re.compile(r"(?<=[\w)\]}'])\s*[,;]?\s+(?:and|und|et)\s+(?=[\w(\\θφϕψα])")
 PLACEHOLDER = "⁂"  # stands for "and": in no formula
 WHERE = re.compile(
@@ -142,7 +143,7 @@ def _without_number(row: str) -> str:
 
 def _without_remarks(line: str) -> str:
     line = COMMENT.sub("", line)
-    line = _unnamed(NUMBERED.sub(" ", line))
+    line = unnamed(NUMBERED.sub(" ", line))
 
     def remark(found: re.Match[str]) -> str:
         inner, before, behind = found["inner"], line[: found.start()], line[found.end() :]
@@ -159,7 +160,7 @@ def _without_remarks(line: str) -> str:
     return REMARK.sub(remark, line)
 
 
-def _unnamed(line: str) -> str:
+def unnamed(line: str) -> str:
     r"""\underbrace{X}_{Y} as X."""
     for _ in range(MOST_NAMED):
         found = NAMED.search(line)
@@ -247,6 +248,8 @@ def _is_done(row: str) -> bool:
 
 
 def _at_spaces(line: str) -> list[str]:
+    if WIDE_AND_SIGN.search(line):
+        return [line]  # a row that goes on behind a wide blank, or one that begins with a sign?
     return [piece for part in _cut(line, BETWEEN) for piece in part.split(PLACEHOLDER) if piece.strip(" $.,;")]
 
 

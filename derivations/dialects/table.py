@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from ...models.errors import InvalidInput
 from .bracketed import in_brackets
 from .given_names import shorter_names
 from .lines import BLANKS, FULL_WIDTH, LONGEST_LINE
@@ -21,7 +22,7 @@ from .rates import named_rates, suffixed
 from .short_waves import short_waves
 from .sums import sums
 
-TABLES = ("define", "positions", "velocities", "momenta", "equations", "solved")
+TABLES = ("define", "positions", "velocities", "momenta", "equations", "solved", "steps")
 ENERGIES = ("kinetic", "potential", "lagrangian", "hamiltonian")
 MOST_LINES, MOST_BODIES, LONGEST_NAME = 50, 8, 80
 # Behind a name, in a declared mechanism, where no coordinate is called t
@@ -92,6 +93,13 @@ def _of_no_time(data: dict[str, Any]) -> dict[str, Any]:
     bodies = data.get("bodies")
     if not isinstance(bodies, list) or not all(isinstance(b, dict) for b in bodies):
         return data
+    others = {v for b in bodies for k, v in b.items() if k != "drive" and isinstance(v, str)}
+    for drive in (b.get("drive") for b in bodies):
+        bare = DRIVE_OF_TIME.sub("", drive) if isinstance(drive, str) else drive
+        if bare != drive and bare in others:
+            raise InvalidInput(
+                f"bodies: {drive} and {bare} are two quantities with one letter; give one of them another"
+            )
     made = [
         {k: DRIVE_OF_TIME.sub("", v) if k == "drive" and isinstance(v, str) else v for k, v in b.items()}
         for b in bodies

@@ -28,6 +28,15 @@ PHASE = re.compile(
     rf"(?:(?:\\left)?[(\{{\[]{_SPACE}(?:{_ANGLE}(?![A-Za-z0-9_])|{_LONG}){_SHIFT}{_SPACE}(?:\\right)?[)\}}\]]"
     rf"|{_ANGLE.replace('P<rate>', 'P<bare>')}(?![A-Za-z0-9_]))"
 )
+_OF = r"(?:[0-9]?\s*\\?[A-Za-zθϕφψα][^()+−-]{0,20}?)"
+_IN = (
+    rf"(?:{_ANGLE.replace('P<rate>', 'P<first>')}{_SPACE}(?P<s1>[-+−]){_SPACE}(?P<of1>{_OF})"
+    rf"|(?P<of2>{_OF}){_SPACE}(?P<s2>[-+−]){_SPACE}{_ANGLE.replace('P<rate>', 'P<second>')})"
+)
+# sin(φ - γt), whose cosine and sine of time are taken out
+TOGETHER = re.compile(
+    rf"(?:(?<![A-Za-z\\])(?:np\.|math\.|Math\.)?|\\)(?P<wave>cos|sin){_SPACE}(?:\\left\s*)?\({_SPACE}{_IN}{_SPACE}(?:\\right\s*)?\)"
+)
 FIELDS = ("equations", "solved")
 ENERGIES = ("lagrangian", "kinetic", "potential", "hamiltonian")
 Wave = tuple[str, str, str]  # cos or sin, the rate, and the phase behind it
@@ -38,10 +47,17 @@ def with_times(data: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
     bodies, define = data.get("bodies"), data.get("define", {})
     if not isinstance(bodies, list) or len(bodies) > 8 or not all(isinstance(b, dict) for b in bodies):
         return data, []
-    if not isinstance(define, dict) or not _has_phase([data.get(f) for f in (*FIELDS, *ENERGIES)]):
+    if not isinstance(define, dict):
+        return data, []
+    if any(b.get("motion") == "given" for b in bodies):
+        data = data | {f: _apart(data[f]) for f in (*FIELDS, *ENERGIES) if f in data}
+    if not _has_phase([data.get(f) for f in (*FIELDS, *ENERGIES)]):
         return data, []
     given = {plain_name(str(b.get("coordinate", ""))): b for b in bodies if b.get("motion") == "given"}
     waves: dict[Wave, str] = {}
+    places: dict[Wave, str] = {}  # in a Lagrangian: what moves so, itself
+    slower: list[tuple[Wave, str, str]] = []
+    moved: dict[str, tuple[str, str, str]] = {}
     constants: list[str] = []
     kept = {}
     for name, line in define.items():
@@ -61,17 +77,21 @@ def with_times(data: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
         second, first = f"(-{written}''/(({amplitude})*{rate}^2))", f"({written}'/(({amplitude})*{rate}))"
         other = "sin" if found["wave"] == "cos" else "cos"
         first = f"(-{first})" if other == "sin" else first
-        for wave, text in ((found["wave"], second), (other, first)):
-            if (wave, *_key(found)[1:]) in waves:
-                raise InvalidInput(f"define.{name}: two motions with one frequency; write the rows with {coordinate}''")
-            waves[wave, *_key(found)[1:]] = text
+        key = _key(found)
+        if key in waves:
+            raise InvalidInput(f"define.{name}: two motions with one frequency; write the rows with {coordinate}''")
+        waves[key], places[key] = second, f"({written}/({amplitude}))"
+        slower.append(((other, *key[1:]), first, first))
+        moved[coordinate or ""] = (amplitude, found["wave"], rate)
         constants += [*_names_in(amplitude), *_names_in(rate)]
-    moved = bool(waves)
+    for key, in_rows, in_energies in slower:  # where nothing else moves so, what is a quarter of a turn behind
+        waves.setdefault(key, in_rows)
+        places.setdefault(key, in_energies)
     waves |= _of_drives(bodies, waves, constants)
-    if moved and any(_has_phase([data.get(f)]) for f in ENERGIES):
-        raise InvalidInput("lagrangian: a cosine of time; write it with the support's own coordinate and rate, or give "
-                           "the rows in [equations]")  # fmt: skip
-    made = {f: _mapped(data[f], waves, f) for f in (*FIELDS, *ENERGIES) if f in data}
+    timed = bool(moved) and _is_timed(data, bodies, places)
+    made = {f: _mapped(data[f], places if f in ENERGIES else waves, f) for f in (*FIELDS, *ENERGIES) if f in data}
+    if timed:
+        made["moved"] = moved
     made["define"] = {name: _mapped(line, waves, f"define.{name}") for name, line in kept.items()}
     made["bodies"] = [
         {k: _mapped(v, waves, f"bodies: {k}") if k == "drive" else v for k, v in b.items()} for b in bodies
@@ -89,6 +109,21 @@ def _rate(found: re.Match[str]) -> str:
 def _key(found: re.Match[str]) -> Wave:
     rate = _rate(found)
     return found["wave"], plain_name(rate) or rate, (found["sign"] or "") + (plain_name(found["shift"] or "") or "")
+
+
+def _is_timed(data: dict[str, Any], bodies: list[dict[str, Any]], places: Mapping[Wave, str]) -> bool:
+    """Whether the Lagrangian has cosines of time. Raises InvalidInput where more than that is given."""
+    if not any(_has_phase([data.get(f)]) for f in ENERGIES):
+        return False
+    if any(shift or plain_name(rate) is None for _, rate, shift in places):
+        raise InvalidInput("lagrangian: a cosine of time with a phase or without a rate; give the rows in [equations]")
+    others = any(f in data for f in (*FIELDS, *ENERGIES) if f != "lagrangian")
+    if others or any(force in b for b in bodies for force in ("drive", "damping", "friction")):
+        raise InvalidInput(
+            "a cosine of time in an energy; write it with the support's own coordinate and rate, or give the rows in "
+            "[equations]"
+        )
+    return True
 
 
 def _motion(name: str, line: str) -> tuple[str, re.Match[str]]:
@@ -143,6 +178,30 @@ def _mapped(value: Any, waves: Mapping[Wave, str], where: str) -> Any:
         return f" {text} "
 
     return PHASE.sub(one, value) if _is_plain(value) else value
+
+
+def _apart(value: Any) -> Any:
+    """sin(φ - γt) as sin φ cos γt - cos φ sin γt."""
+    if isinstance(value, dict):
+        return {k: _apart(v) for k, v in value.items()}
+    if isinstance(value, list):
+        return [_apart(v) for v in value]
+    return TOGETHER.sub(_of_two, value) if _is_plain(value) and "t" in value else value
+
+
+def _of_two(found: re.Match[str]) -> str:
+    of, sign = (found["of1"] or found["of2"]).strip(), found["s1"] or found["s2"]
+    rate = found["first"] or found["second"]
+    one, two, other, wave = f"sin({of})", f"cos({of})", f"sin({rate} t)", f"cos({rate} t)"
+    slash = "\\" if "\\" in found[0] else ""
+    one, two, other, wave = (slash + x for x in (one, two, other, wave))
+    minus = sign != "+"
+    if found["wave"] == "cos":
+        return f"({two} {wave} {'+' if minus else '-'} {one} {other})"
+    first, second = f"{one} {wave}", f"{two} {other}"
+    if found["of1"] and minus:
+        first, second = second, first
+    return f"({first} {'-' if minus else '+'} {second})"
 
 
 def _is_plain(value: object) -> bool:

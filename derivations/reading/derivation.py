@@ -12,11 +12,14 @@ from ..dialects.code.programs import plain_programs
 from ..dialects.followed.chosen import from_languages
 from ..dialects.functions import whole_functions
 from ..dialects.letters.by_rule import by_rule
+from ..dialects.letters.every_text import lines_of
 from ..dialects.letters.gravity import said_of_gravity, said_of_squares
 from ..dialects.letters.indices import plain_indices
 from ..dialects.letters.left_sides import without_left_sides
 from ..dialects.letters.members import without_low_lines
 from ..dialects.markup.pages import from_pages
+from ..dialects.markup.prose import FormulasInWords
+from ..dialects.notes.note import as_note, is_worded
 from ..dialects.table import translated
 from ..dialects.times import with_times
 from ..dialects.traced.rows import traced
@@ -28,7 +31,11 @@ from .forms.hamilton import read_hamilton
 from .forms.stages import is_staged, read_stages
 from .submission import WORDS, Submission, known_fields, opened, read_fields
 
-MOST_POSITIONS = 16
+MOST_POSITIONS, MOST_NAMED = 16, 8
+ANGLES = {  # letters of angles, the likeliest first, and how they are written
+    "theta": r"theta|θ|ϑ", "varphi": r"varphi|φ", "phi": r"phi|ϕ", "psi": r"psi|ψ",
+    "alpha": r"\\ddot\s*\{?\s*\\alpha|α̈", "q": r"\\ddot\s*\{?\s*q|\bq",
+}  # fmt: skip
 
 
 def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
@@ -37,39 +44,86 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     Raises InvalidInput, with the place, where it is none.
     """
     known_fields(data)
-    data = by_rule(without_left_sides(plain_indices(said_of_squares(without_low_lines(data)))))
+    spelled: dict[str, Any] | None = None
+    program: tuple[dict[str, Any], Mapping[str, str]] | None = None
     refused: InvalidInput | None = None
     try:
-        program = traced(data)
-        if program is not None:
-            return _read(program[0], slashes, program[1])
+        spelled = _spelled(data)
+        program = traced(spelled)
     except InvalidInput as error:
-        refused = error
+        refused = error if spelled is not None else None
+    if program is not None:
+        try:
+            return _as_program(program[0], program[1], slashes)
+        except InvalidInput as error:
+            refused = error
     try:
-        return _read(data, slashes)
+        return _rows_or_note(data, slashes, notes=refused is None)
     except InvalidInput:
         if refused is not None:
             raise refused from None
         raise
 
 
-def _read(data: dict[str, Any], slashes: int, lines: Mapping[str, str] | None = None) -> Submission:
-    """Read rows, or a program that is followed line by line. ``lines``: what definitions of ours stand for."""
+def _as_program(data: dict[str, Any], lines: Mapping[str, str], slashes: int) -> Submission:
+    """Read a program that is followed line by line. ``lines``: what definitions of ours stand for."""
     try:
-        return _read_rows(data, slashes)
+        return _meant(*_plain(data), slashes)
     except InvalidInput as error:
         found = re.match(r"define\.(\w+): (?:column [0-9]+: )?(.*)", str(error), re.DOTALL)
-        line = (lines or {}).get(found[1]) if found else None
-        if lines is not None and line is None:  # a column of ours says nothing
+        line = lines.get(found[1]) if found else None
+        if found is None or line is None:  # a column of ours says nothing
             raise InvalidInput(re.sub(r"column [0-9]+: ", "", str(error))) from None
-        if found is None or line is None:
-            raise
         raise InvalidInput(f"equations.1: {line!r:.80}: {found[2]}") from None
 
 
-def _read_rows(data: dict[str, Any], slashes: int) -> Submission:
+def _rows_or_note(data: dict[str, Any], slashes: int, *, notes: bool) -> Submission:
+    """Read rows; where they are refused, and it is no program, formulas among words (``notes``)."""
+    try:
+        plain = _plain(_spelled(data))
+    except RefusedProgram:
+        raise
+    except FormulasInWords as refusal:
+        first: InvalidInput = refusal
+    else:
+        try:
+            return _meant(*plain, slashes)
+        except InvalidInput as refusal:
+            first = refusal
+    if not notes:
+        raise first
+    return _meant(*_plain(_spelled(_as_note(data, first))), slashes)
+
+
+class RefusedProgram(InvalidInput):
+    """A program that cannot be followed; it is not looked through for formulas among its words."""
+
+
+def _as_note(data: dict[str, Any], first: InvalidInput) -> dict[str, Any]:
+    """The fields as a note's. Raises the first refusal where they are none, else what the note lacks."""
+    try:
+        note = as_note(data, _bodies(data))
+    except InvalidInput as error:
+        if is_worded(data) or str(error).startswith("bodies: "):
+            raise
+        raise first from None
+    if note is None:
+        raise first
+    return note
+
+
+def _spelled(data: dict[str, Any]) -> dict[str, Any]:
+    """The fields with names as the reader takes them."""
+    return by_rule(without_left_sides(plain_indices(said_of_squares(without_low_lines(data)))))
+
+
+def _plain(data: dict[str, Any]) -> tuple[dict[str, Any], list[str], int]:
+    """The fields in the reader's notation, names of constants that these need, and how many coordinates there are."""
     count, coordinates = _shape(data)
-    data = from_languages(data, count)
+    try:
+        data = from_languages(data, count)
+    except InvalidInput as error:
+        raise RefusedProgram(str(error)) from None
     data = from_worksheets(from_pages(plain_programs(data, count), count))
     free = _free(data, coordinates)
     data = whole_functions(data, len(free) or count, free)
@@ -77,8 +131,14 @@ def _read_rows(data: dict[str, Any], slashes: int) -> Submission:
     data, constants = with_times(data)
     data = translated(data, count)
     data, of_gravity = said_of_gravity(data)
+    return data, [*constants, *of_gravity], count
+
+
+def _meant(data: dict[str, Any], constants: list[str], count: int, slashes: int) -> Submission:
+    """What they mean."""
     forces = constraint_forces(data, count)
-    reader = opened(data, slashes, [*constants, *of_gravity, *forces], forces=forces)
+    reader = opened(data, slashes, [*constants, *forces], forces=forces)
+    reader.hold(data.get("steps", {}))
     if is_staged(data, reader.evaluation.space.n):
         return read_stages(data, reader)
     if "hamiltonian" in data or (reader.variable is not None and reader.variable.kind == "momentum"):
@@ -105,6 +165,20 @@ def _free(data: dict[str, Any], coordinates: list[str]) -> list[str]:
     if len(given) != len(coordinates):
         return coordinates
     return [name for name, is_given in zip(coordinates, given, strict=True) if not is_given]
+
+
+def _bodies(data: dict[str, Any]) -> list[dict[str, str]]:
+    """The bodies of a usual mechanism, in the letters that its author has; none where a file declares its own."""
+    system, bodies = data.get("system"), data.get("bodies")
+    if not isinstance(system, str) or bodies is not None:
+        return []
+    if system in PRESETS:
+        return PRESETS[system]
+    count, _ = _shape(data)
+    text = "\n".join(lines_of(data))
+    letter = next((x for x, written in ANGLES.items() if re.search(written, text)), "theta")
+    index = [""] if count == 1 else [f"_{k}" for k in range(1, min(count, MOST_NAMED) + 1)]
+    return [{"coordinate": f"{letter}{k}", "mass": f"m{k}", "length": f"l{k}"} for k in index]
 
 
 def _shape(data: dict[str, Any]) -> tuple[int, list[str]]:

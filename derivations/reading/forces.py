@@ -8,28 +8,30 @@ defines.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from ...models.errors import InvalidInput
 from ..algebra.trig import CONSTANT_ONE, NOTHING, Formula, Space
 from ..dialects.names import plain_name
+from ..steps.mechanism import Mechanism
 from .declaration import QUANTITIES
+from .motion.joint_forces import is_held
 
 FORCE = re.compile(
     r"(?<![A-Za-z\\^{])(?<!\^\s)(?P<name>(?:[TNRSHVPF]|\\lambda)(?![a-z])(?:_\{[A-Za-z0-9]{1,3}\}|_?[0-9](?![0-9])|_[A-Za-z]|[₀-₉])?)"
     r"(?![A-Za-z])"
 )
 WORD = re.compile(r"\\?[A-Za-z]+(?:_\{\w+\}|_?\w+)?")
-MOST_FORCES = 6
+MOST_FORCES, MOST_ROWS = 6, 16
 
 
 def constraint_forces(data: dict[str, Any], count: int) -> list[str]:
-    """The names of forces in the rows, where there are as many as rows besides those of ``count`` coordinates."""
+    """The names of forces in the rows, where there are rows besides those of ``count`` coordinates for them all."""
     table, define = data.get("equations"), data.get("define", {})
     lines = list(table.values()) if isinstance(table, dict) else table if isinstance(table, list) else []
     extra = len(lines) - count
-    if not count or not 1 <= extra <= MOST_FORCES or not all(isinstance(line, str) for line in lines):
+    if not count or not 1 <= extra <= MOST_ROWS or not all(isinstance(line, str) for line in lines):
         return []
     bodies = data.get("bodies", [])
     texts: list[str] = [str(name) for name in define] if isinstance(define, dict) else []
@@ -38,13 +40,16 @@ def constraint_forces(data: dict[str, Any], count: int) -> list[str]:
     taken = {plain_name(word[0]) for text in texts for word in WORD.finditer(text)}
     found = {plain_name(m["name"]): m["name"] for line in lines for m in FORCE.finditer(line)}
     forces = [name for name in found if name and name not in taken]
-    return sorted(forces) if len(forces) == extra else []
+    return sorted(forces) if len(forces) <= min(extra, MOST_FORCES) else []
 
 
 def eliminated(
-    space: Space, rows: Sequence[tuple[str, Formula]], forces: Iterable[str]
+    space: Space, rows: Sequence[tuple[str, Formula]], forces: Sequence[str], mechanism: Mechanism | None
 ) -> tuple[tuple[str, Formula], ...]:
-    """The rows without the forces. Raises InvalidInput where one is in no row, or not linear."""
+    """The rows without the forces. Raises InvalidInput where one is in no row, or not linear.
+
+    ``mechanism``: by which a force that is in one row alone is judged; such a row says nothing of the motion.
+    """
     left = list(rows)
     for force in forces:
         place = space.own_place(force)
@@ -52,6 +57,11 @@ def eliminated(
         pivots = [k for k, (_, by) in enumerate(parts) if by]
         if not pivots:
             raise InvalidInput(f"equations: the force {force} is in no row that is left; it cannot be eliminated")
+        if len(pivots) == 1 and (mechanism is None or not is_held(mechanism, rows, forces, force)):
+            raise InvalidInput(
+                f"equations: the force {force} is in row {left[pivots[0]][0]} alone, which only says what it is, and "
+                "it is none that a rod or a slide holds here; correct that row, or leave it out"
+            )
         pivot = min(pivots, key=lambda k: len(parts[k][1].terms))
         without, by = parts[pivot]
         left = [

@@ -6,6 +6,10 @@ What is taken away leaves blanks, so that a column stays the column of what the 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
+from typing import Any
+
+from ..dialects.lines import FULL_WIDTH
 
 BLANKS = r"(?:\s|\\[,;:!>\s]|\\\\|\\q?quad(?![A-Za-z])|[$}]|\\end\{[a-z]+\*?\}|\\(?:tag|label)\{[^{}]{0,40}\})"
 STOP = re.compile(rf"(?:(?<!\\)[.,;、。，．](?={BLANKS}{{0,60}}$))")
@@ -145,3 +149,16 @@ def _places(line: str, separator: str) -> list[int]:
         depth += (line[at] in "([{") - (line[at] in ")]}")
         at += 1
     return found
+
+
+def texts_of(data: dict[str, Any]) -> Iterable[str]:
+    """All lines of mathematics in a file."""
+    for table in ("define", "positions", "velocities", "momenta", "equations", "solved"):
+        found = data.get(table)
+        entries = found.values() if isinstance(found, dict) else found if isinstance(found, list) else ()
+        yield from (entry.translate(FULL_WIDTH) for entry in entries if isinstance(entry, str))
+        if table == "momenta" and isinstance(found, dict):
+            yield from (name.translate(FULL_WIDTH) for name in found)
+    for name, left in LEFT_SIDE.items():
+        if isinstance(data.get(name), str):
+            yield left.sub("", data[name]).translate(FULL_WIDTH)

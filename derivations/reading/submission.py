@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, TypeVar
@@ -16,21 +16,24 @@ from ..algebra.quotient import Quotient
 from ..algebra.signs import without_squares
 from ..algebra.symbols import KINDS, Symbols, symbols_of
 from ..algebra.trig import Formula, Space
-from ..dialects.lines import FULL_WIDTH, LONGEST_LINE
+from ..dialects.lines import LONGEST_LINE
 from ..dialects.names import base_and_index, base_word, plain_name
 from ..dialects.srepr import from_srepr
 from ..steps.conventions import Convention
 from ..steps.declared import Declared
 from ..steps.first_order import FirstOrder
-from ..steps.mechanism import Origin
 from ..steps.stages import STAGES, Stages
 from .declaration import PRESETS, declared
 from .evaluation import Evaluation
 from .forces import eliminated
-from .layout import LEFT_SIDE, equations_of, laid_out
+from .layout import LEFT_SIDE, equations_of, laid_out, texts_of
 from .matrices import Grid, added
 from .meaning import Meaning, momentum_symbols, number_of_gravity, own_symbols
 from .momenta import Variable, has_momenta, variable, with_variable
+from .motion.convention import convention_of
+from .motion.given_motion import rows_of_lagrangian
+from .motion.joint_forces import bodies_of
+from .motion.repeated import stated_once
 from .nodes import Symbol
 from .parser import Slashes, parse_equation, parse_expression
 from .tokens import SIGNS
@@ -40,16 +43,14 @@ from .vocabulary import FUNCTIONS, Vocabulary, vocabulary
 LARGEST_FILE = 200_000  # characters; a chain of twenty rods, every sum multiplied out, has 150 000
 MOST_LINKS = 20
 MOST_DEFINITIONS = 40
+MOST_ROWS = 16  # of one motion, with the steps that lead to them
 FIELDS = ("system", "links", "bodies", "angles", "from", "sense", *STAGES, "define", "title", "author")
-ANGLES = ("absolute", "relative")
 SYSTEMS = (*KINDS, "rods", "point-masses", "links")
 WORDS: dict[str, tuple[str, int]] = {  # usual names, with how many links they have
     "simple-pendulum": ("point-masses", 1), "double-pendulum": ("point-masses", 2),
     "triple-pendulum": ("point-masses", 3), "physical-pendulum": ("links", 1), "acrobot": ("links", 2),
     "double-rod-pendulum": ("rods", 2),
 }  # fmt: skip
-ORIGINS: dict[str, Origin] = {"down": "down", "up": "up", "horizontal": "right", "right": "right", "left": "left"}
-SENSES = {"counter-clockwise": 1, "clockwise": -1}
 
 T = TypeVar("T")
 
@@ -156,6 +157,8 @@ def read_fields(data: dict[str, Any], reader: Reader) -> Submission:
         raise InvalidInput('give either [equations], one row each, or lagrangian = "…"')
     rows = reader.rows(data["equations"]) if has_equations else ()
     lagrangian = reader.lagrangian(data["lagrangian"]) if has_lagrangian else None
+    if lagrangian is not None and "moved" in data:
+        return reader.submission(rows_of_lagrangian(reader, lagrangian, data["moved"]), None)
     return reader.submission(rows, lagrangian)
 
 
@@ -167,7 +170,7 @@ def opened(data: dict[str, Any], slashes: int = 0, constants: Sequence[str] = ()
     are read in every line of a declared mechanism; ``forces``: of constraints, names among the constants, which the
     rows are rid of.
     """
-    texts = list(_texts(data))
+    texts = list(texts_of(data))
     own = declared(data, texts, constants, has_signs=has_signs or any(SIGNS.search(text) for text in texts))
     kind, n = _system(data) if own is None else ("mechanism", len(own.mechanism.bodies))
     convention = convention_of(data, n)
@@ -216,34 +219,6 @@ def _system(data: dict[str, Any]) -> tuple[str, int]:
     if type(links) is not int or not 1 <= links <= MOST_LINKS:
         raise InvalidInput(f"links: the number of angles is needed, from 1 to {MOST_LINKS}, got {links!r:.40}")
     return kind, links
-
-
-def convention_of(data: dict[str, Any], n: int) -> Convention:
-    """As the fields angles, from and sense declare it, for n angles. Raises InvalidInput with the field."""
-    angles, origin, sense = data.get("angles", "absolute"), data.get("from", "down"), data.get("sense", ())
-    if angles not in ANGLES:
-        raise InvalidInput(f"angles: {angles!r:.40} is not known; give 'absolute' (from the vertical) or 'relative'")
-    if not isinstance(origin, str) or origin not in ORIGINS:
-        close = nearest(origin, ORIGINS) if isinstance(origin, str) and len(origin) < 100 else ""
-        raise InvalidInput(f"from: {origin!r:.40} is not known{close}; give one of {', '.join(ORIGINS)}")
-    senses = [sense] * n if isinstance(sense, str) else sense
-    if not isinstance(senses, list | tuple) or (senses and len(senses) != n) or any(s not in SENSES for s in senses):
-        raise InvalidInput(f"sense: {sense!r:.60} is not known; give 'counter-clockwise' or 'clockwise', or a list")
-    signs = tuple(SENSES[s] for s in senses)
-    return Convention(angles == "relative", ORIGINS[origin], () if set(signs) <= {1} else signs)
-
-
-def _texts(data: dict[str, Any]) -> Iterable[str]:
-    """All lines of mathematics in a file."""
-    for table in ("define", "positions", "velocities", "momenta", "equations", "solved"):
-        found = data.get(table)
-        entries = found.values() if isinstance(found, dict) else found if isinstance(found, list) else ()
-        yield from (entry.translate(FULL_WIDTH) for entry in entries if isinstance(entry, str))
-        if table == "momenta" and isinstance(found, dict):
-            yield from (name.translate(FULL_WIDTH) for name in found)
-    for name, left in LEFT_SIDE.items():
-        if isinstance(data.get(name), str):
-            yield left.sub("", data[name]).translate(FULL_WIDTH)
 
 
 ACCELERATION = re.compile("\\\\ddot|''|″|ddot|\u0308")
@@ -354,31 +329,50 @@ class Reader:
         if isinstance(table, list):
             table = {str(i): line for i, line in enumerate(table, 1)}
         if isinstance(table, dict) and len(table) == 1 and n > 1:  # all rows in one text
-            ((label, line),) = table.items()
+            ((_, line),) = table.items()
             several = equations_of(_line(line)) if isinstance(line, str) and len(line) <= LONGEST_LINE else []
             table = {str(i): row for i, row in enumerate(several, 1)} if len(several) > 1 else table
         if not isinstance(table, dict) or not table:
             raise InvalidInput(f'{name}: a table of rows is needed, as in 1 = "m1*l1^2*a1 = -m1*g*l1*sin(t1)"')
-        most = n if self.variable is None and len(table) != 2 * n else 2 * n  # of first order: two for each angle
+        most = n if self.variable is None else 2 * n  # of first order: two for each angle
         most = n + len(self.forces) if self.forces and name == "equations" else most
-        if len(table) > most:
-            raise InvalidInput(f"{name}: {len(table)} rows for {n} angles; one row for each angle is needed")
+        if len(table) > (most if self.variable else max(most, MOST_ROWS)):
+            raise InvalidInput(f"{name}: {self._too_many(len(table))}")
+        rows = self._read_rows(name, table, most)
+        count = len(rows)
+        given = len(self.mechanism.given) if self.mechanism else 0
+        if len(rows) > most - given and self.variable is None:
+            rows = stated_once(self.evaluation.space, rows, self.forces)
+            if not most - given <= len(rows) <= most:
+                raise InvalidInput(f"{name}: {self._too_many(count)}; {len(rows)} of them say different things")
+        if self.forces and name == "equations":
+            space, kind = self.evaluation.space, self.evaluation.meaning.kind
+            return eliminated(space, rows, self.forces, bodies_of(self.mechanism, kind, space, self.convention))
+        if len(rows) > n and self.variable and self.variable.kind == "rate":
+            rows = [(label, f) for label, f in rows if f]  # θ̇ = ω, where both are the rate
+            if len(rows) > n:
+                raise InvalidInput(f"{name}: {self._too_many(len(rows))}")
+        return tuple(rows)
+
+    def _read_rows(self, name: str, table: dict[str, Any], most: int) -> list[tuple[str, Formula]]:
         rows: list[tuple[str, Formula]] = []
         for label, line in table.items():
             where = f"{name}.{label!s:.40}"
-            found, text = _located(where, self._row, line)
+            try:
+                found, text = _located(where, self._row, line)
+            except InvalidInput as error:
+                if len(table) <= most:
+                    raise
+                raise InvalidInput(f"{error}. And there are {self._too_many(len(table))}") from None
             self.lines.append((str(label)[:40], text))
             labels = [str(label)[:40]] if len(found) == 1 else [str(len(rows) + k) for k in range(1, len(found) + 1)]
             rows += zip(labels, found, strict=True)
-            if len(rows) > most:
-                raise InvalidInput(f"{where}: {len(rows)} rows for {n} angles; one row for each angle is needed")
-        if self.forces and name == "equations":
-            return eliminated(self.evaluation.space, rows, self.forces)
-        if len(rows) > n and (self.variable is None or self.variable.kind == "rate"):
-            rows = [(label, f) for label, f in rows if f]  # θ̇ = ω, where both are the rate
-            if len(rows) > n:
-                raise InvalidInput(f"{name}: {len(rows)} rows for {n} angles; one row for each angle is needed")
-        return tuple(rows)
+            if len(rows) > (most if self.variable else max(most, MOST_ROWS)):
+                raise InvalidInput(f"{where}: {self._too_many(len(rows))}")
+        return rows
+
+    def _too_many(self, count: int) -> str:
+        return f"{count} rows for {self.evaluation.space.n} angles; one row for each angle is needed"
 
     def momenta(self, table: object) -> list[tuple[str, Formula]]:
         """What each momentum is said to be, as (its name, the momentum minus that)."""
@@ -391,6 +385,12 @@ class Reader:
             self.lines.append((str(name)[:20], text.partition(" = ")[2]))
             rows += [(str(name)[:20], f) for f in found]
         return rows
+
+    def hold(self, steps: Mapping[str, str]) -> None:
+        """Raises InvalidInput where the sides of a step, which a note writes as equal, are not."""
+        for where, line in steps.items():
+            if any(_located(where, self._row, line)[0]):
+                raise InvalidInput(f"{where}: {line.strip()[:80]!r}: not equal; correct the step, or leave it out")
 
     def _row(self, line: object) -> tuple[list[Formula], str]:
         written = self.written(line)

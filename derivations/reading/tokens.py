@@ -355,7 +355,7 @@ class _Tokenizer:
         line, names = self.line, self.names
         name = NAME.match(line, at)
         if name and name[0] in names and name[0] not in self.apart and line[name.end() : name.end() + 1] not in PRIME:
-            return Token("name", name[0], at), name.end()
+            return self.declared(at, len(name[0])) or (Token("name", name[0], at), name.end())
         word = next((w for w in self.words.words if line.startswith(w, at)), "")
         # names of the author may stand side by side, mgl, and before functions: the longest that fits is cut off
         own = self.declared(at, len(word) if word in FUNCTIONS or len(word) > 1 else 0)

@@ -13,7 +13,7 @@ from flint import arb
 from ...models.errors import InvalidInput
 from ...models.trees.own import OwnEquations
 from ...models.trees.system import TreeSystem
-from ..reading.submission import convention_of
+from ..reading.motion.convention import convention_of
 from ..steps.conventions import MOST_SENSES, Convention
 from ..steps.mechanism import QUARTERS
 from .plane import Plane

@@ -74,7 +74,8 @@ class Declared:
             elastic = elastic + body.stiffness.times(HALF) * stretch * stretch
             for i, c in form.items():
                 forces[i] = forces[i] + (body.drive - body.damping * rate - self.dry_friction(k, form)).times(c)
-        return Mechanism(space, tuple(placed), elastic, tuple(forces))
+        moved = tuple((k, self.bodies[k].drive) for k in self.given)
+        return Mechanism(space, tuple(placed), elastic, tuple(forces), moved=moved)
 
     def dry_friction(self, k: int, motion: Form) -> Formula:
         """What dry friction takes from the drive of joint k while it moves: its size times the sign of the rate."""

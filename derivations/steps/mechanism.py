@@ -71,6 +71,7 @@ class Mechanism:
     forces: tuple[Formula, ...] = ()
     weight: Formula | None = None  # g where it is None
     values: dict[int, Formula] = field(default_factory=dict, compare=False)  # symbols that stand for formulas
+    moved: tuple[tuple[int, Formula], ...] = ()  # coordinates whose motion is given, and what stands for its force
     # What this one is with_values of: set there, and no argument, so that replace() does not keep it.
     without_values: Mechanism | None = field(default=None, init=False, compare=False, repr=False)
 
@@ -144,8 +145,15 @@ class Mechanism:
 
     @cached_property
     def system(self) -> System:
-        """The rows, and their values at the point where systems of this space are compared."""
-        return System(self.space, self.rows, point_of(self.space))
+        """The rows, and their values at the point where systems of this space are compared.
+
+        Where a motion is given, its acceleration is any function, here a symbol: the row would only say what brings it
+        about, and with more such motions than the masses can have, these rows would determine nothing.
+        """
+        rows = list(self.rows)
+        for k, symbol in self.moved:
+            rows[k] = self.space.a(k) - symbol
+        return System(self.space, rows, point_of(self.space))
 
     def with_values(self, values: dict[int, Formula]) -> Mechanism:
         """The same mechanism where the symbols at these places have these values."""

@@ -1,12 +1,13 @@
 """Derivations as computer algebra, programs, word processors and textbooks print them (the second collection), pasted
 whole, as programs, pages and forums have them (the third), in notations that furiko had not been tried with (the
-fourth), and as public programs have them (the fifth): none is misjudged."""
+fourth), and as public notes and programs have them (the fifth): none is misjudged."""
 
 import tomllib
 from functools import cache
 from pathlib import Path
 
 import prove_fifth_code
+import prove_fifth_notes
 import prove_fresh
 import prove_pasted
 import prove_strange_machines
@@ -23,7 +24,7 @@ PROOFS = {
     "second_collection": prove_strange_pendulums.PROOFS | prove_strange_machines.PROOFS,
     "third_collection": prove_pasted.PROOFS,
     "fourth_collection": prove_fresh.PROOFS,
-    "fifth_collection": prove_fifth_code.PROOFS,
+    "fifth_collection": prove_fifth_code.PROOFS | prove_fifth_notes.PROOFS,
 }
 
 
@@ -101,11 +102,8 @@ def test_what_cannot_be_declared_is_refused_and_says_so(collection, name):
         grade(HERE / collection / f"{name}.toml")
 
 
-NOT_YET = pytest.mark.xfail(strict=True, reason="of the fifth, what is neither Python nor MATLAB is still refused")
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize("collection", [pytest.param(c, marks=NOT_YET if c[:5] == "fifth" else ()) for c in INDEX])
+@pytest.mark.parametrize("collection", INDEX)
 def test_nine_of_ten_are_read_as_printed(collection):
     inside = [name for name, entry in INDEX[collection].items() if "outside" not in entry]
     read = [name for name in inside if judged(collection, name) is not None]

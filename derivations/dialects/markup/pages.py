@@ -34,7 +34,7 @@ def from_pages(data: dict[str, Any], count: int) -> dict[str, Any]:
         try:
             lines = _lines(text, names)
         except InvalidInput as error:
-            raise InvalidInput(f"equations.{label:.40}: {error}") from None
+            raise type(error)(f"equations.{label:.40}: {error}") from None
         found += [(label, line) for line in lines]
     if len(found) == len(rows):
         made = data | {"equations": dict(found)} if found != rows else data

@@ -36,7 +36,12 @@ ARROW = re.compile(
     r"^\s*(?:\\(?:overset|stackrel|underset)\s*\{\s*\\(?:curvearrow|circlearrow|acwopencirclearrow|right|left|up|down)[a-z]*\s*\}\s*\{\s*[A-Z]\s*\}"
     r"|\\(?:curvearrow|circlearrow|up|down|right)(?:left|right|arrow)[a-z]*\s*(?:\([A-Z]\)|[A-Z])?)\s*:"
 )
+MOST_DISPLAYS = 16  # without words between them
 BRACED = re.compile(r"^\s*\{\s*\\displaystyle\s*(?P<inner>.*)\}\s*[.,]?\s*$", re.DOTALL)
+
+
+class FormulasInWords(InvalidInput):
+    """Sentences that have formulas of their own: whether they state something is for a reader of notes."""
 
 
 def from_quoted(text: str) -> str:
@@ -51,7 +56,7 @@ def from_displays(text: str) -> str:
     """The displayed formulas of a text with sentences around them; any other text as it is."""
     found = list(DISPLAY.finditer(text))
     outside = AROUND.sub(" ", DISPLAY.sub("\n", text))
-    if not found or not WORDS.search(re.sub(r"\\[A-Za-z]+", " ", outside)):
+    if not found or (not 2 <= len(found) <= MOST_DISPLAYS and not WORDS.search(re.sub(r"\\[A-Za-z]+", " ", outside))):
         return text
     denied = DENIED.search(outside)
     if denied:
@@ -61,7 +66,7 @@ def from_displays(text: str) -> str:
     inline = INLINE.findall(outside)
     words = INLINE.sub(" ", outside)
     if any("=" in part or "\\approx" in part for part in inline) or SIGNS.search(words):
-        raise InvalidInput("a sentence between the displayed equations has formulas too: give the equations alone, and "
+        raise FormulasInWords("a sentence between the displayed equations has formulas too: give the equations alone, and "
                            "what letters stand for in [define]")  # fmt: skip
     parts = [(m["a"] or m["b"] or m[0]).strip() for m in found]
     rows = [re.sub(r"\s*(?:\\,|\\;|\\ |~)?[.,;，．、。；]\s*$", "", part) for part in parts]

@@ -29,6 +29,7 @@ SAME = {
     "cases": rf"\begin{{cases}} {A} & \text{{(cart)}} \\ {B} & \text{{(bob, along the arc)}} \end{{cases}}",
     "a brace before an array": rf"\left\{{ \begin{{array}}{{l}} {A}, \\[1ex] {B}. \end{{array}} \right.",
     "quad": rf"{A}, \qquad {B}",
+    "a row twice": rf"{A} \\ {B} \\ {A}",
     "and in LaTeX": rf"{A} \quad\text{{and}}\quad {B}.",
     "and": "(M+m) x'' + m l θ'' cos θ - m l θ'^2 sin θ = 0 and l θ'' + x'' cos θ + g sin θ = 0",
     "eqnarray, a row that goes on": r"""\begin{eqnarray*} (M+m)\ddot x + ml\ddot\theta\cos\theta && \\
@@ -74,7 +75,6 @@ def test_and_with_another_gravity_they_are_wrong(how):
     "text",
     [
         rf"{A} \Rightarrow {B}",  # is the first a premise, or a result?
-        rf"{A} \\ {B} \\ {A}",
         r"\begin{pmatrix} M+m & ml\cos\theta \\ \cos\theta & l \end{pmatrix} \begin{pmatrix} \ddot x = 0 \\ 1 \end{pmatrix} = 0",
     ],
 )

@@ -66,7 +66,7 @@ def test_it_is_said_back_in_the_authors_words():
         ([body(coordinate="theta", mass="m")] * 9, "bodies: from 1"),
         ([body(mass="m")], "coordinate"),
         ([body(coordinate="theta", mas="m")], "did you mean 'mass'"),
-        ([body(coordinate="theta", mass="1/(m+M)")], "denominator"),
+        ([body(coordinate="theta", mass="1/(2*m+3*M)")], "denominator"),
         ([body(coordinate="theta", mass="m("), ], "bodies 1: mass"),
         ([body(coordinate="theta", on="nobody")], "no body before it"),
         ([body(coordinate="theta", joint="ball")], "'hinge' or 'slide'"),

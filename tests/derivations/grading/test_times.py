@@ -75,7 +75,7 @@ def test_what_moves_so_has_to_be_said():
         grade_text(SUPPORT.format("y", "up", "a*cos(w*t) + b", "l*theta'' + (g - a*w^2*cos(w*t))*sin(theta) = 0"))
     with pytest.raises(InvalidInput, match="write it with the support"):
         grade_text(SUPPORT.format("y", "up", "a*cos(w*t)", "").split("[equations]")[0].replace(
-            "system", "lagrangian = 'm*l^2*theta^2/2 + cos(w*t)'\nsystem", 1))  # fmt: skip
+            "system", "kinetic = 'm*l^2*theta_dot^2/2 + cos(w*t)'\nsystem", 1))  # fmt: skip
     with pytest.raises(InvalidInput, match="fixed in direction"):
         grade_text(SUPPORT.format("y", "up", "a*cos(w*t)", "l*theta'' + cos(w*t) = 0").replace("joint = 'slide'\n", "")
                    .replace("along = 'up'\n", ""))  # fmt: skip

@@ -1,0 +1,132 @@
+# ruff: noqa: E501 -- patterns stand on one line
+r"""Names in a note: what stands alone on a side, what is used where, and names in fonts or with arguments."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ..given_names import ACCENT, OVER
+from ..names import GLYPHS, GREEK, LOWS, base_word, plain_name, spelling
+from ..table import known_of
+
+_GREEK = "|".join(sorted(GREEK, key=len, reverse=True))
+_BASE = rf"(?:\\(?:{_GREEK}|ell)(?![A-Za-z])|[A-Za-z]+|[{''.join(GLYPHS)}])"
+_INDEX = rf"(?:\s*_\s*\{{[^{{}}]{{1,16}}\}}|\s*_\s*[0-9A-Za-z]|[0-9]{{1,2}}|[{LOWS}]{{1,4}})?"
+NAME = rf"{_BASE}{_INDEX}"
+_INSIDE = rf"(?:\s*(?:\\d?dot\s*)?\{{?\s*{NAME}\s*\}}?['\u0307\u0308]*\s*)"
+ARGUMENTS = rf"\s*(?:\\left\s*)?\({_INSIDE}(?:[,;]{_INSIDE}){{0,3}}(?:\\right\s*)?\)"
+ALONE = re.compile(rf"^\s*(?P<name>{NAME})\s*(?P<of>{ARGUMENTS})?\s*$")
+FONT = re.compile(
+    r"\\(?:mathbf|boldsymbol|bm|mathrm|mathcal|mathscr|mathsf|mathit|mathbb|text|vec|underline|pmb|operatorname)\s*(?:\{\s*(?P<x>\\?[A-Za-z]{1,10})\s*\}|(?P<y>[A-Za-z])(?![A-Za-z]))"
+)
+WORDY = {"sin", "cos", "tan", "sgn", "sign", "abs", "sqrt", "d", "t", "g", "pi", "left", "right", "frac", "tfrac", "dfrac",
+         "dot", "ddot", "cdot", "times", "begin", "end", "inv", "T", "top", "e", "partial", "big", "over"}  # fmt: skip
+USED = re.compile(rf"\\(?P<command>[A-Za-z]+)(?P<i>{_INDEX})|(?P<word>[A-Za-z]|[{''.join(GLYPHS)}])(?P<j>{_INDEX})")
+ENVIRONMENT = re.compile(r"\\(?:begin|end)\s*\{\w+\*?\}(?:\{[clr|]*\})?")
+
+
+@dataclass(frozen=True)
+class Names:
+    """What a file declares, plain: coordinates in order, quantities, names of its own."""
+
+    coordinates: tuple[str, ...]
+    quantities: frozenset[str]
+    defined: frozenset[str]
+    relative: bool
+    slides: tuple[bool, ...]
+    driven: bool  # whether anything but weight acts
+
+    @property
+    def all(self) -> frozenset[str]:
+        """Every name that has a meaning."""
+        return frozenset({*self.coordinates, *self.quantities, *self.defined, "g", "t", "pi"})
+
+
+def names_of(data: Mapping[str, Any]) -> Names:
+    """The names that the fields declare."""
+    known, define = known_of(data), data.get("define", {})
+    bodies = data.get("bodies")
+    bodies = [b for b in bodies if isinstance(b, dict)] if isinstance(bodies, list) else []
+    own = frozenset(p for x in define if (p := plain_name(str(x)))) if isinstance(define, dict) else frozenset()
+    return Names(
+        known.coordinates, known.quantities, own, known.relative, tuple(b.get("joint") == "slide" for b in bodies),
+        any(name in b for b in bodies for name in ("drive", "damping", "friction", "motion")),
+    )  # fmt: skip
+
+
+def alone(side: str) -> str | None:
+    """The plain name that is all of a side, its arguments left out; None where there is more."""
+    found = ALONE.match(unfonted(side))
+    return plain_name(found["name"]) if found else None
+
+
+def written_alone(side: str) -> str:
+    """Such a side as ``define`` takes it."""
+    return re.sub(r"\s+", " ", unfonted(side)).strip()
+
+
+def unfonted(text: str) -> str:
+    """Letters without their fonts."""
+    return FONT.sub(lambda m: f" {m['x'] or m['y']} " if not _is_word(m["x"]) else m[0], text)
+
+
+def _is_word(inner: str | None) -> bool:
+    return inner is not None and len(inner.lstrip("\\")) > 1 and inner[0] != "\\"
+
+
+def used(text: str) -> set[str]:
+    """The plain names that may stand in a text, letter by letter."""
+    found: set[str] = set()
+    for m in USED.finditer(ENVIRONMENT.sub(" ", text)):
+        base = m["command"] or m["word"]
+        if m["command"] and base not in GREEK and base != "ell":
+            continue
+        name = plain_name(("\\" if m["command"] else "") + base + (m["i"] or m["j"] or ""))
+        found.add(name or base)
+        if m["j"] and re.fullmatch(r"[0-9]{1,2}", m["j"]):
+            found.add(base)
+    return found
+
+
+def spelled(name: str) -> str:
+    """A plain name as LaTeX."""
+    word = next((w for w in sorted(GREEK, key=len, reverse=True) if name.startswith(w)), name[:1])
+    index = name[len(word) :]
+    return (f"\\{word}" if word in GREEK else word) + (f"_{{{index}}}" if index else "")
+
+
+def uses(name: str, texts: Iterable[str]) -> bool:
+    """Whether a plain name stands in one of these texts."""
+    pattern = re.compile(rf"(?<![A-Za-z\\]){spelling(name).pattern}|(?<=[A-Za-z]){spelling(name).pattern}")
+    return any(pattern.search(unfonted(text)) for text in texts)
+
+
+def with_accents(text: str) -> str:
+    r"""Letters with a hat, a bar or a tilde as names of their own."""
+
+    def word(found: re.Match[str]) -> str:
+        index = found["braced"] or found["low"]
+        base = base_word(found["x"] or found["y"])
+        return f" {base}{OVER.get(found['accent'], found['accent'])}" + (f"_{{{index}}} " if index else " ")
+
+    return ACCENT.sub(word, text)
+
+
+def with_bold_apart(text: str, names: Names) -> str:
+    r"""The text with a name of its own for a matrix \mathbf M, where M is a quantity."""
+    plain = BOLD.sub(" ", text)
+
+    def one(found: re.Match[str]) -> str:
+        letter = found["x"] or found["y"]
+        both = letter in names.all and re.search(rf"(?<![A-Za-z\\{{]){letter}(?![A-Za-z])", plain)
+        return f" {letter}_{{9}} " if both else found[0]
+
+    return BOLD.sub(one, text)
+
+
+BOLD = re.compile(
+    r"\\(?:mathbf|boldsymbol|bm|pmb|mathcal|mathbb|mathsf)\s*(?:\{\s*(?P<x>[A-Za-z])\s*\}|(?P<y>[A-Za-z])(?![A-Za-z]))"
+)

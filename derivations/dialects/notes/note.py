@@ -1,0 +1,168 @@
+# ruff: noqa: E501 -- patterns stand on one line
+"""A whole file as a note: its fields with the formulas alone, names that it says among the definitions."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from ....models.errors import InvalidInput
+from ..letters.every_text import is_fit, lines_of, rows_of
+from ..letters.indices import plain_indices
+from ..lines import FULL_WIDTH
+from ..names import plain_name
+from ..statements import is_program
+from ..worksheets.definitions import in_order
+from .columns import with_columns, with_momenta
+from .counted import by_rule
+from .declarations import plain_declarations
+from .derivatives import plain_derivatives
+from .displays import Statement, has_arrow, statements_of
+from .energies import Energy, energy, evident_rates
+from .letters import Names, alone, names_of, with_accents, with_bold_apart
+from .partial import rows_of_partial
+from .points import of_unknown_points
+from .products import apart, index_first
+from .sorting import ACCELERATION, Sorted, is_abstract, sorted_statements
+from .words import formulas_of
+
+ENERGIES = ("kinetic", "potential", "lagrangian", "hamiltonian")
+MOST_ROWS = 16
+WORDED = re.compile(r"\$|\\[\[(]|```|[^\W\d_]{3,} [^\W\d_]{2,} [^\W\d_]{2,}|[\u3040-\u30ff\u4e00-\u9fff]{3}|\*\*")
+
+
+def as_note(data: dict[str, Any], usual: list[dict[str, str]] | None = None) -> dict[str, Any] | None:
+    """The fields with formulas alone; None where they are no note. Raises InvalidInput with what to write.
+
+    ``usual``: the bodies of a usual mechanism, where the file declares none.
+    """
+    made = plain_declarations(plain_indices(data))
+    names = names_of({**made, "bodies": usual} if usual else made)
+    if not names.coordinates or any(is_program(text) or "Symbol(" in text for _, text in rows_of(made)):
+        return made if made != data else None
+    new: dict[str, str] = {}
+    steps: dict[str, str] = {}
+    for kind in ENERGIES:
+        if is_fit(made.get(kind)):
+            made = _with_energy(made, kind, names, new, steps)
+    if is_fit_table(made):
+        made = _with_equations(made, names, new, steps)
+    if not new and not steps and made == data:
+        return None
+    define = made.get("define", {})
+    if new:
+        if not isinstance(define, dict):
+            return None
+        ordered = in_order({**{k: v for k, v in new.items() if plain_name(k) not in map(plain_name, define)}})
+        if ordered is None:
+            raise InvalidInput(
+                "the names that are said need each other in a circle; write the equations with these put in"
+            )
+        made = made | {"define": {**define, **ordered}}
+    return made | ({"steps": steps} if steps else {})
+
+
+def is_worded(data: Mapping[str, Any]) -> bool:
+    """Whether a text has words, or marks of formulas, as notes have."""
+    return any(WORDED.search(text) for text in lines_of(data))
+
+
+def is_fit_table(data: Mapping[str, Any]) -> bool:
+    """Whether there are equations to be looked at."""
+    return bool(rows_of(data))
+
+
+def _statements(text: str, names: Names) -> list[Statement]:
+    text = apart(index_first(plain_derivatives(text.translate(FULL_WIDTH))), names)
+    found: list[Statement] = []
+    for formula in formulas_of(with_bold_apart(with_accents(text), names)):
+        said = statements_of(formula.text)
+        found += [s for s in said if not formula.inline or _is_said(s, names)]
+    return found
+
+
+def _is_said(sides: Statement, names: Names) -> bool:
+    """Whether a formula in a sentence states something; a letter alone is only mentioned, and so is g = 9.81."""
+    if len(sides) < 2 or ("\\sum" in sides[0] and is_abstract(sides, set(), names)):
+        return False
+    name, value = alone(sides[0]), sides[-1].strip()
+    if name is None or name not in names.all:
+        return True
+    if name in names.coordinates:
+        raise InvalidInput(f"{' = '.join(sides).strip()[:40]}: a sentence says what a coordinate is; is that part of the "
+                           "derivation? Leave it out")  # fmt: skip
+    if name == "g" and re.fullmatch(
+        r"(?:\\\\approx)?\s*(?:9[.,][78][0-9]{0,4}|10)(?:\s*(?:\\,|~|\\ )?\s*(?:\\(?:mathrm|text|rm)\s*\{[^{}]{0,20}\}|[A-Za-z/^0-9]{0,8}))?",
+        value,
+    ):
+        return False
+    raise InvalidInput(f"a sentence between the equations has formulas too, {' = '.join(sides).strip()[:40]}: {name} is declared "
+                       "already; leave one of the two out")  # fmt: skip
+
+
+def _with_energy(
+    data: dict[str, Any], kind: str, names: Names, new: dict[str, str], steps: dict[str, str]
+) -> dict[str, Any]:
+    text = data[kind]
+    try:
+        if kind == "hamiltonian":
+            text = with_momenta(text, names)
+        found: Energy = energy(kind, by_rule(_statements(text, names)), names)
+    except InvalidInput as error:
+        raise InvalidInput(f"{kind}: {error}") from None
+    if kind in ("kinetic", "lagrangian"):
+        new |= {k: v for k, v in evident_rates([found.value, *found.defined.values()], names).items()
+                if plain_name(k) not in {plain_name(x) for x in found.defined}}  # fmt: skip
+    for name, value in found.defined.items():
+        if new.get(name, value) != value:
+            raise InvalidInput(f"{kind}: {name} is said to be two things")
+        new[name] = value
+    for k, (one, two) in enumerate(found.steps, 1):
+        steps[f"{kind}, step {k}"] = f"{one} = {two}"
+    made = data | {kind: found.value}
+    if found.positions and "positions" not in data:
+        made["positions"] = found.positions
+    return made
+
+
+def _with_equations(data: dict[str, Any], names: Names, new: dict[str, str], steps: dict[str, str]) -> dict[str, Any]:
+    rows = rows_of(data)
+    statements: list[Statement] = []
+    for label, text in rows:
+        try:
+            statements += _statements(text, names)
+        except InvalidInput as error:
+            raise InvalidInput(f"equations.{label:.40}: {error}") from None
+    try:
+        statements = of_unknown_points(by_rule(statements), names)
+        found: Sorted = sorted_statements(with_columns(statements, names), names)
+        more, equal = rows_of_partial(found.partial, names, data)
+        found.rows, found.steps = more + found.rows, found.steps + equal
+    except InvalidInput as error:
+        raise InvalidInput(f"equations: {error}") from None
+    if len(found.rows) <= len(names.coordinates) and any(
+        has_arrow(f.text) for _, text in rows for f in formulas_of(text)
+    ):
+        raise InvalidInput("equations: an arrow between two equations: is the first one a premise? Give one row for each "
+                           "angle")  # fmt: skip
+    if not found.rows or len(found.rows) > MOST_ROWS:
+        raise InvalidInput(
+            f"equations: {len(found.rows)} equations of motion are found among the words; give them alone"
+        )
+    new |= found.defined
+    if any(ACCELERATION.search(row) for row in found.rows):
+        pass
+    elif re.search(r"\\omega|ω", " ".join(found.rows)):
+        new |= evident_rates(found.rows, names)
+    for k, (one, two) in enumerate(found.steps, 1):
+        steps[f"equations, step {k}"] = f"{one} = {two}"
+    labels = (
+        [label for label, _ in rows]
+        if len(rows) == len(found.rows)
+        else [str(k) for k in range(1, len(found.rows) + 1)]
+    )
+    clash = next((stage for stage in found.stages if stage in data), None)
+    if clash:
+        raise InvalidInput(f"{clash}: it is said in [equations] as well; leave one of the two out")
+    return {**data, **found.stages, "equations": dict(zip(labels, found.rows, strict=True))}

@@ -1,0 +1,137 @@
+# ruff: noqa: E501 -- patterns stand on one line
+r"""The formulas of a text, without the words around them: markdown, displays $$…$$ and \[…\], inline $…$, plain lines."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from ....models.errors import InvalidInput
+from ..markup.prose import AROUND, DENIED
+
+_ENVIRONMENTS = (
+    "cases|dcases|equation|align|alignat|gather|eqnarray|multline|flalign|displaymath|dmath|math|aligned|gathered|split"
+)
+FENCE = re.compile(r"(?ms)^[ \t]*(?P<mark>```|~~~)[ \t]*(?P<of>\w*)[^\n]*\n(?P<inner>.*?)^[ \t]*(?P=mark)[ \t]*$")
+FORMULAS = ("", "math", "latex", "tex", "text", "txt")  # what a fence may say that it holds
+FORMULA = re.compile(
+    rf"\$\$(?P<a>.+?)\$\$|\\\[(?P<b>.+?)\\\]|(?P<c>\\begin\{{(?P<env>(?:{_ENVIRONMENTS})\*?)\}}.+?\\end\{{(?P=env)\}})"
+    r"|(?<!\\)\$`?(?P<d>[^$]+?)`?\$|\\\((?P<e>.+?)\\\)",
+    re.DOTALL,
+)
+MARKS = re.compile(
+    r"(?m)^[ \t]*(?:>[ \t]?|#{1,6}[ \t]+|[-*+•▪‣◦][ \t]+(?=[^\d\s])|\d{1,2}[.)][ \t]+|\|[ \t]*)|(?<!\*)\*\*(?!\*)|(?<!_)__(?!_)|[ \t]*\|[ \t]*$"
+)
+IMAGE = re.compile(r"!?\[[^\[\]\n]{0,80}\]\([^()\n]{0,200}\)|<!--.{0,400}?-->|https?://\S{1,200}", re.DOTALL)
+SECTION = re.compile(
+    r"\\(?:(?:sub){0,2}section|paragraph|chapter|textbf|emph|textit|text|item)\*?\s*(?:\{(?P<x>[^{}]{0,120})\})?"
+)
+LAYOUT = re.compile(
+    r"\\(?:begin|end)\s*\{(?:itemize|enumerate|center|document|quote)\}|\\\\|\\(?:quad|qquad|bigskip|medskip|smallskip)(?![A-Za-z])|\\[,;: ]"
+)
+SIGN = re.compile(r"[=^{}\\<>]|\d\s*[+−]|[≈≪∂]")
+OPERATORS = re.compile(r"[\s+\-−*/=·×]*[+\-−*/=·×][\s+\-−*/=·×]*")
+WORD = re.compile(r"[^\W\d_]{2,}")
+# In front of a formula of the same line: a word, or a few, and a colon
+LABEL = re.compile(r"^[ \t]*(?P<label>(?:\([\w ]{1,12}\)[ \t]*)?[^\W\d_][^\n=$\\^{}*/:+]{1,60})[:：](?!=)[ \t]*(?=\S)")
+LEAD = re.compile(
+    r"^[ \t]*(?:[Ww]here|[Ww]ith|[Aa]nd|[Hh]ere|[Ll]et|[Dd]efine|[Mm]it|[Ww]obei|[Uu]nd|[Dd]ove|[Oo]ù|[Aa]vec|[Ss]oit|[Cc]on|[Dd]onde|где|其中|ただし|or|oder|i\.e\.)[ \t:,]+(?=[^=]{1,40}=)"
+)
+ONLY_WORDS = re.compile(r"^[^=\\^_{}]*$")
+APPROXIMATE = re.compile(r"\\(?:approx|ll|gg|sim|simeq|lesssim|rightarrow|to)(?![A-Za-z])|[≈≪≫≃]")
+
+MOST_MARKS = 400
+
+
+@dataclass(frozen=True)
+class Found:
+    """A formula; ``inline``: in a sentence, where it may only mention something."""
+
+    text: str
+    inline: bool = False
+
+
+def formulas_of(text: str) -> list[Found]:
+    """The formulas of a text, in order. Raises InvalidInput where words deny them, or where they are not apart."""
+    if sum(text.count(mark) for mark in ("$", "\\(", "\\[", "\\begin")) > MOST_MARKS:
+        raise InvalidInput(f"more than {MOST_MARKS} marks of formulas; give the equations of motion alone")
+    text = FENCE.sub(_fenced, text)
+    matches = list(FORMULA.finditer(text))
+    outside = _plain_words(FORMULA.sub(" \0 ", text))
+    if not matches or SIGN.search(outside.replace("\0", " ")):
+        return _of_lines(text)
+    for between in outside.split("\0")[1:-1]:
+        if OPERATORS.fullmatch(between):
+            raise InvalidInput("a sign between two formulas: write each equation within one pair of $")
+    deny(outside)
+    found = []
+    for m in matches:
+        inline = m["d"] is not None or m["e"] is not None
+        formula = next(m[k] for k in "abcde" if m[k] is not None)
+        if inline and APPROXIMATE.search(formula) and not re.search(r"\\text", formula):
+            raise InvalidInput(
+                f"{formula.strip()[:40]}: an approximation in a sentence; the exact equations are judged"
+            )
+        found.append(Found(formula, inline))
+    displayed = any(not f.inline for f in found)
+    return [f if displayed else Found(f.text, inline=True) for f in found]
+
+
+def deny(words: str) -> None:
+    """Raises InvalidInput where a sentence may say that an equation is not meant."""
+    denied = DENIED.search(words)
+    if denied:
+        raise InvalidInput(
+            f"a sentence says {denied[0]!r} beside the equations: give the equations that are meant, alone"
+        )
+
+
+def _fenced(found: re.Match[str]) -> str:
+    if found["of"].lower() not in FORMULAS:
+        return found[0]
+    inner = found["inner"]
+    if found["of"].lower() in ("math", "latex", "tex") and "$" not in inner and "\\[" not in inner:
+        return f"\n$${inner}$$\n"
+    return f"\n{inner}\n"
+
+
+def _plain_words(text: str) -> str:
+    """Words without what markdown and LaTeX put around them."""
+    text = IMAGE.sub(" ", text)
+    text = SECTION.sub(lambda m: f" {m['x'] or ''} ", AROUND.sub(" ", text))
+    return MARKS.sub(" ", LAYOUT.sub(" ", text))
+
+
+def _of_lines(text: str) -> list[Found]:
+    """The lines that are formulas, of a text that has no marks around these."""
+    quoted = [bool(re.match(r"[ \t]*>", line)) for line in text.split("\n") if line.strip()]
+    if any(quoted) and not all(quoted):
+        raise InvalidInput("quoted lines beside others: whose equations are meant? Give these alone")
+    kept: list[str] = []
+    said: list[str] = []
+    for line in text.split("\n"):
+        bare = (
+            MARKS.sub("", line) if re.search(r"\*\*|__|^[ \t]*(?:>|#|[-*+•▪‣◦][ \t]|\d{1,2}[.)][ \t])", line) else line
+        )
+        if line.lstrip()[:1] in "-+*" and not re.search(r"\*\*", line):
+            bare = line  # a sign, as likely as the mark of a list
+        label = LABEL.match(bare)
+        if label and "=" in bare and not re.fullmatch(r"[A-Za-z]", label["label"].strip()):
+            said.append(label["label"])
+            bare = " " * label.end() + bare[label.end() :]
+        lead = LEAD.match(bare)
+        if lead:
+            bare = bare[lead.end() :]
+        if ONLY_WORDS.match(bare) and len(WORD.findall(bare)) >= 1 and _is_sentence(bare):
+            said.append(bare)
+            kept.append("")
+            continue
+        kept.append(bare)
+    deny(" ".join(said))
+    made = "\n".join(kept)
+    return [Found(made)] if made.strip() else []
+
+
+def _is_sentence(line: str) -> bool:
+    """Whether a line without an equals sign is words: it ends in a colon, or has no sign of a sum or product."""
+    return line.rstrip().endswith((":", "：", ".", "。")) or not re.search(r"[+\-−*/()\[\]·']", line)
