@@ -115,7 +115,14 @@ def _conventions(s: Submission, pinned: bool) -> Iterator[Convention]:
         yield s.convention
         return
     free_origin = "from" not in s.declared
-    found = conventions(s.convention, s.space.n, free_frame="angles" not in s.declared, free_origin=free_origin)
+    slides = s.mechanism is not None and any(body.slide is not None for body in s.mechanism.bodies)
+    found = conventions(
+        s.convention,
+        s.space.n,
+        free_frame="angles" not in s.declared,
+        free_origin=free_origin,
+        has_sides=slides or "sense" in s.declared,
+    )
     for convention in found:
         if "sense" in s.declared and convention.senses != s.convention.senses:
             continue

@@ -55,7 +55,7 @@ class Convention:
             return ", downwards positive"
         if self.origin in ("right", "left") and not self.senses:
             return ", upwards positive"
-        return ""
+        return ", clockwise" if set(self.senses) == {-1} else ""
 
     def _rest_en(self) -> str:
         rest = ", the others from the link above" if self.relative else ""
@@ -65,16 +65,19 @@ class Convention:
         return rest
 
 
-def conventions(first: Convention, n: int, *, free_frame: bool, free_origin: bool) -> Iterator[Convention]:
+def conventions(
+    first: Convention, n: int, *, free_frame: bool, free_origin: bool, has_sides: bool = False
+) -> Iterator[Convention]:
     """``first``, then those that people use where they may be meant: the likeliest first.
 
-    ``free_frame``: absolute or relative is not declared; ``free_origin``: nor is the zero.
+    ``free_frame``: absolute or relative is not declared; ``free_origin``: nor is the zero. ``has_sides``: clockwise
+    from the vertical is another thing than counter-clockwise, as where something slides to one side.
     """
     yield first
     frames = (first.relative, not first.relative) if free_frame and n > 1 else (first.relative,)
-    origins: tuple[tuple[Origin, int], ...] = (("down", 1), ("up", 1), ("right", 1), ("right", -1))
-    if not free_origin:
-        origins = ((first.origin, 1),) if first.origin in ("down", "up") else ((first.origin, 1), (first.origin, -1))
+    zeros: tuple[Origin, ...] = ("down", "up", "right") if free_origin else (first.origin,)
+    origins = [(origin, 1) for origin in zeros]
+    origins += [(origin, -1) for origin in reversed(zeros) if has_sides or origin in ("right", "left")]
     seen = {first}
     mixed = list(product((1, -1), repeat=n - 1)) if n <= MOST_SENSES else [(1,) * (n - 1)]
     for rest in mixed:

@@ -131,3 +131,55 @@ def test_a_support_that_moves_and_a_drive():
     text = "system = 'mechanism'\nfrom = 'up'\nsense = 'clockwise'\n" + body + "[equations]\n1 = '''" + row
     assert grade_text(text + "u'''").verdict == "correct"
     assert grade_text(text + "-u'''").verdict == "wrong"
+
+
+ON_RAIL = """[[bodies]]
+name = "cart"
+coordinate = "x"
+joint = "slide"
+mass = "M"
+drive = "F"
+"""
+POLE = """[[bodies]]
+coordinate = "a{k}"
+mass = "m{k}"
+length = "l{k}"
+on = "cart"
+"""
+
+
+def poles(count):
+    """Rows of a cart with poles whose angles are counted from upright to the side that the cart moves to: clockwise."""
+    M, F = sp.symbols("M F")
+    x = sp.Function("x")(t)
+    angles = [sp.Function(f"a{k}")(t) for k in range(1, count + 1)]
+    kinetic, potential = M * sp.diff(x, t) ** 2 / 2, 0
+    for k, a in enumerate(angles, 1):
+        m, l = sp.symbols(f"m{k} l{k}")
+        kinetic += m * (sp.diff(x + l * sp.sin(a), t) ** 2 + sp.diff(l * sp.cos(a), t) ** 2) / 2
+        potential += m * g * l * sp.cos(a)
+    lagrangian = kinetic - potential
+    forces = [F, *[0] * count]
+    each = zip([x, *angles], forces, strict=True)
+    return [sp.expand(sp.diff(lagrangian.diff(q.diff(t)), t) - lagrangian.diff(q) - force) for q, force in each]
+
+
+def cart(head, count, made):
+    """A verdict on these rows."""
+    bodies = ON_RAIL + "".join(POLE.format(k=k) for k in range(1, count + 1))
+    rows = "".join(f"{k} = '''{row} = 0'''\n" for k, row in enumerate(made, 1))
+    return grade_text(f"system = 'mechanism'\n{head}\n{bodies}[equations]\n{rows}")
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+@pytest.mark.parametrize("head", ["", "angles = 'absolute'", "from = 'up'", "sense = 'clockwise'"])
+def test_poles_that_lean_the_way_the_cart_goes_are_right_where_the_sense_is_not_declared(head, count):
+    made = poles(count)
+    graded = cart(head, count, made)
+    assert graded.verdict == "correct"
+    assert graded.assumes == ("angles are measured from the upward vertical, clockwise",)
+    assert cart("from = 'up'\nsense = 'clockwise'", count, made).assumes == ()
+    assert cart("from = 'up'\nsense = 'counter-clockwise'", count, made).verdict == "wrong"
+    push = sp.Function("x")(t).diff(t, 2)
+    slip = [*made[:-1], made[-1] - 2 * push * made[-1].coeff(push)]  # the last pole feels the cart the other way
+    assert cart(head, count, slip).verdict == "wrong"
