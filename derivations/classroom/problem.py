@@ -32,9 +32,9 @@ from ...models.errors import InvalidInput, nearest
 from ...models.readers.bounded_file import read_text, shown
 from ...models.readers.toml_text import parse_toml
 from ..grading.hypotheses import Hypothesis, hypotheses
-from ..reading.declaration import PRESETS
+from ..reading.declaration import PRESETS, WORDS
 from ..reading.motion.convention import ORIGINS
-from ..reading.submission import WORDS, Submission, read_table
+from ..reading.submission import Submission, read_table
 from ..steps.stages import STAGES, StageName
 
 LARGEST_FILE = 100_000  # bytes

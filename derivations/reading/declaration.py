@@ -20,6 +20,7 @@ from typing import Any
 
 from ...models.errors import InvalidInput, nearest
 from ..algebra.signs import sign_symbols
+from ..algebra.symbols import KINDS
 from ..algebra.trig import NOTHING, Formula, Space
 from ..dialects.lines import LONGEST_LINE
 from ..dialects.names import GREEK, WRITTEN, base_and_index, is_joined, plain_name, spelling, splits
@@ -39,6 +40,13 @@ GLYPHS_APART = {"vartheta": "theta", "th": "theta", "varphi": "phi"}  # one lett
 TAKEN = ("g", "t", "pi", *FUNCTIONS)
 
 _CART = {"name": "cart", "coordinate": "x", "joint": "slide", "along": "right", "mass": "M"}
+MOST_LINKS = 20
+SYSTEMS = (*KINDS, "rods", "point-masses", "links")
+WORDS: dict[str, tuple[str, int]] = {  # usual names, with how many links they have
+    "simple-pendulum": ("point-masses", 1), "double-pendulum": ("point-masses", 2),
+    "triple-pendulum": ("point-masses", 3), "physical-pendulum": ("links", 1), "acrobot": ("links", 2),
+    "double-rod-pendulum": ("rods", 2),
+}  # fmt: skip
 PRESETS: dict[str, list[dict[str, str]]] = {
     "cart-pole": [_CART, {"name": "pole", "coordinate": "theta", "length": "l", "mass": "m"}],
     "cart-rod": [
@@ -263,3 +271,22 @@ def _spellings(base: str, used: set[str]) -> tuple[str, ...]:
     family = next((words for words in ANGLES.values() if letter in words), ()) if shared else ()
     own = (base, *GREEK.get(base, ()), *((f"\\{base}",) if base in GREEK else ()))
     return tuple(dict.fromkeys((*own, *family, *(("th",) if shared == ["theta"] else ()))))
+
+
+def system_of(data: dict[str, Any]) -> tuple[str, int]:
+    """The kind and the number of angles of a system that has a name. Raises InvalidInput with what is known."""
+    kind, links = data.get("system"), data.get("links")
+    if isinstance(kind, str) and kind in WORDS:
+        kind, usual = WORDS[kind]
+        links = usual if links is None else links
+    if kind not in SYSTEMS:
+        hint = (
+            nearest(kind, (*SYSTEMS, *WORDS, *PRESETS, "mechanism"))
+            if isinstance(kind, str) and len(kind) < 100
+            else ""
+        )
+        known = ", ".join(f"'{name}'" for name in (*SYSTEMS, *WORDS, *PRESETS, "mechanism"))
+        raise InvalidInput(f"system: {kind!r:.40} is not known{hint}; give one of {known}")
+    if type(links) is not int or not 1 <= links <= MOST_LINKS:
+        raise InvalidInput(f"links: the number of angles is needed, from 1 to {MOST_LINKS}, got {links!r:.40}")
+    return kind, links

@@ -25,11 +25,11 @@ from ..dialects.times import with_times
 from ..dialects.traced.rows import traced
 from ..dialects.vectors import with_vectors
 from ..dialects.worksheets.sessions import from_worksheets
-from .declaration import PRESETS
+from .declaration import PRESETS, WORDS
 from .forces import constraint_forces
 from .forms.hamilton import read_hamilton
 from .forms.stages import is_staged, read_stages
-from .submission import WORDS, Submission, known_fields, opened, read_fields
+from .submission import Submission, known_fields, opened, read_fields
 
 MOST_POSITIONS, MOST_NAMED = 16, 8
 ANGLES = {  # letters of angles, the likeliest first, and how they are written

@@ -23,7 +23,7 @@ from ..steps.conventions import Convention
 from ..steps.declared import Declared
 from ..steps.first_order import FirstOrder
 from ..steps.stages import STAGES, Stages
-from .declaration import PRESETS, declared
+from .declaration import declared, system_of
 from .evaluation import Evaluation
 from .forces import eliminated
 from .layout import LEFT_SIDE, equations_of, laid_out, texts_of
@@ -41,16 +41,10 @@ from .typeset import Typesetter
 from .vocabulary import FUNCTIONS, Vocabulary, vocabulary
 
 LARGEST_FILE = 200_000  # characters; a chain of twenty rods, every sum multiplied out, has 150 000
-MOST_LINKS = 20
 MOST_DEFINITIONS = 40
+DEFINE = f'define: a table of at most {MOST_DEFINITIONS} names is needed, as in M = "m1 + m2"'
 MOST_ROWS = 16  # of one motion, with the steps that lead to them
 FIELDS = ("system", "links", "bodies", "angles", "from", "sense", *STAGES, "define", "title", "author")
-SYSTEMS = (*KINDS, "rods", "point-masses", "links")
-WORDS: dict[str, tuple[str, int]] = {  # usual names, with how many links they have
-    "simple-pendulum": ("point-masses", 1), "double-pendulum": ("point-masses", 2),
-    "triple-pendulum": ("point-masses", 3), "physical-pendulum": ("links", 1), "acrobot": ("links", 2),
-    "double-rod-pendulum": ("rods", 2),
-}  # fmt: skip
 
 T = TypeVar("T")
 
@@ -144,10 +138,12 @@ def read_table(data: dict[str, Any], slashes: int = 0) -> Submission:
 
 
 def known_fields(data: dict[str, Any]) -> None:
-    """Raises InvalidInput where a field is not known."""
+    """Raises InvalidInput where a field is not known, or definitions are no table."""
     for name in data:
         if name not in FIELDS:
             raise InvalidInput(f"{name!r:.40}: no such field{nearest(name, FIELDS)}; known are {', '.join(FIELDS)}")
+    if not isinstance(data.get("define", {}), dict):
+        raise InvalidInput(DEFINE)
 
 
 def read_fields(data: dict[str, Any], reader: Reader) -> Submission:
@@ -172,11 +168,11 @@ def opened(data: dict[str, Any], slashes: int = 0, constants: Sequence[str] = ()
     """
     texts = list(texts_of(data))
     own = declared(data, texts, constants, has_signs=has_signs or any(SIGNS.search(text) for text in texts))
-    kind, n = _system(data) if own is None else ("mechanism", len(own.mechanism.bodies))
+    kind, n = system_of(data) if own is None else ("mechanism", len(own.mechanism.bodies))
     convention = convention_of(data, n)
     defined = data.get("define", {})
     if not isinstance(defined, dict) or len(defined) > MOST_DEFINITIONS:
-        raise InvalidInput(f'define: a table of at most {MOST_DEFINITIONS} names is needed, as in M = "m1 + m2"')
+        raise InvalidInput(DEFINE)
     if own is None:
         names = frozenset(map(str, defined))
         letter = variable(texts, n, momenta=has_momenta(data), taken=names | _letters(names))
@@ -201,24 +197,6 @@ def opened(data: dict[str, Any], slashes: int = 0, constants: Sequence[str] = ()
 def _letters(names: Iterable[str]) -> frozenset[str]:
     """The letters of names with an index: u of u_1, which its author defines himself."""
     return frozenset(found[0] for name in names if (found := base_and_index(name)) and found[1])
-
-
-def _system(data: dict[str, Any]) -> tuple[str, int]:
-    kind, links = data.get("system"), data.get("links")
-    if isinstance(kind, str) and kind in WORDS:
-        kind, usual = WORDS[kind]
-        links = usual if links is None else links
-    if kind not in SYSTEMS:
-        hint = (
-            nearest(kind, (*SYSTEMS, *WORDS, *PRESETS, "mechanism"))
-            if isinstance(kind, str) and len(kind) < 100
-            else ""
-        )
-        known = ", ".join(f"'{name}'" for name in (*SYSTEMS, *WORDS, *PRESETS, "mechanism"))
-        raise InvalidInput(f"system: {kind!r:.40} is not known{hint}; give one of {known}")
-    if type(links) is not int or not 1 <= links <= MOST_LINKS:
-        raise InvalidInput(f"links: the number of angles is needed, from 1 to {MOST_LINKS}, got {links!r:.40}")
-    return kind, links
 
 
 ACCELERATION = re.compile("\\\\ddot|''|″|ddot|\u0308")

@@ -76,7 +76,7 @@ def conventions(
     yield first
     frames = (first.relative, not first.relative) if free_frame and n > 1 else (first.relative,)
     zeros: tuple[Origin, ...] = ("down", "up", "right") if free_origin else (first.origin,)
-    origins = [(origin, 1) for origin in zeros]
+    origins: list[tuple[Origin, int]] = [(origin, 1) for origin in zeros]
     origins += [(origin, -1) for origin in reversed(zeros) if has_sides or origin in ("right", "left")]
     seen = {first}
     mixed = list(product((1, -1), repeat=n - 1)) if n <= MOST_SENSES else [(1,) * (n - 1)]

@@ -29,7 +29,9 @@ from .words import formulas_of
 
 ENERGIES = ("kinetic", "potential", "lagrangian", "hamiltonian")
 MOST_ROWS = 16
-WORDED = re.compile(r"\$|\\[\[(]|```|[^\W\d_]{3,} [^\W\d_]{2,} [^\W\d_]{2,}|[\u3040-\u30ff\u4e00-\u9fff]{3}|\*\*")
+WORDED = re.compile(
+    r"\$|\\[\[(]|```|(?<![^\W\d_])[^\W\d_]{3,40} [^\W\d_]{2,40} [^\W\d_]{2}|[\u3040-\u30ff\u4e00-\u9fff]{3}|\*\*"
+)
 
 
 def as_note(data: dict[str, Any], usual: list[dict[str, str]] | None = None) -> dict[str, Any] | None:

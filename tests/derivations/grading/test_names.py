@@ -111,3 +111,10 @@ def test_a_declared_symbol_is_no_abbreviation():
     text = mechanism([body(coordinate="theta", mass="m_p", length="l")], ["θ'' = 0"])
     with pytest.raises(InvalidInput, match="already has a meaning"):
         parse_submission(text + "\n[define]\nmp = '2'\n")
+
+
+@pytest.mark.parametrize("define", ["3", "'x'", "[1, 2]", "true"])
+def test_definitions_that_are_no_table_are_refused(define):
+    text = f"system = 'simple-pendulum'\ndefine = {define}\n[equations]\n1 = 'x = 1'\n"
+    with pytest.raises(InvalidInput, match="define: a table of at most"):
+        grade_text(text)

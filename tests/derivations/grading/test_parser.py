@@ -5,7 +5,8 @@ import tomllib
 import pytest
 from handwritten import toml
 
-from furiko.derivations.reading.submission import MOST_LINKS, parse_submission
+from furiko.derivations.reading.declaration import MOST_LINKS
+from furiko.derivations.reading.submission import parse_submission
 from furiko.models.errors import InvalidInput
 
 
