@@ -12,6 +12,8 @@ FROM_EN: dict[Origin, str] = {
     "down": "the downward vertical", "up": "the upward vertical", "right": "the horizontal", "left": "the horizontal"
 }  # fmt: skip
 FROM_JA: dict[Origin, str] = {"down": "鉛直下向き", "up": "鉛直上向き", "right": "水平", "left": "水平"}
+ZEROS: tuple[Origin, ...] = ("down", "up", "right")
+VERTICAL = frozenset({"down", "up"})
 MOST_SENSES = 3  # angles whose senses are tried one by one
 
 
@@ -75,9 +77,8 @@ def conventions(
     """
     yield first
     frames = (first.relative, not first.relative) if free_frame and n > 1 else (first.relative,)
-    zeros: tuple[Origin, ...] = ("down", "up", "right") if free_origin else (first.origin,)
-    origins: list[tuple[Origin, int]] = [(origin, 1) for origin in zeros]
-    origins += [(origin, -1) for origin in reversed(zeros) if has_sides or origin in ("right", "left")]
+    zeros = ZEROS if free_origin else (first.origin,)
+    origins = [(origin, way) for way in (1, -1) for origin in zeros if way > 0 or has_sides or origin not in VERTICAL]
     seen = {first}
     mixed = list(product((1, -1), repeat=n - 1)) if n <= MOST_SENSES else [(1,) * (n - 1)]
     for rest in mixed:
