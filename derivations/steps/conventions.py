@@ -13,7 +13,7 @@ FROM_EN: dict[Origin, str] = {
 }  # fmt: skip
 FROM_JA: dict[Origin, str] = {"down": "鉛直下向き", "up": "鉛直上向き", "right": "水平", "left": "水平"}
 ZEROS: tuple[Origin, ...] = ("down", "up", "right")
-VERTICAL = frozenset({"down", "up"})
+SIDEWAYS: tuple[Origin, ...] = ("right", "left")
 MOST_SENSES = 3  # angles whose senses are tried one by one
 
 
@@ -77,8 +77,9 @@ def conventions(
     """
     yield first
     frames = (first.relative, not first.relative) if free_frame and n > 1 else (first.relative,)
-    zeros = ZEROS if free_origin else (first.origin,)
-    origins = [(origin, way) for way in (1, -1) for origin in zeros if way > 0 or has_sides or origin not in VERTICAL]
+    zeros: tuple[Origin, ...] = ZEROS if free_origin else (first.origin,)
+    both: tuple[Origin, ...] = zeros if has_sides else tuple(origin for origin in SIDEWAYS if origin in zeros)
+    origins: list[tuple[Origin, int]] = [*((origin, 1) for origin in zeros), *((origin, -1) for origin in both)]
     seen = {first}
     mixed = list(product((1, -1), repeat=n - 1)) if n <= MOST_SENSES else [(1,) * (n - 1)]
     for rest in mixed:
