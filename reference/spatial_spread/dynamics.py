@@ -112,9 +112,9 @@ def inverse_dynamics(run: Run, placed: list[Placed], v: Array, accelerations: Ar
     ]
 
 
-def forward_dynamics(run: Run, v: Array, torque: Array, gravity: list[float]) -> list[Any]:
+def forward_dynamics(run: Run, v: Array, forces: list[Any], gravity: list[float]) -> list[Any]:
     """Accelerations by articulated bodies, each at its joint's own point."""
-    placed, forces = placed_joints(run, "hinge"), columns(run, torque)
+    placed = placed_joints(run, "hinge")
     motions = _motions(placed, columns(run, v))
     bodies = [_body(one, moving) for one, moving in zip(placed, motions, strict=True)]
     gone: dict[int, tuple[Any, list[Any]]] = {}  # of each freedom: k and w

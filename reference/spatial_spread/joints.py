@@ -109,6 +109,11 @@ class Run:
             own.value = own.value + (self.noise(np.ones(self.shape)).value - 1.0) * size
         return own
 
+    def off(self, column: Array, size: Array) -> Noisy:
+        """A number of each state with the last digits of its terms of another ``size``, (B,) each."""
+        ones = self.noise(np.ones(self.shape)).value - 1.0
+        return Noisy(column + ones * size, self.noise)
+
     def frame(self, rotation: list[float], turned: int) -> list[Any]:
         """A constant rotation by rows (9): exact where no axis is turned; the ``turned``-th on its way if it is."""
         if rotation == UNTURNED:

@@ -16,12 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...models.spatial_mechanism import SpatialMechanism
-from ..rounding.bounds import EPSILON
+from ..rounding.bounds import EPSILON, interchanged
 from ..rounding.monte_carlo import ONE_ROUNDING, spread
 from . import dynamics
 from .joints import Formulation, Run, placed_joints
 
 Array = NDArray[np.float64]
+
+OF_A_FORCE = 4.0  # of a spring's and a damper's: differences, products and sums, and what is added to the bias
 
 
 def mass_matrix(how: Formulation, mechanism: SpatialMechanism, q: Array) -> Array:
@@ -55,19 +57,29 @@ def _in_any_axes(how: Formulation, mechanism: SpatialMechanism, exact: Array, sp
 
 
 def accelerations(
-    how: Formulation, mechanism: SpatialMechanism, q: Array, v: Array, exact: Array, mass: Array, torque: Array
+    how: Formulation,
+    mechanism: SpatialMechanism,
+    q: Array,
+    v: Array,
+    exact: Array,
+    mass: Array,
+    torque: Array,
+    terms: Array,
 ) -> Array:
     """The spread of each acceleration, (B, nv), around the ``exact`` ones.
 
-    ``mass``: M (B, nv, nv); ``torque``: what acts along each freedom besides gravity, (B, nv).
+    ``mass``: M (B, nv, nv); ``torque``: what acts along each freedom besides gravity, (B, nv), a sum of ``terms`` of
+    that magnitude.
     """
     if how.algorithm == "aba":
         run = Run(mechanism, how, q)
-        found = run.values(dynamics.forward_dynamics(run, v, torque, [float(g) for g in mechanism.gravity]))
+        pushed = [run.off(column, OF_A_FORCE * size) for column, size in zip(torque.T, terms.T, strict=True)]
+        found = run.values(dynamics.forward_dynamics(run, v, pushed, [float(g) for g in mechanism.gravity]))
         return _in_any_axes(how, mechanism, exact, spread(found, exact), 1)
     factors = ONE_ROUNDING * _coarser(how) * _factors(how, mass)
     met = mass_matrix(how, mechanism, q) ** 2 + factors**2
-    rows = (met @ (exact**2)[..., None])[..., 0] + bias(how, mechanism, q, v) ** 2
+    lost = OF_A_FORCE * ONE_ROUNDING * _coarser(how) * terms
+    rows = (met @ (exact**2)[..., None])[..., 0] + bias(how, mechanism, q, v) ** 2 + lost**2
     inverse = np.linalg.inv(mass)
     return _in_any_axes(how, mechanism, exact, np.sqrt((inverse**2 @ rows[..., None])[..., 0]), 1)
 
@@ -75,14 +87,16 @@ def accelerations(
 def _factors(how: Formulation, mass: Array) -> Array:
     """Σ|terms| of each entry of the factors' product, (B, nv, nv): |L||Lᵀ| of a factorisation from the last freedom up.
 
-    It leaves what is zero between two branches so. Of one that goes another way, its bound √M_ii √M_jj.
+    It leaves what is zero between two branches so. Where it cannot be known, its bound √M_ii √M_jj; and where rows are
+    interchanged, what meets in them then.
     """
     if how.interchanges is False:
         with contextlib.suppress(np.linalg.LinAlgError):  # too near to singular
             factor = np.abs(np.linalg.cholesky(mass[:, ::-1, ::-1]))
             return np.asarray((factor @ factor.swapaxes(1, 2))[:, ::-1, ::-1])
     root = np.sqrt(np.diagonal(mass, axis1=1, axis2=2))
-    return np.asarray(root[:, :, None] * root[:, None, :])
+    bound = np.asarray(root[:, :, None] * root[:, None, :])
+    return bound if how.interchanges is False else np.maximum(bound, interchanged(mass))
 
 
 def _inverse_dynamics(
