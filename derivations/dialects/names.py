@@ -8,8 +8,12 @@ from __future__ import annotations
 
 import re
 from functools import cache
+from typing import Any
+
+from ...models.errors import InvalidInput
 
 LONGEST = 24  # characters of a name
+NO_QUANTITIES = ("name", "on", "joint", "along", "about", "motion")  # fields of a body that are words
 GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ϵ", "varepsilon": "ε", "zeta": "ζ", "eta": "η",
     "theta": "θ𝜃", "vartheta": "ϑ", "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μµ", "nu": "ν", "xi": "ξ",
@@ -110,3 +114,11 @@ def splits(word: str, names: frozenset[str]) -> bool:
         return any(word.startswith(name, at) and rest(at + len(name), count + 1) for name in known)
 
     return len(word) <= LONGEST and rest(0, 0)
+
+
+def require_one_meaning(written: str, bare: str, bodies: list[dict[str, Any]]) -> None:
+    """Raises InvalidInput where F, for which a body has F(t), is another quantity of a body already."""
+    own = plain_name(bare)
+    others = (v for b in bodies for k, v in b.items() if k not in NO_QUANTITIES and isinstance(v, str) and v != written)
+    if own is not None and own in map(plain_name, others):
+        raise InvalidInput(f"bodies: {written} and {bare} are two quantities with one letter; give one of them another")

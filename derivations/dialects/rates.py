@@ -84,7 +84,6 @@ def _bracketed(line: str, rates: Iterable[str]) -> str:
     r"""\frac{d}{dt} \omega_1 with brackets around a name for a rate, which is all that the derivative acts on there."""
     for rate in map(re.escape, rates):
         over, below = rf"\\[dt]?frac\s*\{{\s*{D}\s*", rf"\s*\{{\s*{D}\s*t\s*\}}"
-        line = re.sub(rf"{over}(?P<x>{rate})\s*\}}{below}(?=\s*=)", r"\\frac{d}{dt}(\g<x>)", line)
         line = re.sub(rf"(?P<d>{over}\}}{below}){SPACE}(?P<x>{rate})(?=\s*=)", r"\g<d>(\g<x>)", line)
     return line
 

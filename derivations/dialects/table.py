@@ -11,11 +11,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ...models.errors import InvalidInput
 from .bracketed import in_brackets
 from .given_names import shorter_names
 from .lines import BLANKS, FULL_WIDTH, LONGEST_LINE
-from .names import GREEK, base_and_index, plain_name
+from .names import GREEK, base_and_index, plain_name, require_one_meaning
 from .pasted import pasted
 from .programs import program
 from .rates import named_rates, suffixed
@@ -93,18 +92,16 @@ def _of_no_time(data: dict[str, Any]) -> dict[str, Any]:
     bodies = data.get("bodies")
     if not isinstance(bodies, list) or not all(isinstance(b, dict) for b in bodies):
         return data
-    others = {v for b in bodies for k, v in b.items() if k != "drive" and isinstance(v, str)}
-    for drive in (b.get("drive") for b in bodies):
-        bare = DRIVE_OF_TIME.sub("", drive) if isinstance(drive, str) else drive
-        if bare != drive and bare in others:
-            raise InvalidInput(
-                f"bodies: {drive} and {bare} are two quantities with one letter; give one of them another"
-            )
-    made = [
-        {k: DRIVE_OF_TIME.sub("", v) if k == "drive" and isinstance(v, str) else v for k, v in b.items()}
-        for b in bodies
-    ]
+    made = [{k: _bare_drive(v, bodies) if k == "drive" and isinstance(v, str) else v for k, v in b.items()}
+            for b in bodies]  # fmt: skip
     return data | {"bodies": made}
+
+
+def _bare_drive(drive: str, bodies: list[dict[str, Any]]) -> str:
+    bare = DRIVE_OF_TIME.sub("", drive)
+    if bare != drive:
+        require_one_meaning(drive, bare, bodies)
+    return bare
 
 
 def _with_any_gravity(data: dict[str, Any]) -> dict[str, Any]:

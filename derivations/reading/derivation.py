@@ -44,21 +44,16 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     Raises InvalidInput, with the place, where it is none.
     """
     known_fields(data)
-    spelled: dict[str, Any] | None = None
-    program: tuple[dict[str, Any], Mapping[str, str]] | None = None
+    spelled = _spelled(data)
     refused: InvalidInput | None = None
     try:
-        spelled = _spelled(data)
         program = traced(spelled)
+        if program is not None:
+            return _as_program(*program, slashes)
     except InvalidInput as error:
-        refused = error if spelled is not None else None
-    if program is not None:
-        try:
-            return _as_program(program[0], program[1], slashes)
-        except InvalidInput as error:
-            refused = error
+        refused = error
     try:
-        return _rows_or_note(data, slashes, notes=refused is None)
+        return _rows_or_note(data, spelled, slashes, notes=refused is None)
     except InvalidInput:
         if refused is not None:
             raise refused from None
@@ -77,12 +72,13 @@ def _as_program(data: dict[str, Any], lines: Mapping[str, str], slashes: int) ->
         raise InvalidInput(f"equations.1: {line!r:.80}: {found[2]}") from None
 
 
-def _rows_or_note(data: dict[str, Any], slashes: int, *, notes: bool) -> Submission:
-    """Read rows; where they are refused, and it is no program, formulas among words (``notes``)."""
+def _rows_or_note(data: dict[str, Any], spelled: dict[str, Any], slashes: int, *, notes: bool) -> Submission:
+    """Read rows; where formulas among words (``notes``) are refused, or what the rows mean, as a note.
+
+    A program that cannot be followed is refused before that: it is not looked through for formulas.
+    """
     try:
-        plain = _plain(_spelled(data))
-    except RefusedProgram:
-        raise
+        plain = _plain(spelled)
     except FormulasInWords as refusal:
         first: InvalidInput = refusal
     else:
@@ -93,10 +89,6 @@ def _rows_or_note(data: dict[str, Any], slashes: int, *, notes: bool) -> Submiss
     if not notes:
         raise first
     return _meant(*_plain(_spelled(_as_note(data, first))), slashes)
-
-
-class RefusedProgram(InvalidInput):
-    """A program that cannot be followed; it is not looked through for formulas among its words."""
 
 
 def _as_note(data: dict[str, Any], first: InvalidInput) -> dict[str, Any]:
@@ -120,10 +112,7 @@ def _spelled(data: dict[str, Any]) -> dict[str, Any]:
 def _plain(data: dict[str, Any]) -> tuple[dict[str, Any], list[str], int]:
     """The fields in the reader's notation, names of constants that these need, and how many coordinates there are."""
     count, coordinates = _shape(data)
-    try:
-        data = from_languages(data, count)
-    except InvalidInput as error:
-        raise RefusedProgram(str(error)) from None
+    data = from_languages(data, count)
     data = from_worksheets(from_pages(plain_programs(data, count), count))
     free = _free(data, coordinates)
     data = whole_functions(data, len(free) or count, free)

@@ -39,6 +39,12 @@ from .bounds import EPSILON, ROUNDINGS_PER_LINK
 FORCE_ROUNDINGS = 16  # of a spring's: quotient of quaternions, its norm, arc tangent, products
 
 
+def components(mechanism: SpatialMechanism) -> list[slice]:
+    """The degrees of freedom that are components of a vector, three by three."""
+    joints = [one for one in mechanism.joints if one.joint.freedoms >= 3]
+    return [slice(at, at + 3) for one in joints for at in range(one.at_v, one.at_v + one.joint.freedoms, 3)]
+
+
 @dataclass(frozen=True)
 class Lengths:
     """Lengths that enter a sum, and what they are off by in units of ε beyond their own rounding; same shapes."""
@@ -169,12 +175,7 @@ class Magnitudes:
 
     @cached_property
     def _threes(self) -> list[slice]:
-        """The degrees of freedom that are components of a vector."""
-        found: list[slice] = []
-        for one in self.mechanism.joints:
-            if one.joint.freedoms >= 3:
-                found += [slice(at, at + 3) for at in range(one.at_v, one.at_v + one.joint.freedoms, 3)]
-        return found
+        return components(self.mechanism)
 
     def residual(
         self, accelerations: Array, mass: Array, torque: Array | None = None, *, factorised: bool = True

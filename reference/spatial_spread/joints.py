@@ -7,7 +7,7 @@ A turned frame is known to the last digits of 1 in each entry: an engine has it 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,7 @@ from ...models.spatial_mechanism import SpatialMechanism
 from ..kernels.trees.formulas import add, cross, dot, product, rotation_of, scaled, times, transposed
 from ..kernels.trees.table import Node, depth_first, nodes
 from ..rounding.monte_carlo import Noise, Noisy
+from ..rounding.spread import Formulation
 
 Array = NDArray[np.float64]
 
@@ -25,21 +26,6 @@ UNTURNED = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
 # What MuJoCo's iteration for principal axes leaves of a tensor's norm: 14 ε in the median of random ones, 44 at most.
 OF_PRINCIPAL_AXES = 20.0
 OF_A_FRAME = 2.0  # an entry is a sum of two products of a quaternion's numbers, each rounded, of numbers up to 1
-
-
-class Formulation(Protocol):
-    """The facts of an engine that matter to its rounding; ``engines.EngineInfo`` has them."""
-
-    @property
-    def algorithm(self) -> str: ...
-    @property
-    def moments(self) -> str: ...
-    @property
-    def placed(self) -> str: ...
-    @property
-    def interchanges(self) -> bool | None: ...
-    @property
-    def accuracy(self) -> float: ...
 
 
 Freedoms = list[tuple[int, list[Any]]]  # columns, and axes in the world
@@ -105,14 +91,12 @@ class Run:
         if number == 0.0 and not np.any(size):
             return 0.0
         own = self.noise(np.full(self.shape, float(number)))
-        if np.any(size):
-            own.value = own.value + (self.noise(np.ones(self.shape)).value - 1.0) * size
-        return own
+        return self.off(own.value, size) if np.any(size) else own
 
-    def off(self, column: Array, size: Array) -> Noisy:
-        """A number of each state with the last digits of its terms of another ``size``, (B,) each."""
+    def off(self, number: Array, size: Array | float) -> Noisy:
+        """A number, (B,) or (samples, B), with the last digit of another ``size`` besides."""
         ones = self.noise(np.ones(self.shape)).value - 1.0
-        return Noisy(column + ones * size, self.noise)
+        return Noisy(number + ones * size, self.noise)
 
     def frame(self, rotation: list[float], turned: int) -> list[Any]:
         """A constant rotation by rows (9): exact where no axis is turned; the ``turned``-th on its way if it is."""
@@ -120,9 +104,9 @@ class Run:
             return [*rotation]
         return [self.known(x, OF_A_FRAME * (2 * turned if self.world else 1)) for x in rotation]
 
-    def _joint(self, node: Node, number: int, q: Array) -> Joint:
+    def _joint(self, node: Node, above: int, q: Array) -> Joint:
         placed, kind = node.placed, node.placed.joint.kind
-        parent = self.joints[number] if number >= 0 else None
+        parent = self.joints[above] if above >= 0 else None
         rotation: list[Any] = parent.rotation if parent else UNTURNED
         reach = (parent.reach if parent else 0.0) + float(np.linalg.norm(node.place))
         arm = times(rotation, [self.known(float(x), reach if x and self.world else 0.0) for x in node.place])
@@ -158,7 +142,7 @@ class Run:
         tensor = product(product(rotation, own), transposed(rotation))
         moment = times(rotation, [self.known(float(x)) for x in node.moment])
         mass = self.known(float(node.mass))
-        return Joint(number, reach, turned, arm, point, rotation, slides, turns, mass, moment, tensor)
+        return Joint(above, reach, turned, arm, point, rotation, slides, turns, mass, moment, tensor)
 
 
 @dataclass(frozen=True)

@@ -18,8 +18,10 @@ from numpy.typing import NDArray
 from ...models.spatial_mechanism import SpatialMechanism
 from ..rounding.bounds import EPSILON, interchanged
 from ..rounding.monte_carlo import ONE_ROUNDING, spread
+from ..rounding.spatial import components
+from ..rounding.spread import Formulation
 from . import dynamics
-from .joints import Formulation, Run, placed_joints
+from .joints import Run, placed_joints
 
 Array = NDArray[np.float64]
 
@@ -48,8 +50,7 @@ def _in_any_axes(how: Formulation, mechanism: SpatialMechanism, exact: Array, sp
     Each is then a sum of all three, and has the last digits of the longest.
     """
     found = spreads.copy()
-    joints = [one for one in mechanism.joints if one.joint.freedoms >= 3]
-    for three in (slice(at, at + 3) for one in joints for at in range(one.at_v, one.at_v + one.joint.freedoms, 3)):
+    for three in components(mechanism):
         part = (slice(None),) * axis + (three,)
         size = np.linalg.norm(exact[part], axis=axis, keepdims=True) * ONE_ROUNDING * _coarser(how)
         found[part] = np.hypot(np.linalg.norm(spreads[part], axis=axis, keepdims=True), size)

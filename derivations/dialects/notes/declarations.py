@@ -8,14 +8,14 @@ from functools import partial
 from typing import Any
 
 from ....models.errors import InvalidInput
-from ..names import WRITTEN, plain_name, spelling
+from ..names import NO_QUANTITIES, WRITTEN, plain_name, require_one_meaning, spelling
 
 OF_TIME = re.compile(r"\s*(?:\\left\s*)?\(\s*t\s*(?:\\right\s*)?\)")
 SUM_BELOW = re.compile(r"/\s*\((?P<sum>[^()]*[+][^()]*)\)")
 SUM_IN_FRACTION = re.compile(
     r"\\[dt]?frac\s*\{(?P<top>(?:[^{}]|\{[^{}]*\})*)\}\s*\{(?P<sum>(?:[^{}]|\{[^{}]*\})*\+(?:[^{}]|\{[^{}]*\})*)\}"
 )
-WORDS = ("name", "on", "joint", "along", "about", "motion", "coordinate")
+KEPT = (*NO_QUANTITIES, "coordinate")  # sums are looked for in quantities alone
 
 
 def plain_declarations(data: dict[str, Any]) -> dict[str, Any]:
@@ -31,12 +31,7 @@ def _without_time(field: str, value: Any, bodies: list[dict[str, Any]]) -> Any:
     if field in ("name", "on") or not isinstance(value, str) or not OF_TIME.search(value) or len(value) > 200:
         return value
     bare = OF_TIME.sub("", value)
-    own = plain_name(bare)
-    others = [
-        plain_name(v) for b in bodies for k, v in b.items() if k not in WORDS and isinstance(v, str) and v != value
-    ]
-    if own is not None and own in others:
-        raise InvalidInput(f"bodies: {value} and {bare} are two quantities with one letter; give one of them another")
+    require_one_meaning(value, bare, bodies)
     return bare
 
 
@@ -49,7 +44,7 @@ def _without_sums(data: dict[str, Any]) -> dict[str, Any]:
     sums: dict[str, None] = {}
     for body in bodies:
         for field, value in body.items():
-            if field not in WORDS and isinstance(value, str):
+            if field not in KEPT and isinstance(value, str):
                 sums |= {re.sub(r"\s", "", found["sum"]): None for found in SUM_BELOW.finditer(value)}
     new: dict[str, str] = {}
     for k, inner in enumerate(sums, 1):
@@ -61,7 +56,7 @@ def _without_sums(data: dict[str, Any]) -> dict[str, Any]:
 
 
 def _changed(body: dict[str, Any], change: Callable[[str], str]) -> dict[str, Any]:
-    return {k: v if k in WORDS or not isinstance(v, str) or len(v) > 200 else change(v) for k, v in body.items()}
+    return {k: v if k in KEPT or not isinstance(v, str) or len(v) > 200 else change(v) for k, v in body.items()}
 
 
 def _put(name: str, inner: str, part: str, rest: str, text: str) -> str:
