@@ -16,34 +16,42 @@ from typing import Any
 import numpy as np
 
 from ..engines import Integrator
-from ..models.coordinates import forces_to_relative
+from ..models.coordinates import forces_to_relative, to_absolute
 from ..models.mechanism import Mechanism
 from ..reference import planar_tree as planar
 from ..reference.integration.schemes import SCHEMES, Scheme
 from ..reference.planar_tree import Parameters
 from ..reference.rounding.bounds import EPSILON
+from ..reference.rounding.stepped import step_bound
 from .compiled import mechanism_from
 from .finding import Finding
 from .measurement import Array, acceleration_error, probe_states
 
 STATE_COUNT = 4
 RELATIVE_STEP = 0.06  # times the fastest rate
-ROUNDING_MARGIN = 30.0  # stages and iterations of a scheme, each with the rounding of an acceleration
+NUDGE = 2.0**-20  # of an angle [rad] and of a rate [rad/s]: slopes by differences, known to some digits
 EPSILON_SINGLE = 2.0**-24
 
 
 @dataclass(frozen=True)
 class _Runs:
-    """States at the start, after one and after two steps of ``step`` [s], and what rounding may change in a step.
+    """States at the start, after one and after two steps of ``step`` [s], (2, S, n): angles [rad], then rates [rad/s].
 
-    (2, S, n) each: angles [rad], then rates [rad/s].
+    ``fastest`` [1/s]: the rate at which nearby states part; ``off`` [rad/s²]: the error of the engine's accelerations
+    by rounding and by iterations that end early; ``sums``: the magnitudes that are added up to angles and rates.
     """
 
     step: float
     start: Array
     once: Array
     twice: Array
-    bound: Array
+    fastest: float
+    off: Array
+    sums: Array
+
+    def bound(self, scheme: Scheme) -> Array:
+        """What rounding may change in a step of this scheme, (2, S, n)."""
+        return step_bound(scheme, self.step, self.fastest, self.off, *self.sums)
 
 
 def explain_motion(
@@ -109,17 +117,40 @@ def _not_a_scheme(
 def _run(engine: Any, m: Mechanism, p: Parameters, integrator: Integrator) -> _Runs:
     theta, omega = (values[:STATE_COUNT] for values in probe_states(m, 8, seed=11))
     alpha = planar.forward_dynamics(m.parents, p, theta, omega)
-    fastest = max(float(np.abs(omega).max()), math.sqrt(float(np.abs(alpha).max())), 1e-3)
+    parting = _parting(m, p, theta, omega)
+    fastest = max(float(np.abs(omega).max()), math.sqrt(float(np.abs(alpha).max())), parting, 1e-3)
     step = 2.0 ** round(math.log2(RELATIVE_STEP / fastest))
     ends = []
     for steps in (1, 2):
         rows = [engine.trajectory(t, w, integrator.name, step, steps) for t, w in zip(theta, omega, strict=True)]
         ends.append(np.array(rows).swapaxes(0, 1))
-    rounding = acceleration_error(m.parents, p, theta, omega, alpha)
-    iterations = 1e-11 * step * np.abs(alpha).max(axis=1, keepdims=True)  # where an implicit scheme stops
-    rates = ROUNDING_MARGIN * step * rounding + iterations + 64 * EPSILON * np.abs(omega)
-    bound = np.stack([step * rates + 64 * EPSILON * np.abs(theta), rates])
-    return _Runs(step, np.stack([theta, omega]), ends[0], ends[1], bound)
+    off = acceleration_error(m.parents, p, theta, omega, alpha, integrator.tolerance)
+    rates = np.abs(omega) + step * np.abs(alpha)
+    sums = np.stack([_conversion(m.parents, values) for values in (np.abs(theta) + step * rates, rates)])
+    return _Runs(step, np.stack([theta, omega]), ends[0], ends[1], fastest, off, sums)
+
+
+def _parting(m: Mechanism, p: Parameters, theta: Array, omega: Array) -> float:
+    """The fastest rate [1/s] at which nearby states part: √(largest row of ∂α/∂θ) + largest row of ∂α/∂ω."""
+
+    def largest_row(turned: float, hastened: float) -> float:
+        nudges = np.eye(m.n)[:, None, :]
+        there, back = (
+            planar.forward_dynamics(m.parents, p, theta + sign * turned * nudges, omega + sign * hastened * nudges)
+            for sign in (1, -1)
+        )
+        return float(np.abs((there - back) / (2 * (turned + hastened))).sum(axis=0).max())
+
+    return math.sqrt(largest_row(NUDGE, 0.0)) + largest_row(0.0, NUDGE)
+
+
+def _conversion(parents: tuple[int, ...], absolute: Array) -> Array:
+    """Sums of magnitudes where values of such magnitudes (S, n) are had from differences to the parent's."""
+    relative = absolute.copy()
+    for i, parent in enumerate(parents):
+        if parent >= 0:
+            relative[:, i] += absolute[:, parent]
+    return np.asarray(to_absolute(parents, relative))
 
 
 def _matching_scheme(runs: _Runs, accelerations: Any, order: int) -> Scheme | None:
@@ -145,12 +176,18 @@ def _distance(runs: _Runs, scheme: Scheme, accelerations: Any) -> float:
     """The largest difference of the engine's first step from the scheme's, over its tolerance."""
     with np.errstate(all="ignore"):
         try:
-            made = np.stack(scheme.step(accelerations, runs.start[0], runs.start[1], runs.step))
+            made = _made(runs, scheme, accelerations)
         except (ArithmeticError, RuntimeError):
             return math.inf
-        off = np.abs(runs.once - made.astype(np.float64))
-    worst = float(np.max(off / runs.bound))
+        off = np.abs(runs.once - made)
+        worst = float(np.max(off / runs.bound(scheme)))
     return worst if math.isfinite(worst) else math.inf
+
+
+def _made(runs: _Runs, scheme: Scheme, accelerations: Any) -> Array:
+    """The scheme's own step from the same states, (2, S, n), in extended precision."""
+    theta, omega = runs.start.astype(np.longdouble)
+    return np.stack(scheme.step(accelerations, theta, omega, np.longdouble(runs.step))).astype(np.float64)
 
 
 def _of_scheme(scheme: Scheme, integrator: Integrator, who: str, diverged: bool) -> list[Finding]:
@@ -195,7 +232,7 @@ def _late(
     runs: _Runs, accelerations: Any, m: Mechanism, p: Parameters, integrator: Integrator, who: str
 ) -> Iterator[Finding]:
     """After one step the state at the start, or part of it; after two steps what one step should give."""
-    stayed = np.abs(runs.once - runs.start) <= runs.bound
+    stayed = np.abs(runs.once - runs.start) <= runs.bound(_longest())
     parts = [name for name, part in zip(("angles", "rates"), stayed, strict=True) if part.all()]
     if not parts:
         return
@@ -208,10 +245,15 @@ def _late(
         yield Finding("stale-derived-state", f"{who}, {integrator.name}", -1.0, 0.0, says)
 
 
+def _longest() -> Scheme:
+    """The scheme of most stages, whose bound is no less than any other's: for a step of no known scheme."""
+    return max(SCHEMES, key=lambda scheme: scheme.stages)
+
+
 def _late_distance(runs: _Runs, scheme: Scheme, accelerations: Any, parts: list[str]) -> float:
-    made = np.stack(scheme.step(accelerations, runs.start[0], runs.start[1], runs.step)).astype(np.float64)
+    made = _made(runs, scheme, accelerations)
     rows = [row for row, name in enumerate(("angles", "rates")) if name in parts]
-    return float(np.max((np.abs(runs.twice - made) / runs.bound)[rows]))
+    return float(np.max((np.abs(runs.twice - made) / runs.bound(scheme))[rows]))
 
 
 def _implicit_damping(
@@ -233,7 +275,7 @@ def _implicit_damping(
     force = (mass @ accelerations(theta, omega)[..., None])[..., 0]
     rates = omega + runs.step * np.linalg.solve(mass + runs.step * damping, force[..., None])[..., 0]
     ends = np.stack([theta + runs.step * rates, rates])
-    if float(np.max(np.abs(runs.once - ends) / runs.bound)) <= 1:
+    if float(np.max(np.abs(runs.once - ends) / runs.bound(_longest()))) <= 1:
         says = (
             f"{who}: {integrator.name}: its step is semi-implicit Euler with damping at the end of the step, "
             "(M + h D)⁻¹; the difference vanishes with the step"
@@ -248,9 +290,9 @@ def _hidden_damping(
     where = f"{who}, {integrator.name}"
     theta, omega = runs.start
     for scheme in (s for s in SCHEMES if s.order >= integrator.order):
-        made = np.stack(scheme.step(accelerations, theta, omega, runs.step)).astype(np.float64)
+        made = _made(runs, scheme, accelerations)
         off = runs.once[1] - made[1]
-        clear = np.abs(off) > 10 * runs.bound[1]
+        clear = np.abs(off) > 10 * runs.bound(scheme)[1]
         if clear.mean() < 0.5:
             continue
         shares = [(off / (runs.step * rates))[clear] for rates in (made[1], omega)]  # taken at the end, or all along
@@ -298,7 +340,7 @@ def _dissipation(
     """Far more energy is lost than by the scheme, and not in proportion to the rates alone."""
     theta, omega = runs.start
     scheme = next(s for s in SCHEMES if s.order >= integrator.order)
-    made = np.stack(scheme.step(accelerations, theta, omega, runs.step)).astype(np.float64)
+    made = _made(runs, scheme, accelerations)
     before = _energy(m, p, theta, omega)
     change = _energy(m, p, *runs.once) - before
     due = _energy(m, p, *made) - before

@@ -116,10 +116,20 @@ def measure(engine: Any, mechanism: Mechanism, accuracy: float = EPSILON, seed: 
     return Measurement(mechanism.parents, theta, omega, alpha, torque, forward, accuracy)
 
 
-def acceleration_error(parents: tuple[int, ...], p: Parameters, theta: Array, omega: Array, alpha: Array) -> Array:
-    """The error of an engine's accelerations by rounding [rad/s²], (S, n)."""
+def acceleration_error(
+    parents: tuple[int, ...], p: Parameters, theta: Array, omega: Array, alpha: Array, tolerance: float = 0.0
+) -> Array:
+    """The error of an engine's accelerations by rounding [rad/s²], (S, n).
+
+    ``tolerance``: of an implicit scheme's iterations, relative to the first residual or to n of the largest link's
+    torques, as :mod:`furiko.reference.rounding.iterations` has it; what they leave may be in any one row.
+    """
     zero = np.zeros_like(theta)
     scale = Measurement(parents, theta, omega, alpha, zero, np.ones(len(theta), dtype=bool)).tolerances(p)
+    if tolerance:
+        sizes = planar.magnitudes(parents, p, theta, omega, alpha)
+        first = np.linalg.norm(sizes, axis=-1)
+        scale = scale + tolerance * np.maximum(first, len(parents) * sizes.max(axis=-1))[:, None]
     inverse = np.linalg.inv(planar.mass_matrix(parents, p, theta))
     spread = scale.copy()
     for i, parent in enumerate(parents):

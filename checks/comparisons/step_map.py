@@ -6,9 +6,7 @@ order the engine's makers give theirs. The one that fits is named. An order that
 order; this does not: a wrong scheme misses by a power of step × fastest rate, 1e-9 and more, the right one by 1e-15.
 
 How far rounding takes them apart is bounded, not chosen: see :mod:`furiko.checks.step_rounding`, and for the sharp line
-sampled (:mod:`furiko.reference.rounding.stepped`). A scheme hands the
-accelerations' errors on to the rates times the step, to the angles times its square; that later stages start from
-earlier ones' errors multiplies them by at most exp(stages × step × fastest rate).
+sampled (:mod:`furiko.reference.rounding.stepped`, which has the bound's arithmetic of one step, too).
 
 The step is an eighth over the fastest rate at which links turn or nearby states part
 (:func:`furiko.reference.variation.fastest_rate`).
@@ -27,7 +25,7 @@ from numpy.typing import NDArray
 from ...engines import Integrator
 from ...records.check import Result
 from ...reference.integration.variation import fastest_rate
-from ...reference.rounding.bounds import EPSILON
+from ...reference.rounding.stepped import step_bound
 from .. import sharp
 from ..cell import Cell, quotient, worst
 from ..step_rounding import acceleration_error, conversion, disturbed, joints_apart, rate_of_positions, sharp_steps
@@ -198,13 +196,12 @@ def rounding_bounds(
     cell: Cell, integrator: Integrator, steps: Steps, candidate: Candidate, acceleration: Array
 ) -> Array:
     """How far rounding may take angles and rates apart, (2, B, 1), with accelerations off by so much, (B,)."""
-    scheme, h = candidate.scheme, steps.h
-    amplified = scheme.reach * math.exp(scheme.stages * SHORT)
+    h = steps.h
     size = np.abs(steps.omega) + h * np.abs(steps.alpha)
     turns = np.abs(steps.theta) + h * size
-    sums = EPSILON * (scheme.stages + 2)  # additions of a term for each stage, and the changes of coordinates
-    rates = h * amplified * acceleration + sums * conversion(cell, size)
-    angles = h * rates + sums * conversion(cell, turns)
+    angles, rates = step_bound(
+        candidate.scheme, h, SHORT / h, acceleration, conversion(cell, turns), conversion(cell, size)
+    )
     if candidate.coordinates == MAXIMAL:
         apart = joints_apart(cell, integrator, steps.theta)
         angles, rates = angles + apart, rates + rate_of_positions(h) * apart

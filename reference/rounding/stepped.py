@@ -4,10 +4,15 @@ Two things are moved at random, each by its own size: the accelerations, all alo
 spread (what an engine has of its mechanism's constants is off by the same in every step), and after every step angles
 and rates by the last digits of what they are in the engine's own coordinates. Everything else is the scheme itself, so
 that errors grow, or fade, as the motion makes them. The errors are magnified far above double precision's own.
+
+The worst that rounding can do in one step is bounded, not sampled: :func:`step_bound`. A scheme hands the
+accelerations' errors on to the rates times the step, to the angles times its square; that later stages start from
+earlier ones' errors multiplies them by at most exp(stages × step × fastest rate).
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,7 +22,7 @@ from numpy.typing import NDArray
 from ...models import DocumentSystem
 from ..integration.schemes import Scheme, run
 from ..kernels.forward_dynamics import plain_accelerations
-from .bounds import Amplitudes
+from .bounds import EPSILON, Amplitudes
 from .monte_carlo import ONE_ROUNDING
 from .norms import root_mean_square
 
@@ -91,3 +96,15 @@ def stepped(
     spread = root_mean_square(errors[:, :SAMPLES], 1)
     kept = root_mean_square(errors[:, SAMPLES:], 1) if left.any() else np.zeros_like(spread)
     return Ends(ends[:, 0], spread, kept)
+
+
+def step_bound(scheme: Scheme, h: float, fastest: float, off: Array, angles: Array, rates: Array) -> Array:
+    """How far rounding may take angles [rad] and rates [rad/s] from those of one step of ``h`` seconds, (2, …).
+
+    ``fastest`` [1/s]: the rate at which nearby states part; ``off``: the accelerations' error [rad/s²]; ``angles``
+    [rad], ``rates`` [rad/s]: the magnitudes that are added up to them, changes of coordinates included; (…) each.
+    """
+    amplified = scheme.reach * math.exp(scheme.stages * h * fastest)
+    sums = EPSILON * (scheme.stages + 2)  # additions of a term for each stage, and the changes of coordinates
+    of_rates = h * amplified * off + sums * rates
+    return np.stack([h * of_rates + sums * angles, of_rates])

@@ -11,7 +11,7 @@ from faults.engines import NAMES, OF_ENGINES, Unnormalised
 from faults.mechanisms import Shape, free, random_tree, with_link
 from faults.pairs import drawn
 from faults.readers import OF_READERS
-from faults.runs import OF_RUNS
+from faults.runs import OF_RUNS, runs_damped_by
 from score_causes import (
     PLACES,
     estimated,
@@ -113,6 +113,15 @@ def test_no_integrator_that_is_right_is_explained(name):
         engine = load_engine(name, system)
         for integrator in engine_info(name).integrators:
             assert explain_motion(engine, system, integrator) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(4))
+def test_damping_of_a_billionth_a_second_is_seen_in_a_step(seed):
+    """A step's bound is that of its own scheme: of about 100 roundings of an acceleration, and not of thousands."""
+    engine, wanted, integrator, _ = runs_damped_by(np.random.default_rng(seed), 2e-9)
+    assert {f.cause for f in explain_motion(engine, wanted, integrator)} <= {"damping", "constraint-dissipation"}
+    assert explain_motion(engine, wanted, integrator)
 
 
 @pytest.mark.slow

@@ -44,8 +44,12 @@ def runs_first_order(rng):
 
 
 def runs_damped(rng):
+    return runs_damped_by(rng, float(10 ** rng.uniform(-4, -1)))
+
+
+def runs_damped_by(rng, share):
+    """All rates lose this share of themselves in a second."""
     tree = chain_or_more(rng)
-    share = float(10 ** rng.uniform(-4, -1))
 
     def run(inner, theta, omega, name, step, steps):
         for _ in range(steps):
