@@ -32,6 +32,12 @@ def _no_motion(scene: AnyScene, info: EngineInfo) -> str:
     return _no_duration(scene, info)
 
 
+def _no_steps(scene: AnyScene, _info: EngineInfo) -> str:
+    if isinstance(scene, TreeScene) and {"ball", "free"} & scene.system.features:
+        return "steps are compared of trees of hinges and slides alone"
+    return ""
+
+
 def _no_derivatives(scene: AnyScene, info: EngineInfo) -> str:
     if not isinstance(scene, TreeScene):
         return "" if info.offers else "; ".join(dict.fromkeys(info.lacks.values())) or NOT_OFFERED
@@ -119,7 +125,8 @@ CHECKS = {
             module="step_map",
             meaning="One step of each of the engine's integrators is one step of a textbook scheme.",
             bound="rounding of the accelerations, handed on through one step",
-            trees="schemes are applied in extended precision to the documents' mechanisms alone",
+            trees=OfTrees("step_map", "trajectory"),
+            why_not=_no_steps,
         ),
         Check(
             name="trajectory",

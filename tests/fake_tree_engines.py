@@ -9,6 +9,38 @@ from furiko.engines import EngineInfo, Integrator, TreeInfo
 from furiko.engines.trees.mujoco import MujocoTree
 from furiko.reference.truth.spatial import energy, spatial_truth
 
+# A rod that turns about a tilted axis on a slide with spring and damper: everything a comparison looks at.
+SMALL = """
+[system]
+kind = "tree"
+gravity = [0.5, 0.0, -9.81]
+[[system.links]]
+name = "block"
+mass = 1.2
+[[system.links.joints]]
+name = "rail"
+kind = "slide"
+axis = [1.0, 0.2, 0.0]
+damping = 0.3
+stiffness = 4.0
+springref = 0.1
+[[system.links]]
+name = "rod"
+parent = "block"
+mass = 0.7
+centre = [0.1, 0.0, -0.4]
+inertia = [0.04, 0.05, 0.02]
+[[system.links.joints]]
+name = "pin"
+axis = [0.1, 1.0, 0.2]
+armature = 0.01
+damping = 0.02
+[state]
+q = { rail = 0.2, pin = 1.1 }
+v = { pin = -0.4 }
+duration = 0.5
+"""
+
 
 def about(name, **tree):
     return EngineInfo(

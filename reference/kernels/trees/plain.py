@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .formulas import PIVOT, SIGNS
 from .table import PIECES, Array, Table
@@ -16,7 +17,7 @@ BLOCK = 512  # states at a time: more would leave the processor's cache
 class Memory:
     """Rows of numbers, one a state."""
 
-    def __init__(self, rows: Array) -> None:
+    def __init__(self, rows: NDArray[Any]) -> None:
         self.rows = rows
 
     def read(self, place: int, first: int, count: int) -> list[Any]:
@@ -44,13 +45,23 @@ class Memory:
 class Numbers:
     """Numbers that are the same in every state."""
 
-    def __init__(self, numbers: Array) -> None:
+    def __init__(self, numbers: NDArray[Any]) -> None:
         self._numbers = numbers
 
-    def read(self, place: int, first: int, count: int) -> list[float]:
+    def read(self, place: int, first: int, count: int) -> list[Any]:
         """``count`` numbers from ``place + first`` on."""
-        found: list[float] = self._numbers[place + first : place + first + count].tolist()
+        found: list[Any] = self._numbers[place + first : place + first + count].tolist()
         return found
+
+
+def in_extended_precision(table: Table, q: NDArray[Any], v: NDArray[Any]) -> NDArray[Any]:
+    """The accelerations of states a row each, (B, nv), in the arithmetic of q and v.
+
+    The mechanism's numbers are rounded to double precision. Not finite where they mean nothing.
+    """
+    out = np.empty_like(v)
+    _block(table, q, v, None, out)
+    return out
 
 
 def run(table: Table, q: Array, v: Array, torque: Array | None, out: Array) -> tuple[float, float, float]:
@@ -64,14 +75,14 @@ def run(table: Table, q: Array, v: Array, torque: Array | None, out: Array) -> t
     return finite, largest, pivot
 
 
-def _block(table: Table, q: Array, v: Array, torque: Array | None, out: Array) -> Array:
-    rows = np.zeros((table.size, len(q)))
+def _block(table: Table, q: NDArray[Any], v: NDArray[Any], torque: Array | None, out: NDArray[Any]) -> NDArray[Any]:
+    rows = np.zeros((table.size, len(q)), dtype=q.dtype)
     rows[table.at_q : table.at_v], rows[table.at_v : table.at_torque] = q.T, v.T
     if torque is not None:
         rows[table.at_torque : table.signs] = torque.T
-    signs = rows[table.signs :][:SIGNS]
+    signs: NDArray[Any] = rows[table.signs :][:SIGNS]
     signs[PIVOT] = -np.inf
-    memory, numbers = Memory(rows), Numbers(table.numbers)
+    memory, numbers = Memory(rows), Numbers(table.numbers.astype(q.dtype, copy=False))
     with np.errstate(all="ignore"):  # what is wrong shows in the signs
         for number, *places in table.program.tolist():
             piece = PIECES[number]
