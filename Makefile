@@ -3,6 +3,8 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
 JOBS ?= 2
+# Slow tests wait for a third of their time: for processes of their own, and for time limits that these shall pass.
+SLOW_JOBS ?= 3
 
 .PHONY: check test test-slow test-all lint docs engines notebooks models architecture clean
 
@@ -13,7 +15,7 @@ test: $(VENV)/.test  ## run the tests, less the slow ones: some minutes
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m "not slow"
 
 test-slow: $(VENV)/.test  ## run the slow tests alone
-	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m slow
+	$(BIN)/python -m pytest -n $(SLOW_JOBS) --dist worksteal -m slow
 
 test-all: test test-slow  ## run every test
 
