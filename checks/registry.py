@@ -49,9 +49,11 @@ def _no_derivatives(scene: AnyScene, info: EngineInfo) -> str:
     return ""
 
 
-def _not_chaotic(scene: AnyScene, _info: EngineInfo) -> str:
+def _not_chaotic(scene: AnyScene, info: EngineInfo) -> str:
     if "chaotic" not in scene.tags:
         return "the scene is not tagged 'chaotic': its divergence time is not asked"
+    if isinstance(scene, TreeScene):
+        return _no_motion(scene, info)
     return "" if scene.starts else "the scene has no state for a trajectory to start from"
 
 
@@ -152,7 +154,7 @@ CHECKS = {
             module="horizon",
             meaning="Trajectories of a chaotic motion diverge when their errors predict it, and no earlier.",
             bound="the predicted divergence time, from local errors and the tangent flow",
-            trees="when motions of a tree part is not predicted",
+            trees=OfTrees("horizon", "trajectory"),
             why_not=_not_chaotic,
             long=True,
         ),

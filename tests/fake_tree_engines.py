@@ -41,6 +41,27 @@ v = { pin = -0.4 }
 duration = 0.5
 """
 
+# A block on a rail along x, alone: a = (−d v − k (q − r)) / m, so that each scheme's step can be written down.
+BLOCK = """
+[system]
+kind = "tree"
+gravity = [0.0, 0.0, 0.0]
+[[system.links]]
+name = "block"
+mass = 1.25
+[[system.links.joints]]
+name = "rail"
+kind = "slide"
+axis = [1.0, 0.0, 0.0]
+damping = 0.75
+stiffness = 5.0
+springref = 0.25
+[state]
+q = { rail = 0.5 }
+v = { rail = -1.0 }
+duration = 0.5
+"""
+
 
 def about(name, **tree):
     return EngineInfo(

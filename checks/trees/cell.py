@@ -83,6 +83,10 @@ class TreeCell:
         found = np.array(self.engine.trajectory(q, v, integrator.name, step, steps))
         return self.answer(integrator.name, found, (2, v.size))
 
+    def path(self, q: Array, v: Array, integrator: Integrator, step: float, steps: int) -> Array | None:
+        """No adapter of trees gives all states of a run."""
+        return None
+
     def answer(self, quantity: str, answer: object, shape: tuple[int, ...]) -> Array:
         """``answer`` as an array of this shape, or :class:`EngineFault` saying what is wrong with it."""
         return array_of(quantity, answer, shape, self.states.labels)

@@ -25,8 +25,7 @@ from numpy.typing import NDArray
 from ...engines import Integrator
 from ...records.check import Result
 from ...reference.integration.schemes import SCHEMES, Scheme
-from ...reference.kernels.trees.plain import in_extended_precision
-from ...reference.kernels.trees.table import table
+from ...reference.integration.tree_variation import accelerations, slopes
 from ...reference.rounding.bounds import EPSILON
 from ...reference.rounding.stepped import step_bound
 from ..cell import quotient, worst
@@ -39,7 +38,6 @@ NAME = "step map"
 
 STATES = 3  # random states in which a step is taken
 SHORT = 1 / 8  # step × fastest rate
-NUDGE = 2.0**-20  # [rad, m], and of rates: slopes by differences, in extended precision
 OWN = 2.0  # the engine's accelerations have rounding, and the numbers that these ones are computed from
 
 
@@ -94,34 +92,13 @@ def compare(cell: TreeCell) -> Iterator[Result]:
 def chosen_steps(cell: TreeCell) -> Steps:
     """The last of the cell's states (the random ones), and a step that is short for all of them."""
     q, v = cell.states.q[-STATES:], cell.states.v[-STATES:]
-    by_q, by_v = slopes(cell, q, v)
+    by_q, by_v = map(np.abs, slopes(cell.mechanism, q, v))
     parting = math.sqrt(float(np.abs(by_q).sum(-1).max())) + float(np.abs(by_v).sum(-1).max())
     turning = [abs(v[:, one.at_v]).max() for one in cell.mechanism.joints if one.joint.kind == "hinge"]
     fastest = max(parting, *map(float, turning), 0.0)
     # A power of two, so that halves and sums of steps are exact.
     h = 2.0 ** math.floor(math.log2(SHORT / fastest)) if fastest > 0 else SHORT
     return Steps(cell, h, q, v, by_q, by_v)
-
-
-def slopes(cell: TreeCell, q: Array, v: Array) -> tuple[Array, Array]:
-    """|∂a/∂q| and |∂a/∂v| in each state, (B, nv, nv), to some digits."""
-
-    start = np.stack([q, v]).astype(np.longdouble)
-    nudges = NUDGE * np.eye(2 * cell.mechanism.nv).reshape(-1, 2, 1, cell.mechanism.nv)
-    columns = [
-        (accelerations(cell, *(start + nudge)) - accelerations(cell, *(start - nudge))) / (2 * NUDGE)
-        for nudge in nudges
-    ]
-    by = np.abs(np.stack(columns, axis=-1)).astype(np.float64)
-    return by[..., : cell.mechanism.nv], by[..., cell.mechanism.nv :]
-
-
-def accelerations(cell: TreeCell, q: Wide, v: Wide) -> Wide:
-    """a of states (B, nv), in extended precision. Raises ArithmeticError where a state has none."""
-    found = in_extended_precision(table(cell.mechanism), q, v)
-    if not np.isfinite(found).all():
-        raise ArithmeticError("a step leads to a state without accelerations")
-    return found
 
 
 class Textbook:
@@ -138,7 +115,9 @@ class Textbook:
         if scheme.name not in self._ends:
             q, v = self._steps.q.astype(np.longdouble), self._steps.v.astype(np.longdouble)
             try:
-                ends = scheme.step(lambda *at: accelerations(self._steps.cell, *at), q, v, np.longdouble(self._steps.h))
+                ends = scheme.step(
+                    lambda *at: accelerations(self._steps.cell.mechanism, *at), q, v, np.longdouble(self._steps.h)
+                )
                 self._ends[scheme.name] = np.stack(ends)
             except ArithmeticError:
                 self._ends[scheme.name] = None

@@ -73,29 +73,38 @@ def decimal_states(
 ) -> tuple[list[list[str]], list[float]]:
     """Rows of θ and ω as decimals of quadruple precision, and the error estimate of each row."""
     extended = system.n > LARGEST_QUADRUPLE_N and np.finfo(np.longdouble).nmant >= 63
+    return integrated(_equations(system), [*theta, *omega], times, extended=extended)
+
+
+def integrated(
+    equations: list[tuple[Any, Any]], state: Sequence[float], times: Sequence[float], *, extended: bool = False
+) -> tuple[list[list[str]], list[float]]:
+    """States at ``times`` as rows of decimals, from ``state`` at the first, and the error estimate of each row.
+
+    ``equations``: heyoka's variables, each with the expression of its derivative; ``extended``: in long doubles.
+    """
     number, tolerances, bits = (
         (np.longdouble, EXTENDED_TOLERANCES, 63) if extended else (_heyoka().real128, TOLERANCES, 112)
     )
-    finer, coarser = (_run(system, theta, omega, times, tolerance, number) for tolerance in tolerances)
+    finer, coarser = (_run(equations, state, times, tolerance, number) for tolerance in tolerances)
     difference = np.abs(finer - coarser).max(-1).astype(np.float64)
     error = np.maximum(difference, 2.0**-bits * np.abs(finer).max(-1).astype(np.float64))
     return [[str(number) for number in row] for row in finer], error.tolist()
 
 
 def _run(
-    system: DocumentSystem,
-    theta: Sequence[float],
-    omega: Sequence[float],
-    times: Sequence[float],
-    tolerance: float,
-    number: Any,
+    equations: list[tuple[Any, Any]], state: Sequence[float], times: Sequence[float], tolerance: float, number: Any
 ) -> Array:
     """States in this kind of number, real128 or long double, shape (times, 2 n)."""
     hy = _heyoka()
-    state = [number(float(x)) for x in (*theta, *omega)]
     grid = [number(float(t)) for t in times]
     integrator = hy.taylor_adaptive(
-        _equations(system), state, time=grid[0], tol=number(tolerance), fp_type=number, compact_mode=True
+        equations,
+        [number(float(x)) for x in state],
+        time=grid[0],
+        tol=number(tolerance),
+        fp_type=number,
+        compact_mode=True,
     )
     outcome, *_, states = integrator.propagate_grid(grid)
     if outcome != hy.taylor_outcome.time_limit:

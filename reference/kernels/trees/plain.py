@@ -82,10 +82,14 @@ def _block(table: Table, q: NDArray[Any], v: NDArray[Any], torque: Array | None,
         rows[table.at_torque : table.signs] = torque.T
     signs: NDArray[Any] = rows[table.signs :][:SIGNS]
     signs[PIVOT] = -np.inf
-    memory, numbers = Memory(rows), Numbers(table.numbers.astype(q.dtype, copy=False))
     with np.errstate(all="ignore"):  # what is wrong shows in the signs
-        for number, *places in table.program.tolist():
-            piece = PIECES[number]
-            piece(memory, numbers, *places[: piece.__code__.co_argcount - 2])
+        follow(table, Memory(rows), Numbers(table.numbers.astype(q.dtype, copy=False)))
     out[...] = rows[table.at_torque : table.signs].T
     return signs
+
+
+def follow(table: Table, memory: Any, numbers: Any) -> None:
+    """Each piece of the program, on a memory like :class:`Memory` and numbers like :class:`Numbers`."""
+    for number, *places in table.program.tolist():
+        piece = PIECES[number]
+        piece(memory, numbers, *places[: piece.__code__.co_argcount - 2])

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from fake_integrators import Astray, Damped, Fake
 
+from furiko.checks import divergence
 from furiko.checks.comparisons import horizon
 from furiko.engines import Integrator
 from furiko.models import RodChain, find_scene
@@ -38,10 +39,10 @@ def integrator(cell, name):
 def test_divergence_times_of_the_prototype(make_cell, scene, engine, name, step, parts):
     cell = make_cell(engine, scene)
     found = horizon.horizon(cell, integrator(cell, name), step, 4.0 if parts < 4 else 10.0)
-    predicted, measured = found.crossing(horizon.APART)
+    predicted, measured = found.crossing(divergence.APART)
     assert measured == pytest.approx(parts, abs=0.001)
     assert predicted == pytest.approx(parts, abs=1.5 * step)
-    assert found.miss() <= horizon.EXPLAINED
+    assert found.miss() <= divergence.EXPLAINED
 
 
 @pytest.mark.slow
@@ -51,7 +52,7 @@ def test_divergence_times_of_the_prototype(make_cell, scene, engine, name, step,
 def test_schemes_with_a_memory_are_predicted_too(make_cell, engine, name):
     cell = make_cell(engine, "double-pendulum")
     found = horizon.horizon(cell, integrator(cell, name), 5e-3, 4.0)
-    predicted, measured = found.crossing(horizon.APART)
+    predicted, measured = found.crossing(divergence.APART)
     assert found.from_time < measured < math.inf
     assert abs(predicted / measured - 1) < 0.03
 
@@ -60,8 +61,8 @@ def test_schemes_with_a_memory_are_predicted_too(make_cell, engine, name):
 def test_a_run_that_parts_earlier_than_its_steps_explain_differs(make_cell, monkeypatch):
     monkeypatch.setattr(horizon, "STEPS", (5e-3,))
     monkeypatch.setattr(horizon, "LONGEST", 3.0)
-    monkeypatch.setattr(horizon, "APART", 1e-6)
-    monkeypatch.setattr(horizon, "NEAR", 1e-6)
+    monkeypatch.setattr(divergence, "APART", 1e-6)
+    monkeypatch.setattr(divergence, "NEAR", 1e-6)
     (sound,) = horizon.compare(make_cell(Fake, "double-pendulum"))
     assert sound.outcome == "agrees"
     assert "had to part" in sound.reason
@@ -88,17 +89,17 @@ def test_the_true_motion_is_held_against_the_kept_proof():
     scene = find_scene("double-pendulum")
     kept = proof(scene.system, scene.theta, scene.omega, scene.duration)
     truth = horizon.true_motion(scene.system, scene.theta, scene.omega, 1e-2, 2.0)
-    found = horizon.held(truth, kept)
+    found = divergence.held(truth, kept)
     assert found.times == (0.25, 0.5, 1.0, 2.0)
     assert found.off < 1e-25  # quadruple precision, and what two seconds make of its rounding
     truth.low[100, 0] += 1e-20
-    assert horizon.held(truth, kept).off == pytest.approx(1e-20, rel=1e-3)
+    assert divergence.held(truth, kept).off == pytest.approx(1e-20, rel=1e-3)
     truth.high[100, 0] += 1e-9
     with pytest.raises(ArithmeticError, match="beside the proved one"):
-        horizon.held(truth, kept)
+        divergence.held(truth, kept)
     short = horizon.true_motion(scene.system, scene.theta, scene.omega, 1e-2, 0.4)
-    assert horizon.held(short, kept).times == (0.25,)
-    assert horizon.held(short, None).times == ()
+    assert divergence.held(short, kept).times == (0.25,)
+    assert divergence.held(short, None).times == ()
 
 
 @pytest.mark.parametrize(("later", "agrees"), [(0.0, True), (0.1, True), (-1.0, False), (1.0, False)])
@@ -107,24 +108,24 @@ def test_a_run_that_parts_too_early_or_too_late_is_missed_by_so_much(later, agre
     times = np.linspace(0.0, 10.0, 1001)
     predicted, measured = (1e-3 * np.exp(2 * (times - at)) for at in (5.0, 5.0 + later))
     nothing = np.zeros((0, 1))
-    found = horizon.Horizon(None, 0.01, times, predicted, measured, nothing, 0.0, 0.5, nothing, nothing)
+    found = divergence.Horizon(None, 0.01, times, predicted, measured, nothing, 0.0, 0.5, nothing, nothing)
     known = math.log(1.05) / 2 + 1.5 * 0.01  # of a prediction to a twentieth, and a step and a half
     expected = max(0.0, abs(later) - known) / (5.0 + later)
     assert found.miss() == pytest.approx(expected, abs=0.01 / 4)  # of the grid of times
-    assert (found.miss() <= horizon.EXPLAINED) == agrees
+    assert (found.miss() <= divergence.EXPLAINED) == agrees
 
 
 def test_errors_are_carried_by_the_flow():
     # e₁ = d₁, e₂ = Φ e₁ + d₂: twice, and one more.
     flow = np.repeat(2 * np.eye(2)[None], 3, axis=0)
-    truth = horizon.TrueMotion(1.0, np.zeros((4, 2)), np.zeros((4, 2)), flow, None)
-    carried, sizes = horizon.carry(truth, iter([np.full(2, 0.01)] * 3))
+    truth = divergence.TrueMotion(1.0, np.zeros((4, 2)), np.zeros((4, 2)), flow, None)
+    carried, sizes = divergence.carry(truth, iter([np.full(2, 0.01)] * 3))
     np.testing.assert_allclose(carried[:, 0], [0, 0.01, 0.03, 0.07])
     np.testing.assert_allclose(sizes, 0.01)
 
 
 def test_what_has_outgrown_all_sense_counts_as_infinite():
-    assert horizon.largest_so_far(np.array([[0.1], [-0.3], [0.2], [np.nan]]), 5).tolist() == [
+    assert divergence.largest_so_far(np.array([[0.1], [-0.3], [0.2], [np.nan]]), 5).tolist() == [
         0.1,
         0.3,
         0.3,
@@ -141,11 +142,11 @@ def test_paths_of_an_adapter_without_any_are_made_step_by_step(make_cell):
             return angles[-1], rates[-1]
 
     cell, state = make_cell(Plain, "double-pendulum"), np.array([2.0, 2.5, 0.0, 0.0])
-    found = horizon.path(cell, cell.info.integrators[0], state, 1e-2, 5)
+    found = divergence.path(cell, cell.info.integrators[0], state, 1e-2, 5)
     expected = np.hstack(Fake(cell.scene.system).path(state[:2], state[2:], "RK4", 1e-2, 5))
     np.testing.assert_array_equal(found, expected)
     with pytest.raises(Exception, match="gives no paths"):
-        horizon.path(cell, Integrator("RK4", 4, remembers=True), state, 1e-2, 5)
+        divergence.path(cell, Integrator("RK4", 4, remembers=True), state, 1e-2, 5)
 
 
 def test_the_command_prints_a_table(capsys):
@@ -162,10 +163,10 @@ def test_a_motion_that_is_shown_begins_at_the_scene_and_ends_where_the_engine_do
     scene = find_scene("double-pendulum")
     cell = make_cell("mujoco", scene)
     found = horizon.horizon(cell, integrator(cell, "RK4"), 1e-2, 0.5)
-    shown = horizon.motion(found)
+    shown = divergence.motion(found)
     assert shown["theory"][0] == shown["engine"][0] == pytest.approx(list(scene.theta), abs=1e-4)
     assert (len(shown["times"]), shown["times"][-1]) == (51, 0.5)  # every step of a short motion
     assert np.abs(np.subtract(shown["theory"], shown["engine"])).max() < 1e-3  # they part at 3.83 s
     run = found.run.copy()
     run[20:] = math.inf
-    assert horizon.motion(replace(found, run=run))["times"][-1] == pytest.approx(0.19)
+    assert divergence.motion(replace(found, run=run))["times"][-1] == pytest.approx(0.19)

@@ -13,28 +13,7 @@ from furiko.engines.trees.mujoco import MujocoTree
 from furiko.models.scene import scene_from_toml
 from furiko.models.trees.states import tree_states
 
-SMALL = fake_tree_engines.SMALL
-
-# A block on a rail along x, alone: a = (−d v − k (q − r)) / m, so that each scheme's step can be written down.
-BLOCK = """
-[system]
-kind = "tree"
-gravity = [0.0, 0.0, 0.0]
-[[system.links]]
-name = "block"
-mass = 1.25
-[[system.links.joints]]
-name = "rail"
-kind = "slide"
-axis = [1.0, 0.0, 0.0]
-damping = 0.75
-stiffness = 5.0
-springref = 0.25
-[state]
-q = { rail = 0.5 }
-v = { rail = -1.0 }
-duration = 0.5
-"""
+SMALL, BLOCK = fake_tree_engines.SMALL, fake_tree_engines.BLOCK
 
 
 class Runs(fake_tree_engines.Right):
@@ -128,12 +107,6 @@ def test_steps_of_a_block_on_a_spring_are_those_written_down():
         assert np.abs(by_name[name] - expected).max() < 1e-17  # some roundings of extended precision
     # The fastest rate is √(k/m) + d/m = 2.6 1/s: an eighth of its time, as a power of two.
     assert h == 2.0**-5
-
-
-def test_slopes_of_a_block_on_a_spring():
-    by_q, by_v = step_map.slopes(cell(BLOCK), np.array([[0.5]]), np.array([[-1.0]]))
-    assert by_q == pytest.approx(np.full((1, 1, 1), 4.0), rel=1e-9)
-    assert by_v == pytest.approx(np.full((1, 1, 1), 0.6), rel=1e-9)
 
 
 @pytest.mark.slow
