@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from ..models import System
 from .mujoco import Mujoco, mujoco
-from .protocol import Array
+from .protocol import Array, BareCall
 from .quiet import silenced
 
 # Warp and MuJoCo Warp have no types that fit: Any, here and nowhere else.
@@ -78,6 +78,29 @@ class Worlds:
         """Kinetic and potential, (B, 2)."""
         return self._each(self._energies, q, v)[:, ::-1]
 
+    def bare(self, q: Array, v: Array) -> dict[str, BareCall]:
+        """Accelerations of these states, which are on the device already: launched one by one, and as one graph."""
+        data = mujoco_warp.make_data(self._host, nworld=len(q), nconmax=0, njmax=0)
+        data.qpos.assign(_single(q))
+        data.qvel.assign(_single(v))
+
+        def launched() -> None:
+            self._forward(data)
+            warp.synchronize()
+
+        calls = {"forward": BareCall(len(q), launched)}
+        if warp.get_device().is_cuda:
+            launched()  # kernels are compiled and loaded before they are recorded
+            with warp.ScopedCapture() as capture:
+                self._forward(data)
+
+            def replayed() -> None:
+                warp.capture_launch(capture.graph)
+                warp.synchronize()
+
+            calls["forward, as a CUDA graph"] = BareCall(len(q), replayed)
+        return calls
+
     def _forward(self, data: Any) -> Any:
         mujoco_warp.forward(self._model, data)
         return data
@@ -129,6 +152,10 @@ class MujocoWarp:
 
     def energy(self, theta: Array, omega: Array) -> Array:
         return self._worlds.energy(*self._relative(theta, omega))
+
+    def bare_calls(self, theta: Array, omega: Array, threads: int) -> dict[str, BareCall]:
+        """``mujoco_warp.forward``; on a CPU it has one thread."""
+        return self._worlds.bare(*self._relative(theta, omega))
 
     def _relative(self, *absolute: Array) -> list[Array]:
         return [self._coordinates.relative(rows) for rows in absolute]
