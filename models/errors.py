@@ -14,6 +14,8 @@ EXTRAS = {
     "exudyn": "exudyn",
     "drake": "drake",
     "dartpy": "dart",
+    "mujoco-mjx": "mjx",
+    "mujoco-warp": "mujoco-warp",
     "pybullet": "pybullet",
     "sympy": "sympy",
     "numba": "fast",

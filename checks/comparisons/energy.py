@@ -31,7 +31,7 @@ def compare(cell: Cell) -> Iterator[Result]:
     off = (got - expected).astype(np.float64)
     scale = energy_amplitudes(system.tree(), cell.amplitude, states.omega) * turns(states.theta)[:, None]
     found = worst(quotient(off, EPSILON * scale))
-    bound = allowed(system.n)
+    bound = allowed(system.n, cell.info.accuracy)
     state, part = found.index
     agrees = found.value <= bound
     word = ("kinetic", "potential")[part]

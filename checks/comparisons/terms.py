@@ -115,7 +115,7 @@ def _result(
     raised = turns(states.theta).reshape(-1, *[1] * (error.ndim - 1))
     quotients = quotient(error, EPSILON * raised * scale)
     found = worst(quotients)
-    bound = allowed(cell.scene.system.n)
+    bound = allowed(cell.scene.system.n, cell.info.accuracy)
     entry = f"{term}[{','.join(str(i + 1) for i in found.index[1:])}]"
     agrees = found.value <= bound
     reason = f"{SAYS[term][0]}: worst at {entry}"

@@ -67,11 +67,11 @@ def states(n: int, count: int = STATES, seed: int = 3) -> tuple[Array, Array]:
     return theta, omega
 
 
-def apart(got: Array, wanted: Array) -> float:
-    """The largest difference over the largest that is wanted; infinite where shapes differ."""
+def apart(got: Array, wanted: Array, least: float = 0.0) -> float:
+    """The largest difference over the largest that is wanted, or over ``least``; infinite where shapes differ."""
     if got.shape != wanted.shape:
         return np.inf
-    return float(np.abs(got - wanted).max(initial=0.0)) / max(float(np.abs(wanted).max(initial=0.0)), 1e-300)
+    return float(np.abs(got - wanted).max(initial=0.0)) / max(float(np.abs(wanted).max(initial=0.0)), least, 1e-300)
 
 
 def right(step: str, says: str, outcome: StepOutcome = "right", help: str = "") -> ConformanceStep:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ...engines import TreeQuantity
 from ...records.check import Result
+from ...reference.rounding.bounds import EPSILON
 from ...reference.rounding.spatial import FORCE_ROUNDINGS
 from .cell import TreeCell
 from .sharp import Usual, of_bias, of_mass_matrix
@@ -88,7 +89,8 @@ def _gravity(cell: TreeCell) -> tuple[Array, Array, Array]:
 
 def _passive(cell: TreeCell) -> tuple[Array, Array, Array]:
     """A sum of two products, or of a few more: a fixed number of roundings, however long the mechanism is."""
-    unit = np.array([units.passive for units in cell.magnitudes]) * (FORCE_ROUNDINGS / cell.roundings)[:, None]
+    roundings = FORCE_ROUNDINGS * cell.info.accuracy / EPSILON
+    unit = np.array([units.passive for units in cell.magnitudes]) * (roundings / cell.roundings)[:, None]
     return cell.engine.passive(cell.states.q, cell.states.v), cell.facts.passive, unit
 
 

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..info import EngineInfo
+from ..info import EngineInfo, TreeInfo
 
-_NO_RUNS = {"trajectory": "its adapter asks for dynamics alone, not for time steps"}
+_NO_RUNS: Any = {"trajectory": "its adapter asks for dynamics alone, not for time steps"}
 _NO_INVERSE: Any = {"inverse_mass": "it forms the mass matrix, and an inverse of it would be NumPy's"}
 _DRAKE: dict[str, Any] = {
     "module": "pydrake",
@@ -43,6 +43,15 @@ _SYMPY: dict[str, Any] = {
         "joint_forces": "neither method forms the forces in the joints",
     },
 }
+_COMPILED_BY_MUJOCO: dict[str, Any] = {
+    "least_mass": 1e-15,
+    "least_inertia": 1e-15,
+    "least_reason": "MuJoCo's compiler, which makes its model, puts 1e-15 in the place of anything less",
+}
+_NOT_COMPILED: Any = {
+    "massless link": "MuJoCo's compiler, which makes its model, refuses a moving link without mass",
+    "ball before a rotation": "MuJoCo's compiler, which makes its model, refuses a ball before another rotation",
+}
 _MJX: dict[str, Any] = {
     "module": "mujoco.mjx",
     "package": "mujoco-mjx",
@@ -60,11 +69,14 @@ _MJX: dict[str, Any] = {
         "joint_forces": "it forms no forces in hinges without sensors",
         "energy": "its energies are computed in steps alone",
     },
-    "largest_n": 5,
-    "largest_n_reason": "compiling one question takes seconds for five links and minutes beyond ten",
-    "least_mass": 1e-15,
-    "least_inertia": 1e-15,
-    "least_reason": "MuJoCo's compiler, which makes its model, puts 1e-15 in the place of anything less",
+    "largest_n": 100,
+    "largest_n_reason": "compiling one question takes 1 to 2 s a link",
+    **_COMPILED_BY_MUJOCO,
+}
+_NO_ENERGY: Any = {"energy": "its energies are computed in steps alone"}
+_WARP_LACKS: Any = {
+    "derivatives": "it differentiates no accelerations",
+    "inverse_mass": "it has a function for M⁻¹ times a vector, which accelerations test",
 }
 
 ON_REQUEST: dict[str, EngineInfo] = {
@@ -117,6 +129,13 @@ ON_REQUEST: dict[str, EngineInfo] = {
             lacks={
                 "inverse_mass": "it has a function for M⁻¹ times a vector, which derivatives and accelerations test"
             },
+            tree=TreeInfo(
+                "furiko.engines.trees.mjx:MjxTree",
+                _NO_RUNS | _NO_ENERGY,
+                _NOT_COMPILED,
+                offers=("derivatives",),
+                lacks={"inverse_mass": "it has a function for M⁻¹ times a vector, which accelerations test"},
+            ),
             **_MJX,
         ),
         EngineInfo(
@@ -126,7 +145,42 @@ ON_REQUEST: dict[str, EngineInfo] = {
             accuracy=2.0**-23,
             accuracy_reason="single precision, JAX's own: held to 2⁻²³ for one operation",
             lacks=dict.fromkeys(("derivatives", "inverse_mass"), "asked of mjx, in double precision"),
+            tree=TreeInfo(
+                "furiko.engines.trees.mjx:MjxSingleTree",
+                _NO_RUNS | _NO_ENERGY,
+                _NOT_COMPILED,
+                lacks=dict.fromkeys(("derivatives", "inverse_mass"), "asked of mjx, in double precision"),
+            ),
             **_MJX,
+        ),
+        EngineInfo(
+            name="mujoco-warp",
+            formulation="MuJoCo's equations in Warp, in batches, single precision; model from MJCF",
+            adapter="furiko.engines.mujoco_warp:MujocoWarp",
+            module="mujoco_warp",
+            package="mujoco-warp",
+            tested=("4.0.0",),
+            homepage="https://github.com/google-deepmind/mujoco_warp",
+            coordinates="relative",
+            inverse="crba",
+            moments="tree",
+            placed="parent",
+            interchanges=False,
+            algorithm="other",  # as MuJoCo, in single precision, with a factorisation of its own for small matrices
+            accuracy=2.0**-23,
+            accuracy_reason="single precision, the only one it has: held to 2⁻²³ for one operation",
+            missing=_NO_RUNS
+            | {
+                "fields": "its model is the one that MuJoCo compiles, whose fields are compared there",
+                "joint_forces": "it forms no forces in hinges without sensors",
+            },
+            lacks=_WARP_LACKS,
+            tree=TreeInfo(
+                "furiko.engines.trees.mujoco_warp:MujocoWarpTree", _NO_RUNS, _NOT_COMPILED, lacks=_WARP_LACKS
+            ),
+            largest_n=200,
+            largest_n_reason="longer chains were not tried",
+            **_COMPILED_BY_MUJOCO,
         ),
         EngineInfo(
             name="pybullet",

@@ -48,6 +48,38 @@ class MujocoTree:
         self._data = quiet_data(self._model)
         self._columns_q = _columns(at_q, [placed.joint.coordinates for placed in mechanism.joints])
         self._columns_v = _columns(at_v, [placed.joint.freedoms for placed in mechanism.joints])
+        ends = at_q + [placed.joint.coordinates for placed in mechanism.joints]
+        turning = [placed.joint.kind in {"ball", "free"} for placed in mechanism.joints]
+        self._quaternions = ends[turning] - 4
+
+    @property
+    def model(self) -> Any:
+        """The compiled model."""
+        return self._model
+
+    @property
+    def columns_v(self) -> Any:
+        """The model's column of each of the mechanism's freedoms, (nv,)."""
+        return self._columns_v
+
+    def theirs(self, q: Array, v: Array) -> tuple[Array, Array]:
+        """States (B, nq), (B, nv) in the model's columns."""
+        rates = np.empty_like(v)
+        rates[:, self._columns_v] = v
+        return self.positions(q), rates
+
+    def positions(self, q: Array) -> Array:
+        """Coordinates (B, nq) in the model's columns, quaternions of length one."""
+        positions = np.empty_like(q)
+        positions[:, self._columns_q] = q
+        for start in self._quaternions:
+            own = positions[:, start : start + 4]
+            own /= np.linalg.norm(own, axis=-1, keepdims=True)
+        return positions
+
+    def ours(self, answers: Array) -> Array:
+        """Answers (…, nv) in the mechanism's order."""
+        return answers[..., self._columns_v]
 
     def accelerations(self, q: Array, v: Array) -> Array:
         return self._bound.accelerations(q, v, np.zeros_like(v))

@@ -2,12 +2,16 @@
 
 import json
 import math
+from types import SimpleNamespace
 
+import fake_engines
 import pytest
 from broken_adapters import BROKEN, IN_A_PROCESS
 from click.testing import CliRunner
 
 from furiko.checks.conformance.kit import PARTS, engine_test, steps
+from furiko.checks.conformance.slopes import derivatives
+from furiko.checks.conformance.subject import MECHANISMS, Wrong
 from furiko.cli.main import cli
 from furiko.engines import ENGINES, elsewhere, engine_info, load_engine, plugin_names
 from furiko.models import InvalidInput, RodChain
@@ -120,3 +124,20 @@ def test_own_equations_are_refused_in_one_line():
     (found,) = steps("own equations")
     assert found.outcome == "wrong"
     assert "no engine of their own" in found.says
+
+
+def test_rounding_of_a_derivative_that_is_zero_is_no_mistake_of_an_adapter():
+    """∂θ̈/∂θ̇ of one rod: held beside the rod's natural rate, since there is no other number of its unit."""
+
+    class Rounds(fake_engines.Right):
+        more = 1e-20
+
+        def derivatives(self, theta, omega):
+            by_angles, by_rates = super().derivatives(theta, omega)
+            return by_angles, by_rates + self.more
+
+    engine = Rounds(MECHANISMS["one rod"])
+    assert derivatives(SimpleNamespace(engines={"one rod": engine})).outcome == "right"
+    engine.more = 1e-3
+    with pytest.raises(Wrong, match="by rates"):
+        derivatives(SimpleNamespace(engines={"one rod": engine}))

@@ -117,7 +117,7 @@ LAZY = {
     "models.trees.system": "arrays are made where they are asked for",
     "checks.jobs": "what trees need is imported where a tree is",
 }
-ENGINES = {"mujoco", "pinocchio", "exudyn", "pydrake", "dartpy", "pybullet", "jax"}
+ENGINES = {"mujoco", "pinocchio", "exudyn", "pydrake", "dartpy", "pybullet", "jax", "warp", "mujoco_warp"}
 
 
 def place(module):
