@@ -41,6 +41,7 @@ from ...reference import literal_accelerations
 from ...reference.integration.variation import growth, lyapunov_time, tangent_flow
 from ...reference.proved.kept import proof
 from ...reference.truth.quadruple import quadruple_trajectory
+from .. import divergence
 from ..cell import Cell
 from ..divergence import (
     APART,
@@ -59,7 +60,7 @@ from ..facts import scene_facts
 
 Array = NDArray[np.float64]
 
-__all__ = ["NAME", "compare", "horizon"]
+NAME = divergence.NAME
 
 
 def compare(cell: Cell) -> Iterator[Result]:
