@@ -29,6 +29,7 @@ ROOMS = {
                 "readers.rules",
                 "readers.placement",
                 "readers.folders",
+                "readers.named_folders",
             ),
             ("readers.mjcf",),
             ("readers.urdf",),
