@@ -235,9 +235,9 @@ def _loaded(path: Path, folders: Sequence[Path]) -> Any:
         return mujoco.MjModel.from_xml_path(str(path))
     spec = mujoco.MjSpec.from_file(str(path))
     contents: dict[str, bytes] = {}
-    for asset, found in _elsewhere(spec, path, NamedFolders([*folders, *packages])):
+    for asset, found in _elsewhere(spec, path, NamedFolders(path, [*folders, *packages])):
         asset.name = asset.name or PurePosixPath(asset.file).stem
-        asset.file = f"furiko_{len(contents)}{found.suffix}"
+        asset.file = f"{len(contents)}_{found.name}"
         contents[asset.file] = read_bytes(found, LARGEST_MESH)
     if not contents:
         return mujoco.MjModel.from_xml_path(str(path))

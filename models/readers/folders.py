@@ -37,7 +37,7 @@ class Folders:
     def __init__(self, path: Path, others: Sequence[Path] = ()) -> None:
         self.own = path.resolve().parent
         self._others = [other.resolve() for other in others]
-        self._below = NamedFolders(others)
+        self._below = NamedFolders(path, others)
         self._found: dict[str, Path] = {}  # the folders of files found so far, by what elements call these
 
     def find(self, element: Element, name: str, folder: str = "", what: str = "file") -> Path:

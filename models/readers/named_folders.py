@@ -15,14 +15,14 @@ LARGEST_COMPARED = 100_000_000  # bytes of a file that is held against another o
 
 
 class NamedFolders:
-    """The folders that the user named, in their order. What is below them is listed once, when it is first needed.
+    """The folders that the user named, in their order, for the document at ``path``.
 
-    Nothing outside a folder is found: links to folders are not followed, and a file that is a link must lead to
-    another one below the same folder.
+    What is below them is listed once, when it is first needed. Nothing outside a folder is found: links to folders are
+    not followed, and a file that is a link must lead to another one below the same folder.
     """
 
-    def __init__(self, folders: Sequence[Path] = ()) -> None:
-        self._folders = [_Below(folder) for folder in folders]
+    def __init__(self, path: Path, folders: Sequence[Path] = ()) -> None:
+        self._folders = [_Below(folder, path.resolve().parent) for folder in folders]
 
     def find(self, name: str) -> Path | None:
         """The file that ``name`` means, a path or ``package://NAME/…``; None where no folder has one called so.
@@ -55,10 +55,11 @@ def _parts(name: str) -> tuple[str, ...]:
 
 
 class _Below:
-    """One folder, and the files below it."""
+    """One folder, and the files below it; ``near``: the folder of the document."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, near: Path) -> None:
         self.path = folder.resolve()
+        self._near = near
 
     def has(self, path: Path) -> bool:
         return path.is_file() and path.resolve().is_relative_to(self.path)
@@ -85,8 +86,9 @@ class _Below:
         return found
 
     def one_of(self, found: list[Path], name: str) -> Path:
-        """Any of the files, if they are all alike. Raises :class:`InvalidInput`."""
-        first, *others = sorted(found)
+        """Any of the files that are nearest, if they are all alike. Raises :class:`InvalidInput`."""
+        shared = {path: len(os.path.commonpath([path, self._near])) for path in found}
+        first, *others = sorted(path for path in found if shared[path] == max(shared.values()))
         content = read_bytes(first, LARGEST_COMPARED) if others else b""
         for other in others:
             if read_bytes(other, LARGEST_COMPARED) != content:

@@ -22,7 +22,7 @@ class MeshFolders:
     def __init__(self, path: Path, others: Sequence[Path] = ()) -> None:
         self._path = path
         self._own = path.resolve().parent
-        self._others = NamedFolders(others)
+        self._others = NamedFolders(path, others)
 
     def find(self, element: Element, attribute: str = "filename") -> Path:
         """The file that ``element`` names. Raises :class:`InvalidInput` where it is not in any of these folders."""
