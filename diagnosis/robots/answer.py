@@ -58,6 +58,7 @@ class Question:
 # beside the other one if an engine makes that too.
 LOSING = (
     "include_not_followed",
+    "attach_ignored",
     "frame_ignored",
     "bare_bodies_lost",
     "late_sections_ignored",
