@@ -17,7 +17,7 @@ HELD = ("hinge", "slide")
 MOST_FREEDOMS = 200  # its solver is dense, and each state is one more start of it
 BUILT = RobotReader(
     "exudyn-tree",
-    "furiko.engines.model_files.robot_exudyn:ExudynRobot",
+    "furiko.engines.trees.robot_exudyn:ExudynRobot",
     "exudyn",
     "exudyn",
     languages=(),

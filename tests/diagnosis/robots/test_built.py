@@ -8,7 +8,7 @@ from compared_robots import states
 
 from furiko import diagnose
 from furiko.diagnosis.robots import built
-from furiko.engines.model_files.robot_exudyn import ExudynRobot
+from furiko.engines.trees.robot_exudyn import ExudynRobot
 from furiko.models.readers.model_file import read_model
 from furiko.reference.truth.spatial import spatial_truth
 
@@ -77,7 +77,7 @@ def test_an_engine_that_moves_it_otherwise_differs(saved, monkeypatch):
             heavier = replace(body.inertial, mass=body.inertial.mass * (1 + 1e-6))
             super().__init__(replace(mechanism, bodies=(*mechanism.bodies[:-1], replace(body, inertial=heavier))))
 
-    monkeypatch.setattr("furiko.engines.model_files.robot_exudyn.ExudynRobot", Heavier)
+    monkeypatch.setattr("furiko.engines.trees.robot_exudyn.ExudynRobot", Heavier)
     found = diagnose(saved(ARM.format("")), engines=["exudyn-tree"])
     assert found.engines["exudyn-tree"]["status"] == "differs"
     assert [finding.cause for finding in found.findings] == ["unexplained"]

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...models.spatial_mechanism import SpatialMechanism
 from ..protocol import Array
-from ..trees.exudyn import ExudynMechanism
+from .exudyn import ExudynMechanism
 
 
 class ExudynRobot:
