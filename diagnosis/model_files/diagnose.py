@@ -27,6 +27,7 @@ from ...models.spatial_mechanism import SpatialMechanism
 from ..finding import Finding
 from ..robots.answer import Question, listed, places_in
 from ..robots.answer import mechanism_to_json as spatial_to_json
+from ..robots.built import BUILT, why_not_built
 from ..robots.fields import field_differences
 from ..robots.simulation import servo_findings
 from ..robots.wording import field_findings
@@ -73,6 +74,8 @@ def diagnose(
     findings = [*of_file, *vote(file, results)]
     notes = [*file.notes, *_tilt_notes(file.planar), *_not_ideal_notes(file.planar, wanted)]
     notes += [note for result in results for note in result.notes]
+    if engines is None and file.planar is None and (why := why_not_built(file.spatial)):
+        notes.append(f"{BUILT.name} is not asked: {why}")
     return Diagnosis(
         model=file.path,
         verdict=verdict(findings, results, named=engines is not None),

@@ -16,6 +16,7 @@ from ...models.readers.hinged import hinged
 from ...models.readers.model_file import ModelFile
 from ..finding import Finding
 from ..robots.answer import Question, RobotAnswer, ask_robot
+from ..robots.built import BUILT, ask_built, why_not_built
 
 if TYPE_CHECKING:
     from .engine_answers import EngineAnswer
@@ -85,7 +86,9 @@ class EngineResult:
     @property
     def reads_itself(self) -> bool:
         """Whether the engine has a reader of the format."""
-        return self.own is not None or (self.planar is not None and self.planar.native)
+        if self.own is not None:
+            return self.own.native
+        return self.planar is not None and self.planar.native
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -130,7 +133,12 @@ def ask_engines(
     installed is left out unless the engines were ``named``.
     """
     planar = question.file.planar is not None
-    asked = {name: reader for name, reader in readers.items() if name in ROBOT_READERS or planar}
+    built = named or not why_not_built(question.file.spatial)
+    asked = {
+        name: reader
+        for name, reader in readers.items()
+        if name in ROBOT_READERS or planar or (name == BUILT.name and built)
+    }
     calls = {name: Call(ask_both, (name, reader, question)) for name, reader in asked.items()}
     there = [name for name, reader in asked.items() if isolated and _installed(name, reader)]
     answers = dict(zip(there, call_isolated([calls[name] for name in there], TIMEOUT), strict=True)) if there else {}
@@ -155,6 +163,8 @@ def ask_both(name: str, planar: Reader | None, question: Question) -> EngineResu
     reader, own, answer = ROBOT_READERS.get(name), None, None
     if reader is not None and question.file.language in reader.languages:
         own = ask_robot(reader, question)
+    if name == BUILT.name and question.file.planar is None:
+        own = ask_built(question)
     if planar is not None and question.file.planar is not None:
         from .engine_answers import ask  # and all hypotheses of the plane, which robots do not need
 

@@ -38,8 +38,8 @@ def _not_alike(mechanism: SpatialMechanism, out: Path) -> Iterator[str]:
     free = [link.name for link in roots if any(seen.joint.kind == "free" for seen in link.joints)]
     if out.suffix != ".urdf" and free and len(roots) > 1:
         yield (
-            f"Pinocchio reads only the first body of the world, and one that is free must be there: {listed(free)}; "
-            "ask it about each in a file of its own"
+            "what is free beside other bodies has three slides and a ball, since Pinocchio reads only the first body "
+            f"of the world: {listed(free)}; the rates are the same, and the slides are zero where the body is"
         )
     acting = ("armature", "damping", "friction")
     turning = [joint for body in mechanism.bodies for joint in body.joints if joint.kind in ("free", "ball")]

@@ -58,6 +58,7 @@ class Question:
 # beside the other one if an engine makes that too.
 LOSING = (
     "include_not_followed",
+    "attach_ignored",
     "frame_ignored",
     "bare_bodies_lost",
     "late_sections_ignored",
@@ -74,7 +75,7 @@ class RobotAnswer:
     ``status``: ``agrees``, ``differs``, ``missing``, ``refused`` or ``failed``; ``measured``: the engine's mass matrix,
     bias and accelerations against the truth of what it holds; ``left``: how many numbers differ that no known mistake
     explains; ``rounded``: the file's mechanism as the engine rounds it, if it does; ``without``: what it leaves out by
-    design; ``simulation``: what a simulation adds to the dynamics.
+    design; ``simulation``: what a simulation adds to the dynamics; ``native``: whether it reads the file itself.
     """
 
     name: str
@@ -88,6 +89,7 @@ class RobotAnswer:
     without: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     simulation: list[Finding] = field(default_factory=list)
+    native: bool = True
 
     @property
     def unexplained(self) -> bool:
@@ -96,7 +98,7 @@ class RobotAnswer:
 
     def to_json(self) -> dict[str, Any]:
         """The engine's entry in the JSON of ``furiko diagnose``."""
-        content: dict[str, Any] = {"status": self.status, "says": self.says, "reads the file itself": True}
+        content: dict[str, Any] = {"status": self.status, "says": self.says, "reads the file itself": self.native}
         if self.holds is not None:
             content["holds"] = mechanism_to_json(self.holds)
             content["measured"] = [one.to_json() for one in self.measured]
@@ -165,7 +167,7 @@ def _compared(reader: RobotReader, engine: RobotEngine, question: Question) -> R
         answer.holds = engine.compiled(question.file.spatial)
         bound = engine.bind(answer.holds)
     except (ValueError, RuntimeError, InvalidInput) as error:
-        return _failed(answer, error)
+        return failed(answer, error)
     named, left = _reading(reader, question, answer.holds)
     answer.left = len(left)
     answer.findings = [*named, *field_findings(reader.name, left, places_in(question.file.spatial))]
@@ -176,11 +178,11 @@ def _compared(reader: RobotReader, engine: RobotEngine, question: Question) -> R
         answer.measured = tuple(
             measured(bound, acting(answer.holds, reader.leaves_to_caller), factorised=reader.factorises)
         )
-        answer.findings += _computing(reader, bound, answer, places_in(question.file.spatial))
+        answer.findings += computing_findings(reader, bound, answer, places_in(question.file.spatial))
         if answer.measured and len(answer.measured) < ALL_MEASURED:
             answer.notes = (f"{reader.name}: a joint moves no mass: its accelerations are not determined",)
     except (ValueError, RuntimeError, InvalidInput, np.linalg.LinAlgError) as error:
-        return _failed(answer, error)
+        return failed(answer, error)
     kept = frames_kept(answer.holds, question.file.spatial, reader.same_frame)
     if kept:
         answer.rounded = rounded(answer.holds, question.file.spatial, reader.same_frame)
@@ -192,7 +194,7 @@ def _compared(reader: RobotReader, engine: RobotEngine, question: Question) -> R
     return answer
 
 
-def _failed(answer: RobotAnswer, error: Exception) -> RobotAnswer:
+def failed(answer: RobotAnswer, error: Exception) -> RobotAnswer:
     """What the engine's error leaves: what it holds otherwise than the file, if that is known, explains it."""
     message = " ".join(str(error).split())[:LONGEST_MESSAGE]
     if answer.findings:
@@ -243,7 +245,7 @@ def _reading(
     return named, explanation.left
 
 
-def _computing(reader: RobotReader, bound: BoundRobot, answer: RobotAnswer, places: Places) -> list[Finding]:
+def computing_findings(reader: RobotReader, bound: BoundRobot, answer: RobotAnswer, places: Places) -> list[Finding]:
     """Where the engine's numbers are not those of the mechanism that it holds."""
     beyond = worst(answer.measured)
     if beyond is None or answer.holds is None:

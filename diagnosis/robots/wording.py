@@ -43,6 +43,7 @@ INSTEAD: Mapping[str, str] = {
     "nested_class_inherits_nothing": "repeat the element in the nested class",
     "space_behind_number_rejected": "write the number without the space behind it",
     "frame_ignored": "write each body's own pose in place of <frame>, and the copies in place of <replicate>",
+    "attach_ignored": "write the bodies out in place of <attach>",
 }
 
 

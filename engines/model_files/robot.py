@@ -47,6 +47,7 @@ PINOCCHIO_MJCF = (
     "gravity_flag_ignored",
     "damping_dropped_on_free_and_ball",
     "springdamper_ignored",
+    "attach_ignored",
     "frame_ignored",
 )
 DRAKE_MJCF = (
@@ -54,6 +55,7 @@ DRAKE_MJCF = (
     "armature_needs_actuator",
     "nested_class_inherits_nothing",
     "damping_dropped_on_free",
+    "attach_ignored",
     "frame_ignored",
     "total_mass_ignored",
     "inertia_group_ignored",

@@ -19,11 +19,15 @@ from __future__ import annotations
 import copy
 from collections.abc import Iterator, Sequence
 from importlib import import_module
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 import numpy as np
 
+from ...models.readers.bounded_file import read_bytes
+from ...models.readers.folders import in_own_package
+from ...models.readers.meshes import LARGEST_MESH
+from ...models.readers.named_folders import NamedFolders
 from ...models.spatial import Inertial, from_quaternion
 from ...models.spatial_mechanism import Joint, RigidBody, SpatialMechanism
 from ..mujoco import SAME_FRAME, VERSION, quiet_data
@@ -32,7 +36,7 @@ from ..quiet import silenced
 from ..releases import has
 from .robot_coordinates import Block, EngineState, RobotCoordinates
 from .robot_joints import HeldJoint, match, named_alike, unique
-from .robot_meshes import find_in, own_packages
+from .robot_meshes import own_packages
 
 # MuJoCo's bindings have no type stubs that fit: Any, here and nowhere else.
 mujoco: Any = import_module("mujoco")
@@ -68,7 +72,7 @@ class MujocoRobot:
         # Otherwise MuJoCo writes a file MUJOCO_LOG.TXT into the current folder where a model is nearly singular.
         mujoco.set_mju_user_warning(lambda message: None)
         with silenced():
-            self.as_written = mujoco.MjModel.from_xml_path(str(path), elsewhere(path, folders))
+            self.as_written = _loaded(path, folders)
         self._model = copy.copy(self.as_written)
         if self._model.nflex:
             raise ValueError("the file has flexible bodies, whose forces MuJoCo cannot leave out")
@@ -220,19 +224,34 @@ def _inertial(model: Any, body: int) -> Inertial:
     return Inertial(float(model.body_mass[body]), centre, axes @ np.diag(model.body_inertia[body]) @ axes.T)
 
 
-def elsewhere(path: Path, folders: Sequence[Path]) -> dict[str, bytes] | None:
-    """The contents of meshes and the like that are not where the file says, but in one of ``folders``; by file name."""
-    folders = [*folders, *own_packages(path)]
-    if not folders:
-        return None
+def _loaded(path: Path, folders: Sequence[Path]) -> Any:
+    """The file's ``MjModel``; what is not where the file says is handed over in memory, each under a name of its own.
+
+    MuJoCo keeps what it is handed by the bare name: of two files ``base.stl`` in two folders it would take one for
+    both.
+    """
+    packages = own_packages(path)
+    if not packages and not folders:
+        return mujoco.MjModel.from_xml_path(str(path))
     spec = mujoco.MjSpec.from_file(str(path))
-    here = path.parent
-    found: dict[str, bytes] = {}
+    contents: dict[str, bytes] = {}
+    for asset, found in _elsewhere(spec, path, NamedFolders(path, [*folders, *packages])):
+        asset.name = asset.name or PurePosixPath(asset.file).stem
+        asset.file = f"{len(contents)}_{found.name}"
+        contents[asset.file] = read_bytes(found, LARGEST_MESH)
+    if not contents:
+        return mujoco.MjModel.from_xml_path(str(path))
+    spec.assets = contents
+    return spec.compile()
+
+
+def _elsewhere(spec: Any, path: Path, folders: NamedFolders) -> Iterator[tuple[Any, Path]]:
+    """The assets whose files are not where the file says, but in its package or one of the folders; where they are."""
     for kind, folder in (("meshes", spec.meshdir), ("hfields", spec.meshdir), ("textures", spec.texturedir)):
-        for wanted in (item.file for item in getattr(spec, kind) if item.file):
-            if (here / folder / wanted).is_file():
+        for asset in getattr(spec, kind):
+            name = asset.file.replace("\\", "/")
+            if not name or (path.parent / folder / name).is_file():
                 continue
-            there = find_in(folders, wanted)
-            if there is not None:
-                found[there.name] = there.read_bytes()
-    return found or None
+            found = in_own_package(path, name) or folders.find(name if "://" in name else f"{folder}/{name}")
+            if found is not None:
+                yield asset, found

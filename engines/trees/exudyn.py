@@ -45,10 +45,15 @@ class ExudynMechanism:
         self._at_rest.timeIntegration.generalizedAlpha.computeInitialAccelerations = False
 
     def accelerations(self, q: Array, v: Array) -> Array:
-        system, _ = self._whole
+        return self.driven(q, v, np.zeros_like(v))
+
+    def driven(self, q: Array, v: Array, torque: Array) -> Array:
+        """Accelerations (B, nv) under forces of the joints [N m or N], (B, nv)."""
+        system, tree = self._whole
         solver = exudyn.MainSolverImplicitSecondOrder()
         found = np.empty_like(v)
         for row in range(len(q)):
+            system.SetObjectParameter(tree, "jointForceVector", torque[row].tolist())
             _start_at(system, q[row] - self._ref, v[row])
             solver.InitializeSolver(system, self._settings)
             found[row] = system.systemData.GetODE2Coordinates_tt()

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     "--meshes",
     multiple=True,
     type=click.Path(path_type=Path, exists=True, file_okay=False),
-    help="A folder in which meshes and packages are looked for besides the model's own; may be repeated.",
+    help="A folder below which meshes are looked for besides the model's own; may be repeated.",
 )
 @click.option("--limits", is_flag=True, help="Count ranges of joints as differences.")
 @click.option(

@@ -117,6 +117,8 @@ def _model(language: str, file: Mjcf | Urdf, path: Path, rules: Rules, more: Map
     except InvalidInput as error:
         raise InvalidInput(_with_path(path, error)) from None
     try:
+        if isinstance(file, Mjcf) and file.attaches:
+            raise InvalidInput("parts of other documents are attached: engines get the file itself alone")
         planar = planar_mechanism(hinged(spatial.bodies), spatial.gravity)
     except InvalidInput as error:
         not_planar = _with_path(path, error)

@@ -23,11 +23,12 @@ def spatial_mjcf(mechanism: SpatialMechanism, model: str = "mechanism") -> str:
     that nothing touches. Bodies without joints and with a pose are put in one without a pose where Pinocchio would drop
     it; a body with several joints stands in one that has its pose, which Drake would apply at the last joint, and the
     first of them has no ref, which Pinocchio would ignore; a joint
+    free body beside others of the world has slides and a ball; a joint
     with armature has a motor, without which Drake would drop it. Raises :class:`InvalidInput` for inertials on which
     engines do not agree, and for more than 450 bodies one in the other.
     """
     if any(_free(body) for body in mechanism.bodies):
-        mechanism = _without_scenery(mechanism)
+        mechanism = _free_by_slides(_without_scenery(mechanism))
     root = ElementTree.Element("mujoco", model=model)
     compiler = ElementTree.SubElement(root, "compiler", angle="radian", balanceinertia="false", autolimits="false")
     ElementTree.SubElement(root, "option", gravity=row(mechanism.gravity))
@@ -75,6 +76,29 @@ def _without_scenery(mechanism: SpatialMechanism) -> SpatialMechanism:
         if stays
     ]
     return replace(mechanism, bodies=tuple(left))
+
+
+def _free_by_slides(mechanism: SpatialMechanism) -> SpatialMechanism:
+    """The mechanism, in which a body that is free beside others of the world has three slides along the world's axes
+    and a ball in place of its free joint.
+
+    Pinocchio reads only the first body of the world, and MJCF takes a free joint nowhere else. The rates are the same:
+    the velocity along the world's axes, the angular velocity in the body's. The slides are zero where the body is.
+    """
+    if sum(body.parent == WORLD for body in mechanism.bodies) < 2:
+        return mechanism
+    return replace(mechanism, bodies=tuple(_by_slides(body) if _free(body) else body for body in mechanism.bodies))
+
+
+def _by_slides(body: RigidBody) -> RigidBody:
+    (free,) = body.joints
+    along = body.pose.rotation  # whose rows are the world's axes, seen from the body
+    slides = [
+        replace(free, name=f"{free.name}_{letter}", kind="slide", axis=axis, anchor=np.zeros(3))
+        for letter, axis in zip("xyz", along, strict=True)
+    ]
+    ball = replace(free, name=f"{free.name}_turn", kind="ball", anchor=np.zeros(3))
+    return replace(body, joints=(*slides, ball))
 
 
 def _top(world: ElementTree.Element, mechanism: SpatialMechanism) -> ElementTree.Element:

@@ -29,6 +29,8 @@ ROOMS = {
                 "readers.rules",
                 "readers.placement",
                 "readers.folders",
+                "readers.named_folders",
+                "readers.shapes",
             ),
             ("readers.mjcf",),
             ("readers.urdf",),

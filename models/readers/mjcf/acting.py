@@ -14,26 +14,33 @@ TENDON_FORCES = ("stiffness", "damping", "frictionloss", "armature", "springleng
 
 
 def left_out(
-    root: Element,
+    roots: Sequence[tuple[Element, Defaults]],
     bodies: Sequence[RigidBody],
-    defaults: Defaults,
     options: Options,
     actuators: Actuators,
     colliding: int,
 ) -> list[str]:
-    """Short names of what acts and is left out. ``colliding``: how many geoms may touch others."""
+    """Short names of what acts and is left out. ``colliding``: how many geoms may touch others.
+
+    ``roots``: the document and those that are attached, with their default classes.
+    """
     constrained = "constraint" not in options.disabled
-    pairs = any(pair.tag == "pair" for section in root.all("contact") for pair in section.children)
+    contacts = [section for root, _ in roots for section in root.all("contact")]
+    pairs = any(pair.tag == "pair" for section in contacts for pair in section.children)
     joints = [joint for body in bodies for joint in body.joints]
     acts = {
         "contacts": constrained and "contact" not in options.disabled and (colliding > 1 or pairs),
         "joint limits": any(joint.limits is not None for joint in joints),
         "dry friction": any(joint.friction > 0 for joint in joints),
         "actuators": actuators.count > 0 and "actuation" not in options.disabled,
-        "equality constraints": constrained and "equality" not in options.disabled and _equality(root, defaults),
-        "tendons (springs, limits, armature)": _tendons(root, defaults),
+        "equality constraints": constrained
+        and "equality" not in options.disabled
+        and any(_equality(*one) for one in roots),
+        "tendons (springs, limits, armature)": any(_tendons(*one) for one in roots),
         "fluid forces (density, viscosity)": options.fluid,
-        "bodies that bend (flex)": any(True for section in root.all("deformable") for _ in section.all("flex")),
+        "bodies that bend (flex)": any(
+            s.first("flex") is not None for root, _ in roots for s in root.all("deformable")
+        ),
     }
     return [what for what, does in acts.items() if does]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Container, Iterable
 from dataclasses import dataclass, field
 
 from ..attributes import number, numbers
@@ -21,36 +21,44 @@ MOST_COEFFICIENTS = 20
 class Actuators:
     """What a document's actuators do.
 
-    ``servos``: names of actuators that pull at ctrl = 0, each with its joint (or tendon, site, body). By joint:
-    ``armature`` [kg m² or kg] and ``damping`` [N m s or N s/m], reflected through the gear, which MuJoCo adds to the
-    joint's own; ``driven``: joints with an actuator. ``count``: how many there are.
+    ``joints``: names of those that are there; ``servos``: names of actuators that pull at ctrl = 0, each with its joint
+    (or tendon, site, body). By joint: ``armature`` [kg m² or kg] and ``damping`` [N m s or N s/m], reflected through
+    the gear, which MuJoCo adds to the joint's own; ``driven``: joints with an actuator. ``count``: how many there are.
     """
 
-    defaults: Defaults
+    joints: Container[str]
     servos: list[tuple[str, str]] = field(default_factory=list)
     armature: dict[str, float] = field(default_factory=dict)
     damping: dict[str, float] = field(default_factory=dict)
     driven: set[str] = field(default_factory=set)
     count: int = 0
 
-    def read(self, sections: Iterable[Element]) -> None:
-        """Add the actuators of every ``<actuator>``. Raises :class:`InvalidInput`."""
+    def read(self, sections: Iterable[Element], defaults: Defaults, prefix: str | None = None) -> None:
+        """Add the actuators of every ``<actuator>``. Raises :class:`InvalidInput`.
+
+        ``prefix``: what goes before the names of a document that is attached: of its actuators those that drive a joint
+        which is there.
+        """
         for section in sections:
             for element in section.children:
                 if element.tag not in KINDS:
                     raise element.wrong(f"no kind of actuator that MJCF has; one of {', '.join(KINDS)}")
-                self._add(element)
+                self._add(element, defaults, prefix)
 
-    def _add(self, element: Element) -> None:
+    def _add(self, element: Element, defaults: Defaults, prefix: str | None) -> None:
+        joint = element.get("joint") or element.get("jointinparent")
+        before = prefix or ""
+        if prefix is not None and joint and before + joint not in self.joints:
+            return
         self.count += 1
-        chain = [at for at in self.defaults.chain(element) if at.tag in KINDS] + [element]
-        target = next((element.get(name) for name in TARGETS if element.get(name)), "")
-        name = element.get("name") or f"actuator {self.count}"
+        chain = [at for at in defaults.chain(element) if at.tag in KINDS] + [element]
+        target = before + next((element.get(name) for name in TARGETS if element.get(name)), "")
+        name = before + element.get("name") if element.get("name") else f"actuator {self.count}"
         if _pulls(chain):
             self.servos.append((name, target))
-        joint = element.get("joint") or element.get("jointinparent")
         if not joint:
             return
+        joint = before + joint
         self.driven.add(joint)
         gear, armature, damping = 1.0, 0.0, 0.0
         for at in chain:

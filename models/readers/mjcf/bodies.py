@@ -14,32 +14,34 @@ from ...spatial_mechanism import WORLD, Joint, RigidBody
 from ..attributes import number, word
 from ..placement import HERE, Placement
 from ..xml_file import Element
-from .defaults import Defaults, strip
+from .attach import Attached, Source
+from .defaults import strip
 from .frames import placement_of
 from .geoms import collides
 from .inertials import Inertials, PlacedGeom
 from .joints import read_joint, spring_damper
 from .notes import Notes
-from .options import Compiler, Options
+from .options import Options
 
-KEPT = ("geom", "inertial", "joint", "freejoint", "body", "frame")  # inside a body
+SEEN_THROUGH = ("frame", "attached")
+KEPT = ("geom", "inertial", "joint", "freejoint", "body", *SEEN_THROUGH)  # inside a body
 LEFT_OUT = ("site", "camera", "light")
 REFUSED = {
     "composite": "it stands for bodies and joints that only MuJoCo makes; write them out",
     "flexcomp": "a body that bends is not a tree of rigid bodies",
-    "attach": "write out the bodies of the model that it stands for",
 }
 
 
 @dataclass(frozen=True)
 class Place:
-    """An element of a body: ``element`` itself, the body or frame that holds it, where its frames are in the body, and
-    the class of what is inside that names none."""
+    """An element of a body: ``element`` itself, the body or frame that holds it, where its frames are in the body, the
+    class of what is inside that names none, and how its document is read."""
 
     element: Element
     holder: Element
     frame: Placement
     childclass: str
+    source: Source
 
 
 @dataclass(frozen=True)
@@ -50,6 +52,7 @@ class Pending:
     parent: int
     frame: Placement
     childclass: str
+    source: Source
     above: str
 
 
@@ -61,8 +64,7 @@ class Bodies:
     what acts on bodies and is left out; ``colliding``: how many geoms may touch others.
     """
 
-    compiler: Compiler
-    defaults: Defaults
+    source: Source
     options: Options
     inertials: Inertials
     notes: Notes
@@ -83,15 +85,16 @@ class Bodies:
         self._worlds += 1
         childclass = world.get("childclass", "main")
         pending: list[Pending] = []
-        for place in reversed(list(self._contents(world, childclass))):
+        for place in reversed(list(self._contents(world, childclass, self.source))):
             if place.element.tag in ("joint", "freejoint", "inertial"):
                 raise place.element.wrong("in the world, which does not move")
             if place.element.tag == "geom":
                 self._world_geom(place)
             elif place.element.tag == "body":
-                pending.append(Pending(place.element, WORLD, place.frame, place.childclass, ""))
-        if self.compiler.rules.first_root_only:
-            pending = pending[-1:] if not self._roots or self.compiler.rules.first_worldbody_again else []
+                pending.append(Pending(place.element, WORLD, place.frame, place.childclass, place.source, ""))
+        rules = self.source.compiler.rules
+        if rules.first_root_only:
+            pending = pending[-1:] if not self._roots or rules.first_worldbody_again else []
         self._roots += len(pending)
         while pending:
             pending.extend(reversed(self._body(pending.pop())))
@@ -107,16 +110,18 @@ class Bodies:
                     "align: the body's frame is turned to its principal axes, whose order and sense MJCF leaves open",
                 )
 
-    def _contents(self, element: Element, childclass: str) -> Iterator[Place]:
-        """What is in a body, in the document's order; frames are seen through. Strips what has no effect."""
-        pending = [Place(element, element, HERE, childclass)]
+    def _contents(self, element: Element, childclass: str, source: Source) -> Iterator[Place]:
+        """What is in a body, in the document's order; frames and what is attached are seen through. Strips what has no
+        effect."""
+        pending = [Place(element, element, HERE, childclass, source)]
         while pending:
             at = pending.pop()
             if at.element is not element:
-                if at.element.tag != "frame":
+                if at.element.tag not in SEEN_THROUGH:
                     yield at
                     continue
-                self.notes.unknown(at.element)
+                if at.element.tag == "frame":
+                    self.notes.unknown(at.element)
             holder = at.element
             for child in holder.children:
                 if child.tag in REFUSED:
@@ -126,20 +131,24 @@ class Bodies:
                 elif child.tag not in (*KEPT, *LEFT_OUT):
                     self.notes.strange(child)
             holder.children = [child for child in holder.children if child.tag in KEPT]
-            inside = []
-            for child in holder.children:
-                if child.tag == "frame":
-                    if self.compiler.rules.frame_ignored:
-                        continue
-                    inner = child.get("childclass", at.childclass)
-                    self.defaults.require(child, inner, "childclass")
-                    inside.append(Place(child, holder, at.frame @ placement_of(child, self.compiler), inner))
-                else:
-                    inside.append(Place(child, holder, at.frame, at.childclass))
+            inside = [place for child in holder.children if (place := self._inside(child, at)) is not None]
             pending.extend(reversed(inside))
 
+    def _inside(self, child: Element, at: Place) -> Place | None:
+        """A child of what is seen through; None where a reader does not see it."""
+        if isinstance(child, Attached):
+            return Place(child, at.element, at.frame, child.childclass, child.source)
+        if child.tag != "frame":
+            return Place(child, at.element, at.frame, at.childclass, at.source)
+        compiler, defaults = at.source.compiler, at.source.defaults
+        if compiler.rules.frame_ignored:
+            return None
+        childclass = child.get("childclass", at.childclass)
+        defaults.require(child, childclass, "childclass")
+        return Place(child, at.element, at.frame @ placement_of(child, compiler), childclass, at.source)
+
     def _world_geom(self, place: Place) -> None:
-        full = self.defaults.applied(place.element, place.childclass)
+        full = place.source.defaults.applied(place.element, place.childclass)
         self.colliding += collides(full)
         strip(place.element)
         if full.get("type", "sphere") in ("mesh", "hfield", "sdf") or full.get("mesh"):
@@ -147,14 +156,16 @@ class Bodies:
 
     def _body(self, at: Pending) -> list[Pending]:
         """Read one body; the bodies that it carries come back."""
-        element, rules = at.element, self.compiler.rules
+        element, rules = at.element, at.source.compiler.rules
         self.notes.unknown(element)
         childclass = element.get("childclass", at.childclass)
-        self.defaults.require(element, childclass, "childclass")
-        inside = list(self._contents(element, childclass))
+        at.source.defaults.require(element, childclass, "childclass")
+        inside = list(self._contents(element, childclass, at.source))
         children = [place for place in inside if place.element.tag == "body"]
         if rules.bare_bodies_lost and not element.attributes:
-            return [Pending(place.element, WORLD, place.frame, place.childclass, "") for place in children]
+            return [
+                Pending(place.element, WORLD, place.frame, place.childclass, place.source, "") for place in children
+            ]
         called = element.get("name") or f"{at.above}Bis"
         index = first = self._add(at, inside, childclass)
         known = self._first.setdefault(called, index)
@@ -164,21 +175,25 @@ class Bodies:
             self._once[index] = self.bodies[index].inertial
         else:
             self._read_again(first, index)
-        return [Pending(place.element, first, place.frame, place.childclass, called) for place in children]
+        return [
+            Pending(place.element, first, place.frame, place.childclass, place.source, called) for place in children
+        ]
 
     def _add(self, at: Pending, inside: list[Place], childclass: str) -> int:
-        element, rules = at.element, self.compiler.rules
+        element, compiler = at.element, at.source.compiler
+        rules = compiler.rules
         name = self._named(element, "body")
         if len(self.bodies) >= MOST_BODIES:
             raise element.wrong(f"more than {MOST_BODIES} bodies")
-        placement = placement_of(element, self.compiler)
+        placement = placement_of(element, compiler)
         joints = [self._joint(place, at.parent) for place in inside if place.element.tag in ("joint", "freejoint")]
         self._acts_on(element, at.parent, bool(joints))
-        given = next(((place.element, place.frame) for place in inside if place.element.tag == "inertial"), None)
+        inertials = (place for place in inside if place.element.tag == "inertial")
+        given = next(((place.element, place.frame, place.source) for place in inertials), None)
         if given is not None:
             self.notes.unknown(given[0])
         geoms = self._geoms(inside)
-        inertial = self.inertials.of_body(name, placement.position, given, geoms)
+        inertial = self.inertials.of_body(name, placement.position, compiler, given, geoms)
         self._strip(geoms)
         placement = at.frame @ placement
         if rules.pose_of_first_fixed_body_dropped and not self.bodies and not joints:
@@ -218,9 +233,9 @@ class Bodies:
         found = []
         for place in inside:
             if place.element.tag == "geom":
-                full = self.defaults.applied(place.element, place.childclass)
+                full = place.source.defaults.applied(place.element, place.childclass)
                 self.colliding += collides(full)
-                found.append(PlacedGeom(place.element, full, place.frame, place.holder))
+                found.append(PlacedGeom(place.element, full, place.frame, place.holder, place.source))
         return found
 
     def _strip(self, geoms: list[PlacedGeom]) -> None:
@@ -234,7 +249,7 @@ class Bodies:
         """The element's name, given one where it has none, so that engines can be asked for it."""
         taken = self._names.setdefault(kind, set())
         name = element.get("name") or f"furiko_{kind}_{len(taken) + 1}"
-        if name in taken and self.compiler.rules.first_worldbody_again:
+        if name in taken and self.source.compiler.rules.first_worldbody_again:
             name = next(again for k in count(2) if (again := f"{name} ({k})") not in taken)  # as engines show it
             taken.add(name)
             return name
@@ -248,9 +263,10 @@ class Bodies:
     def _joint(self, place: Place, parent: int) -> Joint:
         given = place.element
         self.notes.unknown(given)
-        full = given if given.tag == "freejoint" else self.defaults.applied(given, place.childclass)
+        compiler, defaults = place.source.compiler, place.source.defaults
+        full = given if given.tag == "freejoint" else defaults.applied(given, place.childclass)
         name = self._named(given, "joint")
-        joint = replace(read_joint(full, given, place.frame, self.compiler, self.options), name=name)
+        joint = replace(read_joint(full, given, place.frame, compiler, self.options), name=name)
         if joint.kind == "free" and parent != WORLD:
             raise given.wrong("a free joint on a body that another one carries")
         self.elements[name] = given
@@ -259,7 +275,7 @@ class Bodies:
             self.springs[name] = found
         if joint.kind == "free":
             aligned = word(given, "align", ("true", "false", "auto"), "auto")
-            if aligned == "true" or (aligned == "auto" and self.compiler.align_free):
+            if aligned == "true" or (aligned == "auto" and compiler.align_free):
                 self._aligned.append((len(self.bodies), given))
         return joint
 

@@ -9,19 +9,16 @@ from pathlib import Path
 from ...spatial import Inertial
 from ...spatial_mechanism import RigidBody
 from ..attributes import Array
-from ..folders import Folders
 from ..rules import MjcfRules
 from ..xml_file import Element
 from .acting import left_out
 from .actuators import Actuators
-from .assets import Assets
+from .attach import read_document
 from .bodies import Bodies
 from .defaults import Defaults
-from .includes import with_includes, without_includes
 from .inertials import Inertials, scaled_to_total_mass
 from .notes import Notes
-from .options import Compiler, read_options
-from .replicate import write_out_copies
+from .options import read_options
 from .spring_dampers import with_spring_dampers
 
 KEPT = ("compiler", "option", "default", "worldbody", "contact")  # what engines are given
@@ -34,8 +31,8 @@ class Mjcf:
     """An MJCF document as furiko understands it.
 
     ``root``: the elements that engines are given, without what acts besides bodies and joints; ``bodies``: parents
-    first; ``gravity`` (3,) [m/s²] in the world; ``timestep`` [s]. The rest as
-    :class:`furiko.models.readers.model_file.ModelFile` has it.
+    first; ``gravity`` (3,) [m/s²] in the world; ``timestep`` [s]; ``attaches``: whether it has parts of others. The
+    rest as :class:`furiko.models.readers.model_file.ModelFile` has it.
     """
 
     root: Element
@@ -49,6 +46,7 @@ class Mjcf:
     from_geoms: list[str]
     geoms: Mapping[str, Inertial]
     tensors: Mapping[str, tuple[Inertial, Array]]
+    attaches: bool = False
 
 
 def read_mjcf(root: Element, path: Path, rules: MjcfRules | None = None, others: Sequence[Path] = ()) -> Mjcf:
@@ -58,36 +56,31 @@ def read_mjcf(root: Element, path: Path, rules: MjcfRules | None = None, others:
     from. Raises :class:`InvalidInput`.
     """
     rules = MjcfRules() if rules is None else rules
-    folders, notes = Folders(path, others), Notes()
-    root = without_includes(root) if rules.include_not_followed else with_includes(root, path, folders)
+    notes = Notes()
+    document = read_document(root, path, rules, others)
+    root, source = document.root, document.source
     kept = Element("mujoco", dict(root.attributes), str(path), root.line)
     kept.children = [element for element in root.children if element.tag in KEPT]
     for element in root.children:
         if element.tag not in (*KEPT, *READ, *OF_NO_EFFECT):
             notes.strange(element)
-    compiler, defaults = Compiler(rules), Defaults(rules)
-    for element in _sections(root, "compiler", rules):
-        compiler.read(element)
-    for element in _sections(root, "default", rules):
-        defaults.read(element)
     options = read_options(root.all("option"), rules)
-    assets = Assets(compiler, defaults, folders)
-    assets.read(root.all("asset"))
-    inertials = Inertials(compiler, assets, notes)
-    bodies = Bodies(compiler, defaults, options, inertials, notes)
+    inertials = Inertials(notes)
+    bodies = Bodies(source, options, inertials, notes)
     worlds = list(root.all("worldbody"))
-    for world in worlds:
-        write_out_copies(world, compiler)
     for world in worlds:
         bodies.read(worlds[0] if rules.first_worldbody_again else world)
     bodies.finish()
-    actuators = Actuators(defaults)
-    actuators.read(root.all("actuator"))
-    read = scaled_to_total_mass(_with_actuators(bodies.bodies, actuators, rules, notes), compiler)
-    read = _with_springs(read, bodies, root, rules)
+    actuators = Actuators({joint.name for body in bodies.bodies for joint in body.joints})
+    actuators.read(root.all("actuator"), source.defaults)
+    for beside in document.beside:
+        actuators.read(beside.root.all("actuator"), beside.source.defaults, beside.prefix)
+    read = scaled_to_total_mass(_with_actuators(bodies.bodies, actuators, rules, notes), source.compiler)
+    roots = [(root, source.defaults), *((beside.root, beside.source.defaults) for beside in document.beside)]
+    read = _with_springs(read, bodies, roots, rules)
     _write_joints(read, bodies, actuators)
     _clean_contacts(kept, {body.name for body in read})
-    acting = left_out(root, read, defaults, options, actuators, bodies.colliding)
+    acting = left_out(roots, read, options, actuators, bodies.colliding)
     return Mjcf(
         root=kept,
         bodies=read,
@@ -100,17 +93,8 @@ def read_mjcf(root: Element, path: Path, rules: MjcfRules | None = None, others:
         from_geoms=inertials.from_geoms,
         geoms=inertials.geoms,
         tensors=inertials.tensors,
+        attaches=bool(document.beside),
     )
-
-
-def _sections(root: Element, tag: str, rules: MjcfRules) -> list[Element]:
-    """The document's sections called ``tag``; fewer where a mistaken reader misses some."""
-    found, after = [], False
-    for element in root.children:
-        after = after or element.tag == "worldbody"
-        if element.tag == tag and not (after and rules.late_sections_ignored):
-            found.append(element)
-    return found[:1] if rules.later_sections_ignored else found
 
 
 def _with_actuators(
@@ -133,15 +117,20 @@ def _with_actuators(
 
 
 def _with_springs(
-    read: tuple[RigidBody, ...], bodies: Bodies, root: Element, rules: MjcfRules
+    read: tuple[RigidBody, ...], bodies: Bodies, roots: Sequence[tuple[Element, Defaults]], rules: MjcfRules
 ) -> tuple[RigidBody, ...]:
     """The bodies with the springs that ``springdamper`` gives them."""
     if not bodies.springs or rules.springs_not_held or rules.springdamper_ignored:
         return read
-    tendon = next((t for section in root.all("tendon") for t in section.children if "armature" in t.attributes), None)
+    tendon = _with_armature(roots)
     if tendon is not None:
         raise tendon.wrong("armature: joints with springdamper would feel it, and it is not modelled")
     return with_spring_dampers(read, bodies.springs)
+
+
+def _with_armature(roots: Sequence[tuple[Element, Defaults]]) -> Element | None:
+    tendons = (tendon for root, _ in roots for section in root.all("tendon") for tendon in section.children)
+    return next((tendon for tendon in tendons if "armature" in tendon.attributes), None)
 
 
 def _write_joints(read: Sequence[RigidBody], bodies: Bodies, actuators: Actuators) -> None:

@@ -9,11 +9,11 @@ import numpy as np
 from ...spatial import Inertial, to_quaternion
 from ..attributes import Array, not_negative, number, numbers, word, yes
 from ..placement import Placement, to_z_axis
+from ..shapes import SIZES, shell, solid
 from ..xml_file import Element
 from .assets import Assets
 from .frames import placed, placement_of
 from .options import Compiler
-from .shapes import SIZES, shell, solid
 
 DENSITY = 1000.0  # kg/m³, MJCF's default
 SMALLEST, LARGEST = 1e-30, 1e9  # m; beyond, volumes are nothing or infinite

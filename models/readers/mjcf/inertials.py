@@ -13,7 +13,7 @@ from ...spatial_mechanism import RigidBody
 from ..attributes import Array, not_negative, numbers
 from ..placement import Placement
 from ..xml_file import Element
-from .assets import Assets
+from .attach import Source
 from .defaults import REFERENCES
 from .frames import ROTATIONS, placement_of
 from .geoms import FROM_FILES, geom_inertial, weighs
@@ -28,13 +28,14 @@ IMPOSSIBLE = 1e-9  # of the largest moment: by so much the sum of the others may
 class PlacedGeom:
     """A geom as it is written, the same with its defaults (``full``), and where its ``frame`` is in the body.
 
-    ``holder``: the body or frame that it is a child of.
+    ``holder``: the body or frame that it is a child of; ``source``: how its document is read.
     """
 
     given: Element
     full: Element
     frame: Placement
     holder: Element
+    source: Source
 
     @property
     def from_file(self) -> bool:
@@ -51,8 +52,6 @@ class Inertials:
     moments [kg m²] of the meshes that it is weighed by, added up.
     """
 
-    compiler: Compiler
-    assets: Assets
     notes: Notes
     from_geoms: list[str] = field(default_factory=list)
     geoms: dict[str, Inertial] = field(default_factory=dict)
@@ -63,20 +62,24 @@ class Inertials:
         self,
         name: str,
         position: Array,
-        given: tuple[Element, Placement] | None,
+        compiler: Compiler,
+        given: tuple[Element, Placement, Source] | None,
         geoms: Sequence[PlacedGeom],
     ) -> Inertial:
-        """The inertial of the body ``name`` at ``position`` in its own frame. Raises :class:`InvalidInput`."""
-        compiler = self.compiler
+        """The inertial of the body ``name`` at ``position`` in its own frame. Raises :class:`InvalidInput`.
+
+        ``compiler``: that of the body's document; its geoms and ``given``, with the frame that it is in and how it is
+        read, may be of others.
+        """
         from_geoms = compiler.from_geoms == "true" or (compiler.from_geoms == "auto" and given is None)
-        of_geoms = self._of_geoms(name, geoms, from_geoms)
+        of_geoms = self._of_geoms(name, geoms, from_geoms, compiler.groups)
         if of_geoms is not None:
             self.geoms[name] = of_geoms
         if from_geoms:
             self.from_geoms.append(name)
-            found = of_geoms or self._weightless(name, position)
+            found = of_geoms or self._weightless(name, position, compiler)
         else:
-            found = self._given(*given, name) if given is not None else self._weightless(name, position)
+            found = self._weightless(name, position, compiler) if given is None else self._given(*given, name)
         if not found.tensor.any() and 0 < compiler.least_inertia <= POINT_MASS_BOUND:
             self.notes.add(
                 f"boundinertia={compiler.least_inertia:g} is ignored: it is there to let MuJoCo compile a point mass"
@@ -92,8 +95,8 @@ class Inertials:
             )
         return bounded
 
-    def _weightless(self, name: str, position: Array) -> Inertial:
-        if self.compiler.least_mass > 0 and position.any():
+    def _weightless(self, name: str, position: Array, compiler: Compiler) -> Inertial:
+        if compiler.least_mass > 0 and position.any():
             self.notes.add(
                 f"body {name!r} weighs nothing; the mass that boundmass gives it is not at its own origin in MuJoCo, "
                 "but at the body's pos once more, seen from there"
@@ -101,36 +104,39 @@ class Inertials:
             return Inertial(0.0, position, np.zeros((3, 3)))
         return ZERO_INERTIAL
 
-    def _given(self, given: Element, frame: Placement, name: str) -> Inertial:
+    def _given(self, given: Element, frame: Placement, source: Source, name: str) -> Inertial:
+        compiler = source.compiler
         if "pos" not in given.attributes or "mass" not in given.attributes:
             raise given.wrong("pos and mass are needed")
-        pose = placement_of(given, self.compiler).pose
+        pose = placement_of(given, compiler).pose
         mass = not_negative(given, "mass")
         if "fullinertia" in given.attributes:
             tensor = symmetric(*numbers(given, "fullinertia", 6))
             if any(rotation in given.attributes for rotation in ROTATIONS):
                 raise given.wrong("fullinertia and an orientation: only one of them can be given")
-            if np.linalg.eigvalsh(tensor)[0] < -1e-12 * abs(np.trace(tensor)) and not self.compiler.least_inertia:
+            if np.linalg.eigvalsh(tensor)[0] < -1e-12 * abs(np.trace(tensor)) and not compiler.least_inertia:
                 raise given.wrong("fullinertia: no body has an inertia with a negative principal moment")
         else:
-            unit = self.compiler.rules.inertial_without_inertia_is_unit
+            unit = compiler.rules.inertial_without_inertia_is_unit
             moments = numbers(given, "diaginertia", 3, (1.0, 1.0, 1.0) if unit else (0.0, 0.0, 0.0))
             if (moments < 0).any():
                 raise given.wrong(f"diaginertia={given.get('diaginertia')!r}: must not be negative")
             tensor = np.diag(moments)
-        if self.compiler.rules.bound_inertia_on_given_axes:
-            mass = max(mass, self.compiler.least_mass)
-            tensor = tensor + np.diag(np.maximum(self.compiler.least_inertia - np.diag(tensor), 0.0))
+        if compiler.rules.bound_inertia_on_given_axes:
+            mass = max(mass, compiler.least_mass)
+            tensor = tensor + np.diag(np.maximum(compiler.least_inertia - np.diag(tensor), 0.0))
         self.tensors[name] = (Inertial(mass, pose.translation, tensor), pose.rotation)
         return Inertial(mass, np.zeros(3), tensor).transformed(pose).transformed(frame.pose)
 
-    def _of_geoms(self, name: str, geoms: Sequence[PlacedGeom], needed: bool) -> Inertial | None:
+    def _of_geoms(
+        self, name: str, geoms: Sequence[PlacedGeom], needed: bool, groups: tuple[int, int]
+    ) -> Inertial | None:
         """The inertial of all the body's geoms together; None where they have no mass.
 
         Shapes in other files are loaded only where the inertial is ``needed``.
         """
         total: Inertial | None = None
-        low, high = self.compiler.groups
+        low, high = groups
         for geom in geoms:
             if geom.from_file and not needed:
                 continue
@@ -145,7 +151,7 @@ class Inertials:
 
     def _of_geom(self, geom: PlacedGeom, needed: bool) -> Inertial | None:
         try:
-            part = geom_inertial(geom.full, self.compiler, self.assets)
+            part = geom_inertial(geom.full, geom.source.compiler, geom.source.assets)
         except InvalidInput:
             if needed:
                 raise

@@ -21,7 +21,8 @@ class Compiler:
     joint limited; ``from_geoms``: ``inertiafromgeom``; ``groups``: first and last group of geoms that have mass;
     ``least_mass`` [kg], ``least_inertia`` [kg m²]: lower bounds; ``balance``: ``balanceinertia``; ``total_mass`` [kg]:
     the mass of all bodies together, if positive; ``mesh_folder``, ``strip_path``: where meshes are; ``align_free``:
-    ``alignfree``; ``fit_box``: ``fitaabb``. ``rules``: mistakes that are made on purpose.
+    ``alignfree``; ``fit_box``: ``fitaabb``; ``merges``: options of attached documents are
+    merged (``conflict``). ``rules``: mistakes that are made on purpose.
     """
 
     rules: MjcfRules = field(default_factory=MjcfRules)
@@ -38,6 +39,7 @@ class Compiler:
     strip_path: bool = False
     align_free: bool = False
     fit_box: bool = False
+    merges: bool = False
 
     def angle(self, value: float) -> float:
         """An angle of the document in radians."""
@@ -63,6 +65,7 @@ class Compiler:
         self.strip_path = yes(element, "strippath", self.strip_path)
         self.align_free = yes(element, "alignfree", self.align_free)
         self.fit_box = yes(element, "fitaabb", self.fit_box)
+        self.merges = element.get("conflict", "merge" if self.merges else "warning") == "merge"
         for name in ("meshdir", "texturedir", "assetdir", "strippath"):
             element.attributes.pop(name, None)  # nothing is loaded from there
         element.children.clear()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..attributes import number, numbers
@@ -61,15 +63,14 @@ def _turned(quaternion: np.ndarray, offset: np.ndarray) -> np.ndarray:
 
 def _copy(element: Element, suffix: str) -> Element:
     """The element and all inside, which may be deep, with ``suffix`` behind every name."""
-    top = Element(element.tag, {}, element.file, element.line)
-    pending = [(element, top)]
+    top = replace(element, attributes=dict(element.attributes))
+    pending = [top]
     while pending:
-        old, new = pending.pop()
-        new.attributes = dict(old.attributes)
-        if old.get("name"):
-            new.attributes["name"] = old.get("name") + suffix
-        new.children = [Element(child.tag, {}, child.file, child.line) for child in old.children]
-        pending.extend(zip(old.children, new.children, strict=True))
+        new = pending.pop()
+        if new.get("name"):
+            new.attributes["name"] += suffix
+        new.children = [replace(child, attributes=dict(child.attributes)) for child in new.children]
+        pending.extend(new.children)
     return top
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from ...spatial import ZERO_INERTIAL, Inertial
 from ..attributes import number, numbers
 from ..meshes import mesh_inertial, read_mesh
-from ..mjcf.shapes import SIZES, solid
+from ..shapes import SIZES, solid
 from ..xml_file import Element
 from .folders import MeshFolders
 from .joints import placement

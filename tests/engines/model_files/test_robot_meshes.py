@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from handwritten_robots import mjcf, urdf_joint
 
-from furiko.engines.model_files.robot_meshes import find_in
+from furiko.diagnosis.model_files.diagnose import diagnose
 
 
-def tetrahedron():
-    """The corner of a cube of one metre, of 1/6 m³, as binary STL."""
-    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype="<f4")
+def tetrahedron(edge=1.0):
+    """The corner of a cube of this edge [m], of edge³/6 m³, as binary STL."""
+    corners = edge * np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype="<f4")
     faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
     rows = (struct.pack("<12fH", 0, 0, 0, *corners[list(face)].ravel(), 0) for face in faces)
     return b" " * 80 + struct.pack("<I", len(faces)) + b"".join(rows)
@@ -40,20 +40,66 @@ def test_meshes_of_a_mjcf_in_the_folders_that_are_named(read, tmp_path):
     assert robot.compiled().bodies[0].inertial.mass == pytest.approx(1000 / 6, rel=1e-6)
 
 
-def test_no_mesh_outside_the_folders_that_are_named(tmp_path):
-    outside, inside = tmp_path / "t.stl", tmp_path / "stock"
-    outside.write_bytes(tetrahedron())
-    (inside / "deep").mkdir(parents=True)
-    (inside / "deep" / "link.stl").symlink_to(outside)
-    for wanted in (
-        "../t.stl",
-        "/t.stl",
-        "deep/../../t.stl",
-        "deep/link.stl",
-        "..",
-        "/",
-        "",
-        str(outside),
-        "file://" + str(outside),
-    ):
-        assert find_in([inside], wanted) is None, wanted
+def collision(name, more=""):
+    return f"""<robot name="r">{more}<link name="world"/><link name="a">
+        <visual><geometry><mesh filename="package://arm/visual/t.stl"/></geometry></visual>
+        <collision><geometry><mesh filename="{name}"/></geometry></collision></link>
+        {urdf_joint("continuous", "j", "world", "a")}</robot>"""
+
+
+def put(folder, edge):
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "t.stl").write_bytes(tetrahedron(edge))
+
+
+KEEP_VISUAL = '<mujoco><compiler discardvisual="false"/></mujoco>'
+
+
+@pytest.mark.parametrize("more", ["", KEEP_VISUAL], ids=["visual meshes left out", "visual meshes kept"])
+@pytest.mark.parametrize("name", ["package://arm/collision/t.stl", "../collision/t.stl", "model://arm/collision/t.stl"])
+def test_meshes_of_one_name_below_the_folder_that_is_named(read, tmp_path, more, name):
+    """Each is the one in the folder that the file says, however deep: 1000 kg/m³ of a tetrahedron of two metres."""
+    put(tmp_path / "stock" / "robots" / "arm" / "visual", 1.0)
+    put(tmp_path / "stock" / "robots" / "arm" / "collision", 2.0)
+    robot = read("mujoco", collision(name, more), [tmp_path / "stock"])
+    assert robot.compiled().bodies[-1].inertial.mass == pytest.approx(8000 / 6, rel=1e-6)
+
+
+def test_a_mesh_where_the_file_says_beside_one_of_the_same_name_that_is_elsewhere(read, tmp_path):
+    put(tmp_path / "collision", 2.0)
+    put(tmp_path / "stock" / "arm" / "visual", 1.0)
+    robot = read("mujoco", collision("collision/t.stl", KEEP_VISUAL), [tmp_path / "stock"])
+    assert robot.compiled().bodies[-1].inertial.mass == pytest.approx(8000 / 6, rel=1e-6)
+
+
+def test_furiko_and_mujoco_read_the_same_mesh(tmp_path):
+    """The link has no inertial: MuJoCo weighs the mesh, and furiko weighs the same one to say so."""
+    put(tmp_path / "stock" / "robots" / "arm" / "visual", 1.0)
+    put(tmp_path / "stock" / "robots" / "arm" / "collision", 2.0)
+    path = tmp_path / "model.urdf"
+    path.write_text(collision("package://arm/collision/t.stl"))
+    found = diagnose(path, engines=["mujoco"], meshes=[tmp_path / "stock"])
+    assert [finding.cause for finding in found.findings] == ["collision-weighs"]
+
+
+def test_two_that_the_name_may_mean_are_said(tmp_path):
+    """Neither is taken; the folder of one of them says which it is."""
+    put(tmp_path / "stock" / "one" / "collision", 1.0)
+    put(tmp_path / "stock" / "two" / "collision", 2.0)
+    path = tmp_path / "model.urdf"
+    path.write_text(collision("package://arm/collision/t.stl"))
+    found = diagnose(path, engines=["mujoco"], meshes=[tmp_path / "stock"])
+    (finding,) = found.findings
+    assert finding.cause == "file-refused"
+    assert "name the folder of the one that is meant: one/collision/t.stl and two/collision/t.stl" in finding.says
+    found = diagnose(path, engines=["mujoco"], meshes=[tmp_path / "stock" / "two"])
+    assert [finding.cause for finding in found.findings] == ["collision-weighs"]
+
+
+def test_an_unnamed_mesh_of_a_mjcf_below_the_folder_keeps_its_name(read, tmp_path):
+    """MuJoCo names a mesh by its file."""
+    put(tmp_path / "stock" / "deep" / "assets" / "visual", 2.0)
+    body = '<body name="a"><joint/><geom type="mesh" mesh="t"/></body>'
+    asset = '<compiler meshdir="assets"/><asset><mesh file="visual/t.stl"/></asset>'
+    robot = read("mujoco", mjcf(body, asset), [tmp_path / "stock"])
+    assert robot.compiled().bodies[0].inertial.mass == pytest.approx(8000 / 6, rel=1e-6)

@@ -391,13 +391,16 @@ def test_where_meshes_are_looked_for(tmp_path):
     assert not found("package://other/meshes/cube.obj")
     assert found("package://other/meshes/cube.obj", elsewhere)
     assert found("package://other/meshes/cube.obj", elsewhere / "other")
+    nothing = tmp_path / "nothing"
+    nothing.mkdir()
     for name in (
         "../meshes/cube.obj",
         "package://arm_description/../meshes/cube.obj",
+        "package://../meshes/cube.obj",
         str(tmp_path / "meshes/cube.obj"),
     ):
         assert not found(name)
-        assert not found(name, elsewhere)
-    assert not found("package://../meshes/cube.obj", elsewhere)
+        assert not found(name, nothing)
+        assert found(name, elsewhere)  # below it, by the end of its path
     (package / "urdf" / "link.obj").symlink_to(tmp_path / "meshes" / "cube.obj")
     assert not found("link.obj")

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from ..attributes import Array
+from .attributes import Array
 
 SIZES = {"sphere": 1, "capsule": 2, "cylinder": 2, "ellipsoid": 3, "box": 3}  # how many sizes each has
 

@@ -1,0 +1,100 @@
+"""Finds files in folders that the user named, and in everything below them, by the end of their path."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from functools import cached_property
+from pathlib import Path, PurePosixPath
+
+from ..errors import InvalidInput
+from .bounded_file import read_bytes, shown
+
+MOST_ENTRIES = 50_000  # files and folders below one that was named
+LARGEST_COMPARED = 100_000_000  # bytes of a file that is held against another one of the same name
+
+
+class NamedFolders:
+    """The folders that the user named, in their order, for the document at ``path``.
+
+    What is below them is listed once, when it is first needed. Nothing outside a folder is found: links to folders are
+    not followed, and a file that is a link must lead to another one below the same folder.
+    """
+
+    def __init__(self, path: Path, folders: Sequence[Path] = ()) -> None:
+        self._folders = [_Below(folder, path.resolve().parent) for folder in folders]
+
+    def find(self, name: str) -> Path | None:
+        """The file that ``name`` means, a path or ``package://NAME/…``; None where no folder has one called so.
+
+        The longest end of the path that a file has wins: of ``package://arm/meshes/a.stl`` first what lies in
+        ``arm/meshes``, the name of the folder itself included, then in ``meshes``, then any ``a.stl``; of two folders
+        that have one the first, and in a folder first what is there in so many words. Raises :class:`InvalidInput`
+        where that leaves several with different contents, and for a folder with too much below it.
+        """
+        end = _parts(name)
+        if not end:
+            return None
+        for folder in self._folders:
+            path = folder.path.joinpath(*end)
+            if folder.has(path):
+                return path
+        for length in range(len(end), 0, -1):
+            for folder in self._folders:
+                if found := folder.ending(end[-length:]):
+                    return folder.one_of(found, name)
+        return None
+
+
+def _parts(name: str) -> tuple[str, ...]:
+    """The parts of a path behind its scheme and behind every ``..``."""
+    parts = PurePosixPath(name.partition("://")[2] or name).parts
+    parts = tuple(part for part in parts if part not in ("/", "//", "."))
+    above = max((place for place, part in enumerate(parts) if part == ".."), default=-1)
+    return parts[above + 1 :]
+
+
+class _Below:
+    """One folder, and the files below it; ``near``: the folder of the document."""
+
+    def __init__(self, folder: Path, near: Path) -> None:
+        self.path = folder.resolve()
+        self._near = near
+
+    def has(self, path: Path) -> bool:
+        return path.is_file() and path.resolve().is_relative_to(self.path)
+
+    def ending(self, end: tuple[str, ...]) -> list[Path]:
+        """The files whose path ends so; the one alone that has no other part below the folder, if it is there."""
+        found = [path for path in self._by_name.get(end[-1], ()) if path.parts[-len(end) :] == end and self.has(path)]
+        exact = self.path.joinpath(*end)
+        return [exact] if exact in found else found
+
+    @cached_property
+    def _by_name(self) -> dict[str, list[Path]]:
+        found: dict[str, list[Path]] = {}
+        count = 0
+        for folder, below, names in os.walk(self.path):
+            count += len(below) + len(names)
+            if count > MOST_ENTRIES:
+                raise InvalidInput(
+                    f"{shown(self.path)}: more than {MOST_ENTRIES} files and folders below it, the most that are "
+                    "looked through; name a folder nearer to the meshes"
+                )
+            for name in names:
+                found.setdefault(name, []).append(Path(folder, name))
+        return found
+
+    def one_of(self, found: list[Path], name: str) -> Path:
+        """Any of the files that are nearest, if they are all alike. Raises :class:`InvalidInput`."""
+        shared = {path: len(os.path.commonpath([path, self._near])) for path in found}
+        first, *others = sorted(path for path in found if shared[path] == max(shared.values()))
+        content = read_bytes(first, LARGEST_COMPARED) if others else b""
+        for other in others:
+            if read_bytes(other, LARGEST_COMPARED) != content:
+                one, two = (shown(path.relative_to(self.path)) for path in (first, other))
+                raise InvalidInput(
+                    f"mesh {name[-80:]!r}: name the folder of the one that is meant: {one} and {two} differ, both in "
+                    f"{shown(self.path)}"
+                )
+        return first
