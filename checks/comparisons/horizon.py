@@ -41,9 +41,10 @@ from ...reference import literal_accelerations
 from ...reference.integration.variation import growth, lyapunov_time, tangent_flow
 from ...reference.proved.kept import proof
 from ...reference.truth.quadruple import quadruple_trajectory
-from .. import divergence
 from ..cell import Cell
-from ..divergence import (
+from ..facts import scene_facts
+from ..motions import divergence
+from ..motions.divergence import (
     APART,
     FOLDS,
     LONGEST,
@@ -56,7 +57,6 @@ from ..divergence import (
     predicted,
     result,
 )
-from ..facts import scene_facts
 
 Array = NDArray[np.float64]
 

@@ -31,7 +31,7 @@ from ...reference.integration.richardson import amplified, at_step_zero, settles
 from ...reference.integration.variation import fastest_rate, lyapunov_time
 from ...reference.rounding.bounds import EPSILON, Amplitudes, allowed
 from ..cell import Cell
-from ..step_rounding import acceleration_error, joints_apart, rate_of_positions
+from ..motions.step_rounding import acceleration_error, joints_apart, rate_of_positions
 from .energy import energy_amplitudes
 
 Array = NDArray[np.float64]

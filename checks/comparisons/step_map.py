@@ -5,7 +5,7 @@ states the engine takes one step, and so does every scheme of :mod:`furiko.refer
 order the engine's makers give theirs. The one that fits is named. An order that is measured passes any error of that
 order; this does not: a wrong scheme misses by a power of step × fastest rate, 1e-9 and more, the right one by 1e-15.
 
-How far rounding takes them apart is bounded, not chosen: see :mod:`furiko.checks.step_rounding`, and for the sharp line
+How far rounding takes them apart is bounded, not chosen: see :mod:`furiko.checks.motions.step_rounding`, and for the sharp line
 sampled (:mod:`furiko.reference.rounding.stepped`, which has the bound's arithmetic of one step, too).
 
 The step is an eighth over the fastest rate at which links turn or nearby states part
@@ -28,8 +28,15 @@ from ...reference.integration.variation import fastest_rate
 from ...reference.rounding.stepped import step_bound
 from .. import sharp
 from ..cell import Cell, quotient, worst
-from ..step_rounding import acceleration_error, conversion, disturbed, joints_apart, rate_of_positions, sharp_steps
-from ..textbook import MAXIMAL, Candidate, candidates
+from ..motions.step_rounding import (
+    acceleration_error,
+    conversion,
+    disturbed,
+    joints_apart,
+    rate_of_positions,
+    sharp_steps,
+)
+from ..motions.textbook import MAXIMAL, Candidate, candidates
 
 Array = NDArray[np.float64]
 Wide = NDArray[Any]

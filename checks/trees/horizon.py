@@ -21,7 +21,7 @@ from ...reference.integration.variation import growth
 from ...reference.proved.kept_trees import proof
 from ...reference.rounding.bounds import EPSILON
 from ...reference.truth.quadruple_tree import LARGEST, quadruple_tree_motion
-from ..divergence import (
+from ..motions.divergence import (
     FOLDS,
     LONGEST,
     NAME,

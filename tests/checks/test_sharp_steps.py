@@ -7,7 +7,7 @@ import pytest
 
 from furiko.checks import sharp
 from furiko.checks.comparisons import energy, step_map, symmetries, trajectories
-from furiko.checks.step_rounding import disturbed
+from furiko.checks.motions.step_rounding import disturbed
 from furiko.engines import ENGINES
 from furiko.models import NLegPendulum, RodChain, Scene
 from furiko.reference import literal_accelerations

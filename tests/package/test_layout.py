@@ -64,7 +64,7 @@ ROOMS = {
     ),
     "checks": (
         {"models", "records", "reference", "engines", "diagnosis", "derivations"},
-        [(".",), ("comparisons",), ("trees",), ("conformance",)],
+        [(".",), ("motions",), ("comparisons",), ("trees",), ("conformance",)],
     ),
     "studies": (
         {"models", "records", "reference", "engines", "diagnosis", "checks"},

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from fake_integrators import Astray, Damped, Fake
 
-from furiko.checks import divergence
 from furiko.checks.comparisons import horizon
+from furiko.checks.motions import divergence
 from furiko.engines import Integrator
 from furiko.models import RodChain, find_scene
 from furiko.models.scene import Scene

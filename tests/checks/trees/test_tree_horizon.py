@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from furiko.checks import divergence
+from furiko.checks.motions import divergence
 from furiko.checks.trees import horizon
 from furiko.checks.trees.cell import TreeCell
 from furiko.checks.trees.facts import tree_facts

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..models.units import in_units, units_of
-from ..reference import literal_accelerations
-from ..reference.integration.schemes import RADIUS, SCHEMES, Scheme, generalized_alpha, newmark, run
-from ..reference.kernels.forward_dynamics import plain_accelerations
-from ..reference.maximal_coordinates import MaximalCoordinates, generalized_alpha_index_3, trapezoidal_index_2
-from .cell import Cell
+from ...models.units import in_units, units_of
+from ...reference import literal_accelerations
+from ...reference.integration.schemes import RADIUS, SCHEMES, Scheme, generalized_alpha, newmark, run
+from ...reference.kernels.forward_dynamics import plain_accelerations
+from ...reference.maximal_coordinates import MaximalCoordinates, generalized_alpha_index_3, trapezoidal_index_2
+from ..cell import Cell
 
 Array = NDArray[np.float64]
 Wide = NDArray[Any]

@@ -18,20 +18,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..engines import Integrator
-from ..models.units import in_units, units_of
-from ..reference import mass_matrix
-from ..reference.integration.schemes import RADIUS, alpha_parameters
-from ..reference.maximal_coordinates import MaximalCoordinates
-from ..reference.rounding import spread
-from ..reference.rounding.bounds import EPSILON, allowed, turns
-from ..reference.rounding.iterations import left_in_accelerations, left_in_maximal_coordinates
-from ..reference.rounding.maximal_elimination import joint_spread
-from ..reference.rounding.monte_carlo import ONE_ROUNDING
-from ..reference.rounding.norms import norm
-from ..reference.rounding.stepped import Ends, stepped
-from . import sharp
-from .cell import Cell, EngineFault
+from ...engines import Integrator
+from ...models.units import in_units, units_of
+from ...reference import mass_matrix
+from ...reference.integration.schemes import RADIUS, alpha_parameters
+from ...reference.maximal_coordinates import MaximalCoordinates
+from ...reference.rounding import spread
+from ...reference.rounding.bounds import EPSILON, allowed, turns
+from ...reference.rounding.iterations import left_in_accelerations, left_in_maximal_coordinates
+from ...reference.rounding.maximal_elimination import joint_spread
+from ...reference.rounding.monte_carlo import ONE_ROUNDING
+from ...reference.rounding.norms import norm
+from ...reference.rounding.stepped import Ends, stepped
+from .. import sharp
+from ..cell import Cell, EngineFault
 from .textbook import MAXIMAL, Candidate
 
 Array = NDArray[np.float64]

@@ -24,13 +24,13 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ..engines import Integrator
-from ..records.check import Outcome, Result
-from ..reference.integration.schemes import BUTCHER_6
-from ..reference.integration.variation import Growth
-from ..reference.proved.kept import Proof, distance
-from ..reference.rounding.bounds import EPSILON
-from .cell import EngineFault
+from ...engines import Integrator
+from ...records.check import Outcome, Result
+from ...reference.integration.schemes import BUTCHER_6
+from ...reference.integration.variation import Growth
+from ...reference.proved.kept import Proof, distance
+from ...reference.rounding.bounds import EPSILON
+from ..cell import EngineFault
 
 Array = NDArray[np.float64]
 Acceleration = Callable[[Any, Any], Any]

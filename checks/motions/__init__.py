@@ -1,0 +1,1 @@
+"""What comparisons of motions share: textbook schemes, what rounding does in a step, and when runs part."""
