@@ -70,7 +70,7 @@ _MJX: dict[str, Any] = {
         "energy": "its energies are computed in steps alone",
     },
     "largest_n": 100,
-    "largest_n_reason": "compiling takes 1 to 2 s a link and question, of derivatives 5: six minutes in all for 50 links",
+    "largest_n_reason": "compiling takes 1 to 2 s a link and question, 5 of derivatives: 50 links take six minutes",
     **_COMPILED_BY_MUJOCO,
 }
 _NO_ENERGY: Any = {"energy": "its energies are computed in steps alone"}
