@@ -5,8 +5,8 @@ states the engine takes one step, and so does every scheme of :mod:`furiko.refer
 order the engine's makers give theirs. The one that fits is named. An order that is measured passes any error of that
 order; this does not: a wrong scheme misses by a power of step × fastest rate, 1e-9 and more, the right one by 1e-15.
 
-How far rounding takes them apart is bounded, not chosen: see :mod:`furiko.checks.motions.step_rounding`, and for the sharp line
-sampled (:mod:`furiko.reference.rounding.stepped`, which has the bound's arithmetic of one step, too).
+How far rounding takes them apart is bounded, not chosen: see :mod:`furiko.checks.motions.step_rounding`, and for the
+sharp line sampled (:mod:`furiko.reference.rounding.stepped`, which has the bound's arithmetic of one step, too).
 
 The step is an eighth over the fastest rate at which links turn or nearby states part
 (:func:`furiko.reference.variation.fastest_rate`).

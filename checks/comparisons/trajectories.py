@@ -11,8 +11,8 @@ time is C h^p + O(h^(p+1)). Four runs, at h, h/2, h/4 and h/8, give three things
 In a chaotic motion errors grow until the expansion in h means nothing. The comparison therefore ends at the last of
 the truth's times at which the coarse run is still near the fine one.
 
-Rounding (:mod:`furiko.checks.motions.step_rounding`) comes on top, in each of the finest run's steps, and what it does to a
-step grows until the end as any small difference does: how much, two runs from states beside the first tell.
+Rounding (:mod:`furiko.checks.motions.step_rounding`) comes on top, in each of the finest run's steps, and what it does
+to a step grows until the end as any small difference does: how much, two runs from states beside the first tell.
 
 What the extrapolation is sure to is far more than rounding. The sharp line is therefore drawn elsewhere: the coarsest
 run, or the first of its steps, against the same steps of the textbook scheme, from which only rounding can part it.
