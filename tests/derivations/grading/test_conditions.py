@@ -234,3 +234,22 @@ def test_ell_is_a_name_in_programs():
     assert graded(ELL, text.replace("-m*g*ell", "-m*g*ell**2")) == "wrong"
     with pytest.raises(InvalidInput, match="l and ell"):
         graded(ELL, text.replace("g*ell", "g*l"))
+
+
+SQUARE = """
+def f(s, F):
+    x, theta, v, w = s
+    d = M + m*np.sin(theta)**2
+    a = (F + m*np.sin(theta)*(l*w**2 - g*np.cos(theta)))/d
+    b = ((M + m)*g*np.sin(theta) - np.cos(theta)*(F + m*l*w**2*np.sin(theta)))/(l*d)
+    return np.array([v, w, a, b])
+"""
+
+
+def test_the_cosine_of_a_square_is_wrong_unless_it_cancels():
+    assert graded(CART, SQUARE) == "correct"
+    assert graded(CART, SQUARE.replace("np.sin(theta)**2", "np.sin(theta**2)", 1)) == "wrong"
+    assert graded(CART, SQUARE.replace("d = M", "d = np.cos(theta**2) - np.cos(theta**2) + M")) == "correct"
+    both = "d = np.cos(theta**2)**2 + np.sin(theta**2)**2 - 1 + M"
+    with pytest.raises(InvalidInput, match="a sum or difference of angles is expected"):
+        graded(CART, SQUARE.replace("d = M", both))
