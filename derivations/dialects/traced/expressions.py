@@ -136,6 +136,9 @@ class Expressions:
                 raise NotFollowed(found.why)
             return found
         if path is not None and path.split(".")[0] in ("self", "obj", "this", "cls"):
+            own = self.free(node.name, scope) if path.count(".") == 1 and not self.matlab else None
+            if isinstance(own, Local) and not own.parameters:  # a property
+                return self.calls(nodes.Call(node, ()), scope)
             return Outside(tuple(path.split(".")))
         of = self.value(node.of, scope)
         if isinstance(of, Outside):

@@ -253,3 +253,62 @@ def test_the_cosine_of_a_square_is_wrong_unless_it_cancels():
     both = "d = np.cos(theta**2)**2 + np.sin(theta**2)**2 - 1 + M"
     with pytest.raises(InvalidInput, match="a sum or difference of angles is expected"):
         graded(CART, SQUARE.replace("d = M", both))
+
+
+RUST = """
+fn deriv(y: &[f64; 4], F: f64, p: &Params) -> [f64; 4] {
+    let (x, theta, v, w) = (y[0], y[1], y[2], y[3]);
+    let (st, ct) = theta.sin_cos();
+    let den = p.M + p.m * st.powi(2);
+    let a = (F + p.m * st * (p.l * w * w - p.g * ct)) / den;
+    [v, w, a, (p.g * st - a * ct) / p.l]
+}
+"""
+GO = """
+func deriv(y []float64, F float64) []float64 {
+	x, theta, v, w := y[0], y[1], y[2], y[3]
+	st, ct := math.Sincos(theta)
+	a := (F + m*st*(l*w*w - g*ct)) / (M + m*st*st)
+	return []float64{v, w, a, (g*st - a*ct) / l}
+}
+"""
+SPLIT = """
+def dynamics(state, t, params):
+    q, qd = jnp.split(state, 2)
+    m1, m2, l1, l2, g = params
+    d = q[0] - q[1]
+    A = jnp.array([[(m1+m2)*l1, m2*l2*jnp.cos(d)], [l1*jnp.cos(d), l2]])
+    b = jnp.array([-m2*l2*qd[1]**2*jnp.sin(d) - (m1+m2)*g*jnp.sin(q[0]), l1*qd[0]**2*jnp.sin(d) - g*jnp.sin(q[1])])
+    return jnp.concatenate([qd, jnp.linalg.solve(A, b)])
+"""
+PROPERTY = """
+class CartPole:
+    @property
+    def total(self):
+        return self.M + self.m
+    def rates(self, t, y, F):
+        x, theta, v, w = y
+        s, c = np.sin(theta), np.cos(theta)
+        a = (F + self.m*s*(self.l*w**2 - self.g*c))/(self.total - self.m*c**2)
+        return [v, w, a, (self.g*s - a*c)/self.l]
+"""
+SHAPES = {
+    "rust": (CART, RUST, [("(st, ct)", "(ct, st)"), ("powi(2)", "powi(3)"), ("- a * ct", "+ a * ct")]),
+    "go": (CART, GO, [("st, ct :=", "ct, st :="), ("M + m*st*st", "M + m*ct*ct"), ("w*w - g", "w*w + g")]),
+    "split": (TWO, SPLIT, [("l1*qd[0]**2", "l1*qd[1]**2"), ("[l1*jnp", "[l2*jnp"), ("qd[1]**2", "q[1]**2")]),
+    "property": (CART, PROPERTY, [("self.M + self.m", "self.M - self.m"), ("/(self.total -", "/(self.total +")]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_shapes_of_languages_are_read_and_their_slips_are_wrong(name):
+    head, text, slips = SHAPES[name]
+    assert graded(head, text) == "correct"
+    for was, now in slips:
+        assert was in text
+        assert graded(head, text.replace(was, now, 1)) == "wrong"
+
+
+def test_parts_that_are_no_halves_are_refused():
+    with pytest.raises(InvalidInput, match="halves"):
+        graded(TWO, SPLIT.replace("(state, 2)", "(state, 4)"))
