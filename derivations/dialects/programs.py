@@ -20,6 +20,14 @@ STD = re.compile(r"(?<![A-Za-z_])(?:std::|Math\.|cmath\.|ca\.|casadi\.|cs\.)(?=[
 RATE = r"(?:omega|w|ω)[_]?[0-9]{0,2}"
 OF_RATE = re.compile(rf"(?<![A-Za-z_\\])d(?P<x>{RATE})(?:_?dt)?(?![A-Za-z0-9_(/])")
 
+_SYMPY = r"(?<![A-Za-z_0-9.])(?:(?:sp|sympy|sm|sy)\.)?"
+_INT = r"\s*[-+]?[0-9]{1,12}\s*"
+EXACT = re.compile(
+    rf"{_SYMPY}(?:(?P<fraction>Rational|Fraction)\s*\((?P<a>{_INT}),(?P<b>{_INT})\)"
+    rf"|(?P<whole>Rational|Integer|S|sympify|nsimplify)\s*\((?:(?P<n>{_INT})|\s*(?P<q>[\"'])(?P<t>{_INT}(?:/{_INT})?)(?P=q)\s*)\)"
+    r"|(?P<half>S\.(?:Half|One|NegativeOne))(?![A-Za-z_]))"
+)
+OF_S = {"S.Half": "(1/2)", "S.One": "1", "S.NegativeOne": "(-1)"}
 METHOD = re.compile(r"\.(?P<name>sin|cos|tan|sqrt|abs|powi|powf|pow)\s{0,4}\((?P<of>\s{0,4}[0-9.]{0,4}\s{0,4})\)")
 RECEIVER = re.compile(r"[A-Za-z_]\w{0,40}(?:\[\d\])?$")
 KEYWORDS = re.compile(r"(?m)^\s*(?:(?:const|let|var|mut|auto|double|float|f64)\s+){1,3}(?=\w+\s*(?::\s*\w+\s*)?=)")
@@ -27,6 +35,8 @@ KEYWORDS = re.compile(r"(?m)^\s*(?:(?:const|let|var|mut|auto|double|float|f64)\s
 
 def program(line: str, names: frozenset[str]) -> str:
     """The line without comments, and with ^ for powers. ``names``: the author's own."""
+    if not names & {"Rational", "S", "Integer", "Fraction"}:
+        line = EXACT.sub(_exact, line)
     for pattern in COMMENTS:
         line = pattern.sub(lambda found: " " * len(found[0]), line)
     if "\\" not in line:
@@ -39,6 +49,15 @@ def program(line: str, names: frozenset[str]) -> str:
         line = KEYWORDS.sub(lambda found: " " * len(found[0]), line)
         line = methods(line)
     return _squares(_powers(line))
+
+
+def _exact(found: re.Match[str]) -> str:
+    """sympy's exact numbers, Rational(2, 3) and S(1)/2, as formulas have them."""
+    if found["fraction"]:
+        return padded(f"(({found['a'].strip()})/({found['b'].strip()}))", found)
+    if found["half"]:
+        return padded(OF_S[found["half"]], found)
+    return padded(f"({(found['n'] or found['t']).strip()})", found)
 
 
 def _powers(line: str) -> str:

@@ -3,7 +3,7 @@ r"""Rates that programs and textbooks name: a1_v and a1_a, L_ddot, and \dot\thet
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from .names import plain_name
@@ -42,6 +42,26 @@ def suffixed(line: str, coordinates: Sequence[str], taken: Iterable[str]) -> str
                 line = re.sub(rf"(?<![A-Za-z0-9_\\]){re.escape(word)}(?![A-Za-z0-9_(])",
                               lambda found: (coordinate + primes).ljust(len(found[0])), line)  # noqa: B023 # fmt: skip
     return line
+
+
+OTHERWISE = re.compile(
+    r"['′″\u0307\u0308]|dot|Derivative|diff|\\[dt]?frac\s*\{\s*\\?(?:mathrm\s*\{\s*)?d|/\s*d|\bd\s*/"
+)
+
+
+def prefixed(lines: Sequence[str], coordinates: Sequence[str], taken: Iterable[str]) -> Callable[[str], str]:
+    """What puts primes for dx and ddx where a file writes the rates of all its coordinates so, and none otherwise."""
+    in_use = {plain_name(name) or name for name in taken} | set(taken)
+    text = "\n".join(lines)
+    words = {f"{front}{c}": f"({c}{primes})" for c in coordinates for front, primes in (("d", "'"), ("dd", "''"))}
+    there = [re.search(rf"(?<![A-Za-z0-9_\\])dd?{re.escape(c)}(?![A-Za-z0-9_])", text) for c in coordinates]
+    if not coordinates or not all(coordinates) or not all(there) or in_use & {"d", *words} or "t" in coordinates:
+        return lambda line: line
+    if OTHERWISE.search(text):
+        return lambda line: line
+    longest = sorted(map(re.escape, words), key=len, reverse=True)
+    word = re.compile(rf"(?<![A-Za-z0-9_\\])(?:{'|'.join(longest)})(?![A-Za-z0-9_(])")
+    return lambda line: word.sub(lambda found: words[found[0]], line)
 
 
 def named_rates(data: dict[str, Any], coordinates: Sequence[str], taken: frozenset[str]) -> dict[str, Any]:

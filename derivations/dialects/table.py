@@ -17,7 +17,7 @@ from .lines import BLANKS, FULL_WIDTH, LONGEST_LINE
 from .names import GREEK, base_and_index, plain_name, require_one_meaning
 from .pasted import pasted
 from .programs import program
-from .rates import named_rates, suffixed
+from .rates import named_rates, prefixed, suffixed
 from .short_waves import short_waves
 from .sums import sums
 
@@ -60,7 +60,7 @@ def known_of(data: Mapping[str, Any]) -> Known:
     coordinates = [plain_name(str(b.get("coordinate", "")).translate(FULL_WIDTH)) or "" for b in bodies]
     texts = [str(value) for b in bodies for name, value in b.items()
              if name not in ("name", "on", "coordinate", "joint", "along", "about", "motion")]  # fmt: skip
-    words = [w for text in texts for w in re.findall(r"\\?[A-Za-zα-ωΑ-Ω]+(?:_\{\w+\}|_?\w+)?", text)]
+    words = [w for text in texts for w in re.findall(r"\\?[A-Za-zα-ωΑ-Ωℓ]+(?:_\{\w+\}|_?\w+)?", text)]
     drives = [plain_name(str(b["drive"])) or "" for b in bodies if "drive" in b]
     quantities = frozenset(plain for w in words if (plain := plain_name(w)))
     return Known(tuple(coordinates), quantities, tuple(drives), data.get("angles") == "relative")
@@ -82,9 +82,17 @@ def translated(data: dict[str, Any], count: int = 0) -> dict[str, Any]:
         made = _mapped(made, lambda line: OF_TIME.sub(lambda found: " " * len(found[0]), line))
     made = shorter_names(_with_any_gravity(made), _mapped)
     made = _mapped(made, lambda line: suffixed(line, known.coordinates, known.quantities | set(made.get("define", {}))))
+    made = _mapped(made, prefixed(_texts(made), known.coordinates, known.quantities | set(made.get("define", {}))))
     made = _said_behind(made)
     made = named_rates(made, known.coordinates, known.quantities)
     return short_waves(made, known)
+
+
+def _texts(data: Mapping[str, Any]) -> list[str]:
+    """All lines of mathematics."""
+    tables = [t for name in TABLES if isinstance(t := data.get(name), dict | list)]
+    lines = [line for table in tables for line in (table.values() if isinstance(table, dict) else table)]
+    return [line for line in (*lines, *(data.get(name) for name in ENERGIES)) if isinstance(line, str)]
 
 
 def _of_no_time(data: dict[str, Any]) -> dict[str, Any]:

@@ -16,12 +16,14 @@ from ..dialects.letters.every_text import lines_of
 from ..dialects.letters.gravity import said_of_gravity, said_of_squares
 from ..dialects.letters.indices import plain_indices
 from ..dialects.letters.left_sides import without_left_sides
-from ..dialects.letters.members import without_low_lines
+from ..dialects.letters.members import without_low_lines, without_pointers
+from ..dialects.letters.odd_waves import with_odd_waves
 from ..dialects.markup.pages import from_pages
 from ..dialects.markup.prose import FormulasInWords
 from ..dialects.notes.note import as_note, is_worded
 from ..dialects.table import translated
 from ..dialects.times import with_times
+from ..dialects.traced.known import known
 from ..dialects.traced.rows import traced
 from ..dialects.vectors import with_vectors
 from ..dialects.worksheets.sessions import from_worksheets
@@ -44,6 +46,7 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     Raises InvalidInput, with the place, where it is none.
     """
     known_fields(data)
+    data = without_pointers(data)
     spelled = _spelled(data)
     refused: InvalidInput | None = None
     try:
@@ -63,7 +66,9 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
 def _as_program(data: dict[str, Any], lines: Mapping[str, str], slashes: int) -> Submission:
     """Read a program that is followed line by line. ``lines``: what definitions of ours stand for."""
     try:
-        return _meant(*_plain(data), slashes)
+        data, odd = with_odd_waves(data, known(data).written)
+        plain, constants, count = _plain(data)
+        return _meant(plain, [*constants, *odd], count, slashes)
     except InvalidInput as error:
         found = re.match(r"define\.(\w+): (?:column [0-9]+: )?(.*)", str(error), re.DOTALL)
         line = lines.get(found[1]) if found else None

@@ -153,7 +153,9 @@ def _rate(
     alike = [c for c in coordinates if (c in asked.slides) != turns]
     found = rates_of(name, free, turns=turns, alone=len(alike) == 1)
     if len(found) != 1:
-        if not found and not any(re.search(r"dot|vel|omega|rate|^d|^w|v$", w, re.IGNORECASE) for w in free):
+        of_others = {w for c in coordinates if c != name for w in rates_of(c, free, turns=True, alone=False)}
+        left = [w for w in free if w not in of_others]
+        if not found and not any(re.search(r"dot|vel|omega|rate|^d|^w|v$", w, re.IGNORECASE) for w in left):
             return f"{name}rateofitsown"  # no row has it
         which = " or ".join(found) if found else "which name"
         raise InvalidInput(

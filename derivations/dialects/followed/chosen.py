@@ -25,6 +25,7 @@ from .neutral import Asked, neutral, state_of
 DEEPEST = 40  # brackets in one another
 ENTRY = re.compile(r"(?P<name>\w+)\s*[\[(]\s*(?P<k>\d{1,2})\s*[\])]")
 
+TYPED = re.compile(r"(?m)^\s*(?:(?:static|const|constexpr)\s+)*(?:double|float|real_t|scalar_t|Scalar)\s+\w+\s*=[^\n]*")
 WAVE = re.compile(r"\b[dD]?(?:sin|cos)f?\s*\(|\.(?:sin|cos)\s*\(|solve|inverse", re.IGNORECASE)
 
 
@@ -84,7 +85,12 @@ def program_of(text: str, known: Collection[str] = ()) -> Program | None:
         program = read(text)
         if program is not None:
             return program
-    return from_braces(text) if is_braced(text) else None
+    return from_braces(text) if is_braced(text) or is_lines_of_c(text) else None
+
+
+def is_lines_of_c(text: str) -> bool:
+    """Whether a text without braces declares what it computes as C does, with a type for each."""
+    return "{" not in text and len(TYPED.findall(text)) > 1
 
 
 def asked_of(data: Mapping[str, Any], define: Mapping[str, str], count: int) -> Asked:

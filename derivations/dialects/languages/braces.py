@@ -36,6 +36,14 @@ MAIN = re.compile(
     r"\)\s*(?:const\s*|noexcept\s*|override\s*)*(?:(?:->|:|throws\b)[^{};=()]{1,80})?\s*\{|=>|\|\s*\{|\bfunc\s*\(|\b(?:func?|fn)\s+\w+|\bdef\s+\w+\s*\([^(){}]*\)[^(){}=]*=\s*\{|\b(?:struct|class)\s+\w+[^;{}()]{0,80}\{"
 )
 
+_INNER = r"(?P<of>(?:[^()\n;]|\([^()\n;]*\)){1,80})"
+BOTH_WAVES = (
+    re.compile(rf"(?P<s>\w+)\s*,\s*(?P<c>\w+)\s*(?P<is>:?=)\s*math\.Sincos\({_INNER}\)"),
+    re.compile(
+        r"let\s*\(\s*(?P<s>\w+)\s*,\s*(?P<c>\w+)\s*\)\s*(?P<is>=)\s*(?P<of>[\w.]+(?:\[\d\])?|\([^()\n;]{1,80}\))\.sin_cos\(\)"
+    ),
+)
+
 
 @dataclass(frozen=True)
 class _Node:
@@ -51,12 +59,18 @@ def is_braced(text: str) -> bool:
     return "{" in bare and "\\begin" not in text and "\\frac" not in text and MAIN.search(bare) is not None
 
 
+def _both_waves(text: str) -> str:
+    """Go's s, c := math.Sincos(x) and Rust's let (s, c) = x.sin_cos() as two statements."""
+    text = BOTH_WAVES[0].sub(r"\g<s> \g<is> math.Sin(\g<of>); \g<c> \g<is> math.Cos(\g<of>)", text)
+    return BOTH_WAVES[1].sub(r"let \g<s> = sin(\g<of>); let \g<c> = cos(\g<of>)", text)
+
+
 def without_remarks(text: str) -> str:
     """The program without remarks and texts in quotes."""
     text = re.sub(r"\[\s*[\"'](\w{1,30})[\"']\s*\]", r".\1", text)  # p["m1"]
     text = BLOCK_COMMENT.sub(" ", STRINGS.sub(" ", text))
     text = re.sub(r'"(?:[^"\\\n]|\\.){0,200}"|`[^`]{0,200}`|\'(?:[^\'\\\n]|\\.){0,2}\'', '""', text)
-    return REMARK.sub("", text)
+    return re.sub(r"\(\s*\*\s*([A-Za-z]\w*)\s*\)\s*\.\s*(?=[A-Za-z])", r"\1->", REMARK.sub("", text))
 
 
 def from_braces(text: str, by_lines: bool = False) -> Program:
@@ -64,7 +78,7 @@ def from_braces(text: str, by_lines: bool = False) -> Program:
     if len(text) > LONGEST_PROGRAM:
         raise InvalidInput(f"this program is longer than {LONGEST_PROGRAM} characters; give the function alone")
     is_rust = re.search(r"\bfn\s+\w+|\blet\s+mut\b", text) is not None
-    bare = without_remarks(text)
+    bare = _both_waves(without_remarks(text))
     _check_directives(bare)
     defined = [Statement(m["name"], m["value"].strip()) for m in DEFINED.finditer(bare)]
     macros = [

@@ -8,7 +8,7 @@ from typing import Any
 
 from ....models.errors import InvalidInput
 from ..names import FIGURES, GREEK
-from .every_text import everywhere
+from .every_text import everywhere, lines_of
 
 _GREEK = "|".join(sorted(GREEK, key=len, reverse=True))
 _FONT = r"\\(?:mathrm|mathit|mathsf|mathbf|text|textrm|textit|textnormal|operatorname|rm)"
@@ -21,6 +21,7 @@ MIXED_INDEX = re.compile(
 )
 GREEK_INDEX = re.compile(rf"_\s*(?:\{{\s*\\(?P<braced>{_GREEK})\s*\}}|\\(?P<bare>{_GREEK})(?![A-Za-z]))")
 SHORT_WAVE = re.compile("(?P<wave>(?<![A-Za-z])(?:g)?[csCS])(?P<low>[₁-₉]{1,2})(?![₀-₉])")
+L = re.compile(r"(?<![\w\\.])l(?!\w)")
 ELL = re.compile(r"(?<![A-Za-z\\])ell(?![A-Za-z])")
 UNIT = re.compile(
     r"\\(?:SI|qty)\s*\{\s*(?P<x>[-+]?[0-9]{1,12}(?:[.,][0-9]{1,12})?)\s*\}\s*\{(?P<unit>[^{}]{0,80})\}"
@@ -41,8 +42,17 @@ def plain_indices(data: dict[str, Any]) -> dict[str, Any]:
         return made
     said = [str(v) for b in bodies for k, v in b.items() if k not in ("name", "on")]
     if any(ELL.search(text) for text in said):
+        _check_one_l([*said, *lines_of(made)])
         made = everywhere(made, lambda text: ELL.sub("ℓ", text))
     return _from_one(made, bodies)
+
+
+def _check_one_l(texts: list[str]) -> None:
+    """Raises InvalidInput where a file has l besides ell, which are one letter to the reader."""
+    if any(L.search(text) for text in texts):
+        raise InvalidInput(
+            "l and ell are one letter here, ℓ, and both stand in this file; give one of them another name"
+        )
 
 
 def _plain(text: str) -> str:

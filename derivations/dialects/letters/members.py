@@ -1,4 +1,4 @@
-"""Members of classes, m_ and l1_: the names of a file's quantities without the low line that C++ ends them by."""
+"""Members: m_ and l1_ without the low line that C++ ends them by, s->m and (*s).m of C without the pointer."""
 
 from __future__ import annotations
 
@@ -6,10 +6,48 @@ import re
 from typing import Any
 
 from ....models.errors import InvalidInput
-from .every_text import everywhere
+from .every_text import everywhere, rows_of
 
 NAME = re.compile(r"\s*(?P<name>[A-Za-z][A-Za-z0-9]{0,20})_\s*")
 MEMBER = re.compile(r"(?<![\w\\])(?P<name>[A-Za-z][A-Za-z0-9]{0,20})_(?=\s*(?:[-+*/^()=,;.\]]|$))")
+POINTER = re.compile(
+    r"(?<![\w.>])(?:\(\s*\*\s*(?P<of>[A-Za-z]\w{0,20})\s*\)\s*\.|(?P<by>[A-Za-z]\w{0,20})->)(?P<name>[A-Za-z]\w{0,30})"
+)
+NAMED = re.compile(r"(?:(?:const|float|double|auto)\s+)*(?P<x>[A-Za-z]\w{0,30})\s*=\s*(?P=x)\s*(?=[;,\n]|$)")
+WHOLE = re.compile(r"(?:^|[=(,+-])\s*(?P<of>[0-9]+\s*/\s*[0-9]+)(?![\w.])")
+
+
+def without_pointers(data: dict[str, Any]) -> dict[str, Any]:
+    """The fields with m for s->m in lines of C without a function around them.
+
+    Raises InvalidInput where two structs have a field of one name, or where 4/3 stands, which is 1 there.
+    """
+    rows = rows_of(data)
+    text = "\n".join(line for _, line in rows)
+    found = list(POINTER.finditer(text))
+    if not found or re.search(r"[{\\]", text):
+        return data
+    owners: dict[str, set[str]] = {}
+    for match in found:
+        owners.setdefault(match["name"], set()).add(match["of"] or match["by"])
+    bare = POINTER.sub(" ", text)
+    if any(re.search(rf"(?<!\w){x}(?!\w)", bare) for of in owners.values() for x in of):
+        return data  # Mathematica's rules, m->M
+    twice = next((name for name, of in owners.items() if len(of) > 1), None)
+    if twice is not None:
+        listed = " and ".join(f"{of}->{twice}" for of in sorted(owners[twice]))
+        raise InvalidInput(f"equations.{rows[0][0]:.40}: {listed} are two things; give each a name of its own")
+    whole = WHOLE.search(text)
+    if whole:
+        raise InvalidInput(f"equations.{rows[0][0]:.40}: {whole['of']} is a division of whole numbers, "
+                           f"{_divided(whole['of'])} in C; write 4.0/3.0 for a fraction")  # fmt: skip
+    made = {label: NAMED.sub("", POINTER.sub(lambda m: m["name"], line)) for label, line in rows}
+    return data | {"equations": made}
+
+
+def _divided(text: str) -> str:
+    above, below = (int(part) for part in text.split("/"))
+    return str(above // below) if below else "undefined"
 
 
 def without_low_lines(data: dict[str, Any]) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from .values import (
     LARGEST,
@@ -158,3 +158,21 @@ def adjugate(a: Array) -> Array:
 def over(a: Value, by: Formula) -> Value:
     """Every entry divided by a number."""
     return entrywise(a, by, divided)
+
+
+def grow(array: Array, places: Sequence[int], path: str) -> None:
+    """MATLAB's array made as large as the place that is filled, counted from 1, asks for."""
+    height, width = array.shape
+    if len(places) == 1:
+        k = places[0]
+        new = (max(height, k), 1) if width == 1 else (height, max(width, k) if height == 1 else width)
+    else:
+        new = (max(height, places[0]), max(width, places[1]))
+    if new == array.shape:
+        return
+    if new[0] * new[1] > LARGEST:
+        raise NotFollowed(f"{path}: more than {LARGEST} entries")
+    rows = [[*row, *[ZERO] * (new[1] - width)] for row in array.rows]
+    rows += [[ZERO] * new[1] for _ in range(new[0] - height)]
+    array.entries[:] = [e for row in rows for e in row]
+    array.shape = new

@@ -160,7 +160,7 @@ class Calls:
         """Arguments by name."""
         return {name: self.expressions.value(value, scope) for name, value in node.named if name}
 
-    def known(self, name: str, given: list[Value], node: nodes.Call, scope: Scope) -> Value:  # noqa: PLR0911, PLR0912
+    def known(self, name: str, given: list[Value], node: nodes.Call, scope: Scope) -> Value:  # noqa: PLR0911, PLR0912, PLR0915
         """A function of numpy, MATLAB and their kin."""
         expressions = self.expressions
         for value in given:
@@ -220,6 +220,8 @@ class Calls:
             return self.reshaped(library.as_array(given[0]), given[1:])
         if name in ("expand_dims", "unsqueeze") and given:
             return given[0]
+        if name in ("split", "chunk") and len(given) == 2 and isinstance(given[0], Outside):
+            return self.halves(name, given[0], given[1], dotted(node.of) or "")
         if name == "deal":
             return Several(given) if len(given) > 1 else given[0]
         if name in ("len", "length", "numel", "size"):
@@ -249,6 +251,18 @@ class Calls:
             raise NotFollowed(f"{name}(…) is no part of equations of motion here; leave it out")
         self.unknown += 1
         return Outside((f"{name}({self.unknown})",))
+
+    def halves(self, name: str, state: Outside, count: Value, path: str) -> Value:
+        """np.split(state, 2), torch.chunk(state, 2): its two halves. torch.split counts entries, not parts."""
+        size = self.expressions.size
+        parts = count.whole if isinstance(count, Formula) else None
+        counts_parts = name == "chunk" or path.startswith(("np.", "numpy.", "jnp.", "anp.", "onp."))
+        if parts != 2 or not (counts_parts or size == 2 * parts):
+            raise NotFollowed(f"{name} into other parts than halves of the state; write x[:2], x[2:]")
+        half = size // 2
+        first = Array([Formula(Outside((*state.path, k)).mark) for k in range(half)], (half,), "loose")
+        second = Array([Formula(Outside((*state.path, k)).mark) for k in range(half, size)], (half,), "loose")
+        return Several([first, second])
 
     def matrix(self, name: str, value: Value, kind: str) -> Value:
         """sympy's Matrix of a list is a column; numpy's a row."""

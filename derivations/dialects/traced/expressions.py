@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from operator import eq, ge, gt, le, lt, ne
 
 from . import nodes
 from .arrays import entrywise, product, turned
 from .known import GRAVITY
-from .library import MODULES, as_array, from_items, stacked
+from .library import MODULES, as_array, from_items, reach, stacked
 from .names import Names, Scope
 from .nodes import dotted
 from .values import (
@@ -29,6 +30,11 @@ from .values import (
 
 Caller = Callable[[nodes.Call, Scope], Value]
 Member = Callable[[str, Scope], "Value | None"]
+COMPARED: dict[str, Callable[[int, int], bool]] = {
+    "==": eq, "!=": ne, "~=": ne, "<": lt, "<=": le, ">": gt, ">=": ge,
+    "&&": lambda a, b: bool(a and b), "||": lambda a, b: bool(a or b),
+    "&": lambda a, b: bool(a and b), "|": lambda a, b: bool(a or b),
+}  # fmt: skip
 NUMBERS = {"pi": "pi", "PI": "pi", "Pi": "pi"}
 LONGEST_STATE = 16
 
@@ -78,10 +84,30 @@ class Expressions:
                 return self.span(node, scope)
             case nodes.Nameless(parameters=parameters):
                 return Local(parameters, node)
+            case nodes.Either(test=test, value=first, otherwise=second):
+                return self.value(first if self.holds(test, scope) else second, scope)
+            case nodes.Each():
+                return self.each(node, scope)
             case nodes.Dots():
                 return Reach(None, None)
         text = node.text if isinstance(node, nodes.Strange) else ""
         raise NotFollowed(f"{text[:40]!r}: this expression is not followed; write out what it comes to")
+
+    def holds(self, test: nodes.Node, scope: Scope) -> bool:
+        """Whether a test of whole numbers holds. Raises NotFollowed where it is one of anything else."""
+        value = self.value(test, scope)
+        if not isinstance(test, nodes.Binary) or test.sign not in COMPARED or not isinstance(value, Formula):
+            raise NotFollowed("a condition on something else than whole numbers; write out what it comes to")
+        return value.whole == 1
+
+    def each(self, node: nodes.Each, scope: Scope) -> Value:
+        """[l*sin(th[i]) for i in range(n)]"""
+        made: list[Value] = []
+        for k in reach(self.value(node.over, scope)):
+            inner = Scope(scope, {node.name: number(k)})
+            if all(self.holds(test, inner) for test in node.tests):
+                made.append(self.value(node.value, inner))
+        return from_items(made) if made else Several([])
 
     def word(self, name: str, scope: Scope) -> Value:
         """A name: of the function, of the text around it, or of a quantity from outside."""
@@ -110,6 +136,9 @@ class Expressions:
                 raise NotFollowed(found.why)
             return found
         if path is not None and path.split(".")[0] in ("self", "obj", "this", "cls"):
+            own = self.free(node.name, scope) if path.count(".") == 1 and not self.matlab else None
+            if isinstance(own, Local) and not own.parameters:  # a property
+                return self.calls(nodes.Call(node, ()), scope)
             return Outside(tuple(path.split(".")))
         of = self.value(node.of, scope)
         if isinstance(of, Outside):
@@ -147,6 +176,8 @@ class Expressions:
             raise NotFollowed("a power of a matrix; write out the product")
         if bare == "//":
             return number(_whole(left) // _whole(right))
+        if bare in COMPARED:
+            return number(int(COMPARED[bare](_whole(left), _whole(right))))
         if bare not in SCALAR:
             raise NotFollowed(f"{sign}: this operator is not followed; write out what it comes to")
         if bare == "+" and isinstance(left, Several) and isinstance(right, Several):

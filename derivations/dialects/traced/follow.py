@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from . import nodes
+from .arrays import grow
 from .calls import Calls
 from .expressions import Expressions, chosen_of
 from .known import Known
@@ -12,9 +13,11 @@ from .library import empty as library_empty
 from .library import from_items, reach
 from .names import Names, Scope
 from .nodes import dotted, set_by
-from .values import Array, Broken, Formula, Local, NotFollowed, Outside, Several, Value, formula
+from .values import Array, Broken, Formula, Local, NotFollowed, Outside, Several, Value, copied, formula
 
 MOST_STEPS, DEEPEST = 3000, 12
+GIVEN_BACK = "return"
+NOT_FOLLOWED = "'{}': assignments and one return are followed; write out what a loop or condition comes to"
 HARMLESS = frozenset((
     "print", "disp", "fprintf", "printf", "plot", "show", "figure", "title", "xlabel", "ylabel", "legend", "grid",
     "subplot", "savefig", "isinstance",
@@ -50,7 +53,7 @@ class Follower:
         """What a name stands for that nothing in the text gives a value: the file's own, or what a function gives."""
         if name in self.functions:
             return self.functions[name]
-        if any(name in s.parameters for s in _around(scope)) and name not in self.known.defined:
+        if any(name in s.parameters for s in scope.all) and name not in self.known.defined:
             return None
         text = self.known.defined.get(name)
         if text is not None and name not in self.looked:
@@ -130,6 +133,8 @@ class Follower:
                 return self.expressions.value(local.of.value, scope)
             assert isinstance(local.of, nodes.Define)
             found = self._body(local.of.body, scope)
+            if isinstance(scope.names.get(GIVEN_BACK), Broken):
+                self.expressions.word(GIVEN_BACK, scope)  # refused: what is given back, a condition decides
             if found is not None and found.value is not None:
                 return self._value_of(found, scope) or Several([])
             outs = [self._out(scope, name) for name in local.of.outs]
@@ -152,24 +157,41 @@ class Follower:
         return scope
 
     def _body(self, body: Iterable[nodes.Statement], scope: Scope) -> nodes.Return | None:
+        """Follow a function's statements, up to what it returns."""
+        found = self._part(body, scope)
+        return found if isinstance(found, nodes.Return) else None
+
+    def _part(self, body: Iterable[nodes.Statement], scope: Scope) -> nodes.Return | nodes.Leave | None:
         for statement in body:
             self.steps += 1
             if self.steps > MOST_STEPS:
                 raise NotFollowed(f"more than {MOST_STEPS} statements; give the function with the equations alone")
-            if isinstance(statement, nodes.Return):
+            if isinstance(statement, nodes.Return | nodes.Leave):
                 return statement
             if isinstance(statement, nodes.Define):
                 if scope is not self.top:
                     scope.names[statement.name] = Local(statement.parameters, statement, dict(scope.names))
                     self.functions.setdefault(statement.name, Local(statement.parameters, statement, scope.names))
                 continue
+            found: nodes.Return | nodes.Leave | None = None
             if isinstance(statement, nodes.Repeat):
                 found = self._repeat(statement, scope)
-                if found is not None:
-                    return found
-                continue
-            self._statement(statement, scope)
+            elif isinstance(statement, nodes.Choice):
+                found = self._choice(statement, scope)
+            else:
+                self._statement(statement, scope)
+            if found is not None:
+                return found
         return None
+
+    def _choice(self, statement: nodes.Choice, scope: Scope) -> nodes.Return | nodes.Leave | None:
+        """The body that a test of whole numbers chooses; what either changes is not known where it chooses neither."""
+        try:
+            body = statement.body if self.expressions.holds(statement.test, scope) else statement.otherwise
+        except NotFollowed:
+            self._unfollowed(nodes.Unfollowed(statement.line, statement.names), scope)
+            return nodes.Leave("", statement.line) if "continue" in statement.names else None
+        return self._part(body, scope)
 
     def _repeat(self, statement: nodes.Repeat, scope: Scope) -> nodes.Return | None:
         try:
@@ -180,9 +202,13 @@ class Follower:
             return None
         for k in numbers:
             scope.names[statement.name] = k
-            found = self._body(statement.body, scope)
-            if found is not None:
+            found = self._part(statement.body, scope)
+            if isinstance(found, nodes.Return):
                 return found
+            if isinstance(found, nodes.Leave) and not found.kind:
+                self._broken(statement.body, scope, NOT_FOLLOWED.format(found.line[:40]))
+            if isinstance(found, nodes.Leave) and found.kind != "continue":
+                break
         return None
 
     def _broken(self, body: Iterable[nodes.Statement], scope: Scope, why: str) -> None:
@@ -193,14 +219,15 @@ class Follower:
                     self._set(name, Broken(why), scope)
             elif isinstance(statement, nodes.Repeat):
                 self._broken(statement.body, scope, why)
+            elif isinstance(statement, nodes.Choice):
+                self._broken((*statement.body, *statement.otherwise), scope, why)
             elif isinstance(statement, nodes.Unfollowed):
                 self._unfollowed(statement, scope)
             elif isinstance(statement, nodes.Return):
                 scope.names[GIVEN_BACK] = Broken(why)
 
     def _unfollowed(self, statement: nodes.Unfollowed, scope: Scope) -> None:
-        why = (f"{statement.line[:40]!r}: assignments and one return are followed; write out what a loop or condition "
-               "comes to")  # fmt: skip
+        why = NOT_FOLLOWED.format(statement.line[:40])
         for name in statement.names:
             self._set(name, self._unknown(name, why), scope)
 
@@ -317,12 +344,12 @@ class Follower:
     def _note(self, name: str, value: Value, line: str) -> None:
         """tau = M*ddq + C: an equation, where the left side is a drive or a vector of drives."""
         if isinstance(value, Array | Formula) and (name in self.known.defined or name.strip("_") in self.known.drives):
-            self.equations.append((self._said_outside(name), _copied(value), line))
+            self.equations.append((self._said_outside(name), copied(value), line))
 
     def _said_outside(self, name: str) -> Value:
         found = self._defined(name, self.known.defined[name]) if name in self.known.defined else None
         if found is not None:
-            return _copied(found)
+            return copied(found)
         return Outside((name,))
 
     def _put_several(self, items: tuple[nodes.Node, ...], value: Value, line: str, scope: Scope) -> None:
@@ -401,24 +428,11 @@ class Follower:
         if array is None:
             sizes = [1 if w is None else w for w in wanted]
             shape = (sizes[0], 1) if len(sizes) == 1 else (sizes[0], sizes[1])
-            array = Array([Formula("0")] * (shape[0] * shape[1]), shape)
-            scope.names[path] = array
+            scope.names[path] = array = Array([Formula("0")] * (shape[0] * shape[1]), shape)
             return array
         if array.is_state or len(array.shape) == 1 or any(w is None for w in wanted):
             return array
-        height, width = array.shape
-        if len(wanted) == 1:
-            k = wanted[0] or 1
-            new = (max(height, k), 1) if width == 1 else (height, max(width, k) if height == 1 else width)
-        else:
-            new = (max(height, wanted[0] or 1), max(width, wanted[1] or 1))
-        if new != array.shape:
-            if new[0] * new[1] > 64:
-                raise NotFollowed(f"{path}: more than 64 entries")
-            rows = [[*row, *[Formula("0")] * (new[1] - width)] for row in array.rows]
-            rows += [[Formula("0")] * new[1] for _ in range(new[0] - height)]
-            array.entries[:] = [e for row in rows for e in row]
-            array.shape = new
+        grow(array, [w or 1 for w in wanted], path)
         return array
 
     def _fill(self, array: Array, chosen: list[int], shape: tuple[int, ...], value: Value, line: str) -> None:
@@ -433,17 +447,3 @@ class Follower:
             raise NotFollowed(f"{len(chosen)} entries are given {len(entries)} values")
         for k, entry in zip(chosen, entries, strict=True):
             array.entries[k] = self.names.line(entry, line)
-
-
-GIVEN_BACK = "return"
-
-
-def _copied(value: Value) -> Value:
-    return value.copied() if isinstance(value, Array) else value
-
-
-def _around(scope: Scope) -> Iterable[Scope]:
-    found: Scope | None = scope
-    while found is not None:
-        yield found
-        found = found.around

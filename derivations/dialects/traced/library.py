@@ -186,7 +186,9 @@ def squared(value: Value) -> Value:
 
 
 def total(value: Value) -> Formula:
-    """The sum of all entries."""
+    """The sum of all entries; of an empty list, 0."""
+    if isinstance(value, Several) and not value.items:
+        return ZERO
     if not isinstance(value, Array):
         return formula(value)
     found = product(

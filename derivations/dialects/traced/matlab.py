@@ -101,6 +101,8 @@ class _Parser:
                 if not top:
                     return tuple(made)
                 continue  # of a classdef, or one too many
+            if token.kind == "word" and token.text in ("else", "elseif") and not top:
+                return tuple(made)
             if token.kind == "word" and token.text == "function":
                 if not top:
                     return tuple(made)  # functions of a file need no end
@@ -125,6 +127,9 @@ class _Parser:
         if token.kind == "word" and token.text == "return":
             self.at += 1
             return []
+        if token.kind == "word" and token.text in ("break", "continue"):
+            self.at += 1
+            return [nodes.Leave(token.text, self.line(start))]
         if token.kind == "word" and token.text == "for":
             return [self.loop(start)]
         if token.kind == "word" and token.text in OPENS:
@@ -133,8 +138,7 @@ class _Parser:
             inside = self.tokens[start : self.at]
             if is_guard(inside):
                 return []
-            names = dict.fromkeys(t.text for t in inside if t.kind == "word")
-            return [nodes.Unfollowed(self.line(start), tuple(names))]
+            return [self.choice(start, inside)]
         line = self.line(start)
         target = self.targets() or self.expression()
         if self.is_sign("="):
@@ -162,6 +166,37 @@ class _Parser:
                 depth += 1
             elif token.kind == "word" and token.text in ENDS:
                 depth -= 1
+
+    def choice(self, start: int, inside: list[Token]) -> nodes.Statement:
+        """if … elseif … else … end; any other block, and one that is no MATLAB, is not followed. It is behind here."""
+        behind, depth, blocks = self.at, self.depth, list(self.in_block)
+        names = list(dict.fromkeys(t.text for t in inside if t.kind == "word"))
+        if {"break", "continue"} & set(names) and "for" not in names and "while" not in names:
+            names.append("continue")
+        if self.tokens[start].text == "if":
+            self.at = start
+            try:
+                made = self.branches(tuple(names))
+                if self.at == behind:
+                    return made
+            except NoMatlab:
+                pass
+        self.at, self.depth, self.in_block = behind, depth, blocks
+        return nodes.Unfollowed(self.line(start), tuple(names))
+
+    def branches(self, names: tuple[str, ...]) -> nodes.Choice:
+        """From if or elseif to the end that closes it."""
+        line = self.line(self.at)
+        self.at += 1
+        test = self.expression()
+        body = self.body()
+        otherwise: tuple[nodes.Statement, ...] = ()
+        if self.token.text == "elseif":
+            otherwise = (self.branches(names),)
+        elif self.token.text == "else":
+            self.at += 1
+            otherwise = self.body()
+        return nodes.Choice(test, body, otherwise, line, names)
 
     def loop(self, start: int) -> nodes.Statement:
         line = self.line(start)
@@ -261,7 +296,7 @@ class _Parser:
         while self.is_sign("==", "<", ">", "<=", ">=", "~=", "!=", "&", "|", "&&", "||"):
             sign = self.next().text
             right = self.sum()
-            left = nodes.Binary("==", left, right) if sign == "==" else nodes.Strange(sign)
+            left = nodes.Binary(sign, left, right)
         return left
 
     def apart(self) -> bool:

@@ -12,6 +12,8 @@ TOKEN = re.compile(
     r"|(?P<sign>\.\*|\./|\.\^|\.\\|\.'|==|~=|!=|<=|>=|&&|\|\||\+=|-=|\*=|/=|[-+*/\\^()\[\]{},;:=<>@.~&|!'\"\n])"
 )
 BLOCK_REMARK = re.compile(r"(?ms)^[ \t]*[%#]\{[ \t]*$.*?^[ \t]*[%#]\}[ \t]*$")
+SCILAB = re.compile(r"(?m)^[^%#'\"\n]*//")  # its remarks; in MATLAB two divisions stand side by side nowhere
+SCILAB_BLOCK = re.compile(r"/\*(?:[^*]|\*(?!/)){0,2000}\*/")
 MOST_TOKENS = 12_000
 
 
@@ -44,9 +46,18 @@ def _past_blanks(text: str, at: int) -> tuple[int, bool]:
     return at, at > start
 
 
+def _of_scilab(text: str) -> str:
+    """Scilab's remarks as MATLAB's, and %pi as pi. Raises NoMatlab for another number of its own, %e or %i."""
+    text = re.sub(r"%pi(?!\w)", " pi", SCILAB_BLOCK.sub(" ", text))
+    if any("%" in line.partition("//")[0] for line in text.split("\n")):
+        raise NoMatlab
+    return text.replace("//", "%%")
+
+
 def tokens_of(text: str) -> list[Token]:  # noqa: PLR0912 -- one for each kind
     """The tokens, without remarks. Raises NoMatlab where the text is none."""
     text = BLOCK_REMARK.sub("", text)
+    text = _of_scilab(text) if SCILAB.search(text) else text
     found: list[Token] = []
     opened: list[str] = []
     at = 0

@@ -109,6 +109,8 @@ class Meaning:
         self.by_labels(state)
         left = [p for p in pairs if self.order.get(p, (9, 0))[0] != 0]
         free = [k for k in range(self.count) if (0, k) not in self.order.values()]
+        if len(pairs) == self.count and len(left) == len(free) == self.count:
+            self.order |= self._in_one_vector(left)
         if len(pairs) == self.count and len(left) == len(free) == 1:
             self.order[left[0]] = (0, free[0])
         if len(pairs) != self.count or set(pairs) & set(pairs.values()):
@@ -122,6 +124,16 @@ class Meaning:
                 raise NotFollowed(f"which coordinate is {self.shown(place)}? {UNCERTAIN}")
             self.order[rate] = (1, k)
         return True
+
+    def _in_one_vector(self, places: Sequence[Path]) -> dict[Path, tuple[int, int]]:
+        """All coordinates in their own order, of a = y[:n] with as many as there are of one letter; else nothing."""
+        if self.count < 3 or self.known.is_vector("q") is None:
+            return {}
+        for name in {name for p in places for name, _ in self.names.vectors.get(p, [])}:
+            found = {p: (0, k) for p in places for of, k in self.names.vectors.get(p, []) if of == name}
+            if sorted(k for _, k in found.values()) == list(range(self.count)) and len(found) == self.count:
+                return found
+        return {}
 
     def by_labels(self, state: Sequence[Path]) -> None:
         """The coordinates among these places, by their names alone."""

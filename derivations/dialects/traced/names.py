@@ -29,6 +29,11 @@ class Scope:
             return None
         return self.around.find(name)
 
+    @property
+    def all(self) -> list[Scope]:
+        """This one and those around it."""
+        return [self, *(self.around.all if self.around is not None else [])]
+
 
 @dataclass
 class Names:

@@ -112,6 +112,25 @@ class Nameless:
 
 
 @dataclass(frozen=True)
+class Either:
+    """One of two values, by a test."""
+
+    test: Node
+    value: Node
+    otherwise: Node
+
+
+@dataclass(frozen=True)
+class Each:
+    """The list of a value for each of some numbers, [value for name in over if tests]."""
+
+    value: Node
+    name: str
+    over: Node
+    tests: tuple[Node, ...] = ()
+
+
+@dataclass(frozen=True)
 class Strange:
     """An expression of a kind that is not followed."""
 
@@ -133,6 +152,8 @@ Node = (
     | Span
     | Dots
     | Nameless
+    | Either
+    | Each
     | Strange
 )
 
@@ -185,6 +206,25 @@ class Repeat:
 
 
 @dataclass(frozen=True)
+class Choice:
+    """One body or another, by a test. ``names``: what either may change, as of a statement that is not followed."""
+
+    test: Node
+    body: tuple[Statement, ...]
+    otherwise: tuple[Statement, ...]
+    line: str
+    names: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Leave:
+    """``kind``: "continue" with the loop's next number, "break" it off, or "" where a test that is not known says."""
+
+    kind: str
+    line: str
+
+
+@dataclass(frozen=True)
 class Unfollowed:
     """A statement of a kind that is not followed. ``names``: what it may change; refused where one is needed."""
 
@@ -192,7 +232,7 @@ class Unfollowed:
     names: tuple[str, ...] = ()
 
 
-Statement = Assign | Return | Do | Define | Repeat | Unfollowed
+Statement = Assign | Return | Do | Define | Repeat | Choice | Leave | Unfollowed
 
 
 def dotted(node: Node) -> str | None:

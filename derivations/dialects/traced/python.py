@@ -14,6 +14,9 @@ SIGNS: dict[type[ast.operator], str] = {
 }  # fmt: skip
 PRINTED = re.compile(r"(?m)^([ \t]*)print[ \t]+[^(=\n][^\n]*$")
 PROMPT = re.compile(r"(?m)^(?:>>>|\.\.\.) ?|^In \[[0-9]{1,3}\]: ?")
+COMPARED: dict[type[ast.cmpop], str] = {
+    ast.Eq: "==", ast.NotEq: "!=", ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=",
+}  # fmt: skip
 HEAD = re.compile(r"^(?P<blank>[ \t]*)(?:def|class)\b.*:\s*(?:#.*)?$")
 MATLAB = re.compile(r"(?m)^\s*function\b|^\s*end\s*;?\s*$")
 NOT_SELF = ("self", "cls", "this")
@@ -58,7 +61,7 @@ class _Reader:
     def body(self, body: list[ast.stmt], of: str = "") -> tuple[nodes.Statement, ...]:
         return tuple(one for statement in body for one in self.statement(statement, of))
 
-    def statement(self, node: ast.stmt, of: str) -> list[nodes.Statement]:  # noqa: PLR0911 -- one for each kind
+    def statement(self, node: ast.stmt, of: str) -> list[nodes.Statement]:  # noqa: PLR0911, PLR0912 -- one for each kind
         line = self.line(node)
         match node:
             case ast.FunctionDef(name=name, args=args, body=body):
@@ -94,16 +97,23 @@ class _Reader:
             case ast.If(test=test, body=body, orelse=otherwise):
                 if (_only_guards(body) and _only_guards(otherwise)) or _is_default(test, body, otherwise):
                     return []
-                return [nodes.Unfollowed(line, _names(node))] if not _is_main(test) else []
+                if _is_main(test):
+                    return []
+                return [nodes.Choice(_tree(test), self.body(body), self.body(otherwise), line, _names(node))]
             case ast.For(target=ast.Name(id=name), iter=over, body=body, orelse=[]):
                 return [nodes.Repeat(name, _tree(over), self.body(body), line)]
+            case ast.Continue() | ast.Break():
+                return [nodes.Leave("continue" if isinstance(node, ast.Continue) else "break", line)]
         return [nodes.Unfollowed(line, _names(node))]
 
 
 def _names(node: ast.stmt) -> tuple[str, ...]:
-    """What a statement may change; "return" where it may be the last."""
+    """What a statement may change; "return" and "continue" where it may be the last of a function, or of a loop."""
     found = [ast.unparse(n) for n in ast.walk(node) if isinstance(n, ast.Attribute | ast.Name)]
-    return tuple(dict.fromkeys([*found, *("return" for n in ast.walk(node) if isinstance(n, ast.Return))]))
+    found += ["return" for n in ast.walk(node) if isinstance(n, ast.Return)]
+    inside = [n for one in ast.walk(node) if isinstance(one, ast.For | ast.While) for n in ast.walk(one)]
+    leaves = [n for n in ast.walk(node) if isinstance(n, ast.Continue | ast.Break) and n not in inside]
+    return tuple(dict.fromkeys([*found, *("continue" for _ in leaves)]))
 
 
 def _only_guards(body: list[ast.stmt]) -> bool:
@@ -181,6 +191,17 @@ def _tree(node: ast.expr) -> nodes.Node:  # noqa: PLR0911, PLR0912 -- one for ea
             return nodes.Unary("*", _tree(of))
         case ast.Lambda(args=args, body=value):
             return nodes.Nameless(_parameters(args), _tree(value))
-        case ast.Compare(left=left, ops=[ast.Eq()], comparators=[right]):
-            return nodes.Binary("==", _tree(left), _tree(right))
+        case ast.Compare(left=left, ops=[op], comparators=[right]) if type(op) in COMPARED:
+            return nodes.Binary(COMPARED[type(op)], _tree(left), _tree(right))
+        case ast.BoolOp(op=op, values=[first, *rest]):
+            whole = _tree(first)
+            for one in rest:
+                whole = nodes.Binary("&&" if isinstance(op, ast.And) else "||", whole, _tree(one))
+            return whole
+        case ast.IfExp(test=test, body=value, orelse=otherwise):
+            return nodes.Either(_tree(test), _tree(value), _tree(otherwise))
+        case ast.ListComp(elt=of, generators=[one]) | ast.GeneratorExp(elt=of, generators=[one]) if isinstance(
+            one.target, ast.Name
+        ):
+            return nodes.Each(_tree(of), one.target.id, _tree(one.iter), tuple(map(_tree, one.ifs)))
     return nodes.Strange(ast.unparse(node)[:60])

@@ -125,6 +125,11 @@ def number(value: int) -> Formula:
     return Formula(str(value), FACTOR if value >= 0 else SUM)
 
 
+def copied(value: Value) -> Value:
+    """An array that changes with no other; any other value as it is."""
+    return value.copied() if isinstance(value, Array) else value
+
+
 def formula(value: Value) -> Formula:
     """A number or a quantity. Raises NotFollowed for anything else."""
     match value:

@@ -121,7 +121,7 @@ SLIPS = {
 REFUSED = [
     ("loops", "n = 2", "n = 3", "returns 6 values for 2 coordinates"),
     ("loops", "for j in range(n)", "for j in range(10**9)", "something else than whole numbers"),
-    ("loops", "        for j", "        if i == 1: continue\n        for j", "what a loop or condition comes to"),
+    ("loops", "        for j", "        if t > 1: continue\n        for j", "what a loop or condition comes to"),
     ("loops", "max(i, j)", "__import__('os').getpid()", None),
     ("loops", "for j in range(n)", "for j in q", "something else than whole numbers"),
     ("entries", "A[1,1] = l", "A[2,1] = l", "it is not there"),
