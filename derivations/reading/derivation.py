@@ -13,6 +13,7 @@ from ..dialects.followed.chosen import from_languages
 from ..dialects.functions import whole_functions
 from ..dialects.letters.by_rule import by_rule
 from ..dialects.letters.every_text import lines_of
+from ..dialects.letters.given_motions import without_given_motions
 from ..dialects.letters.gravity import said_of_gravity, said_of_squares
 from ..dialects.letters.indices import plain_indices
 from ..dialects.letters.left_sides import without_left_sides
@@ -118,6 +119,7 @@ def _plain(data: dict[str, Any]) -> tuple[dict[str, Any], list[str], int]:
     data = whole_functions(data, len(free) or count, free)
     data = with_vectors(_with_positions(rows_of_blocks(data)), count)
     data, constants = with_times(data)
+    data = without_given_motions(data)
     data = translated(data, count)
     data, of_gravity = said_of_gravity(data)
     return data, [*constants, *of_gravity], count
