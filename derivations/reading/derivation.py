@@ -18,6 +18,7 @@ from ..dialects.letters.gravity import said_of_gravity, said_of_squares
 from ..dialects.letters.indices import plain_indices
 from ..dialects.letters.left_sides import without_left_sides
 from ..dialects.letters.members import without_low_lines
+from ..dialects.markup.macros import plain_macros
 from ..dialects.markup.pages import from_pages
 from ..dialects.markup.prose import FormulasInWords
 from ..dialects.notes.note import as_note, is_worded
@@ -45,6 +46,7 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     Raises InvalidInput, with the place, where it is none.
     """
     known_fields(data)
+    data = plain_macros(data)
     spelled = _spelled(data)
     refused: InvalidInput | None = None
     try:

@@ -33,6 +33,11 @@ WORDED = re.compile(
     r"\$|\\[\[(]|```|(?<![^\W\d_])[^\W\d_]{3,40} [^\W\d_]{2,40} [^\W\d_]{2}|[\u3040-\u30ff\u4e00-\u9fff]{3}|\*\*"
 )
 
+DIFFERENCE = re.compile(
+    r"(?:\\Delta|Δ|∆)\s*(?P<x>\\(?:var)?(?:theta|phi)(?![A-Za-z])|\\psi(?![A-Za-z])|[θϑφϕψ])(?:\s*_\s*(?:\{\s*(?P<i>\w{1,4})\s*\}|(?P<j>\w)))?"
+)
+SAID_DIFFERENCE = re.compile(rf"{DIFFERENCE.pattern}\s*&?\s*(?::?=|\\equiv|≡)")
+
 
 def as_note(data: dict[str, Any], usual: list[dict[str, str]] | None = None) -> dict[str, Any] | None:
     """The fields with formulas alone; None where they are no note. Raises InvalidInput with what to write.
@@ -76,12 +81,20 @@ def is_fit_table(data: Mapping[str, Any]) -> bool:
 
 
 def _statements(text: str, names: Names) -> list[Statement]:
-    text = apart(index_first(plain_derivatives(text.translate(FULL_WIDTH))), names)
+    text = _with_differences(text.translate(FULL_WIDTH), names)
+    text = apart(index_first(plain_derivatives(text)), names)
     found: list[Statement] = []
     for formula in formulas_of(with_bold_apart(with_accents(text), names)):
         said = statements_of(formula.text)
         found += [s for s in said if not formula.inline or _is_said(s, names)]
     return found
+
+
+def _with_differences(text: str, names: Names) -> str:
+    r"""The text with a name for \Delta\theta, where it says what that is, and Δ is nothing else."""
+    if "Delta" in names.all or not SAID_DIFFERENCE.search(text):
+        return text
+    return DIFFERENCE.sub(lambda m: f"\\Delta_{{{(plain_name(m['x']) or '') + (m['i'] or m['j'] or '')}}} ", text)
 
 
 def _is_said(sides: Statement, names: Names) -> bool:
