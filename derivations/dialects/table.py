@@ -26,10 +26,10 @@ ENERGIES = ("kinetic", "potential", "lagrangian", "hamiltonian")
 MOST_LINES, MOST_BODIES, LONGEST_NAME = 50, 8, 80
 # Behind a name, in a declared mechanism, where no coordinate is called t
 OF_TIME = re.compile(
-    r"(?<=[A-Za-z0-9_}₀-₉\u0307\u0308'])(?<!sin)(?<!cos)(?<!tan)\s*(?:\\left\s*)?\(\s*t\s*(?:\\right\s*)?\)"
+    r"(?<=[A-Za-z0-9_}α-ωΑ-Ωϑϕϵ₀-₉\u0307\u0308'])(?<!sin)(?<!cos)(?<!tan)\s*(?:\\left\s*)?\(\s*t\s*(?:\\right\s*)?\)"
 )
 GRAVITY = re.compile(r"(?<![A-Za-z\\])g(?![A-Za-z])")
-DRIVE_OF_TIME = re.compile(r"(?<=[A-Za-z0-9_}])(?<!sin)(?<!cos)\s*\(\s*t\s*\)")
+DRIVE_OF_TIME = re.compile(r"(?<=[A-Za-z0-9_}α-ωΑ-Ωϑϕϵ₀-₉])(?<!sin)(?<!cos)\s*\(\s*t\s*\)")
 NUMBER = re.compile(r"\s*([0-9]{1,3}(?:\.[0-9]{0,8})?)\s*;?\s*(?:m\s*/\s*s(?:\^2|²|\*\*2))?\s*$")
 WHERE = re.compile(
     r"(?:[,;.]|\\[,;]|\\q?quad|\s){0,20}(?:\\q?quad|\\(?:text|mbox|textrm|mathrm)\s*\{\s*(?:where|with|mit|wobei|où|avec|ただし)(?:\s[^{}$=\\]{0,60})?\s*:?\s*\}|[,;]\s*(?:where|with))"

@@ -18,6 +18,7 @@ from ..dialects.letters.gravity import said_of_gravity, said_of_squares
 from ..dialects.letters.indices import plain_indices
 from ..dialects.letters.left_sides import without_left_sides
 from ..dialects.letters.members import without_low_lines
+from ..dialects.markup.asciimath import without_ticks
 from ..dialects.markup.macros import plain_macros
 from ..dialects.markup.pages import from_pages
 from ..dialects.markup.prose import FormulasInWords
@@ -46,7 +47,7 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     Raises InvalidInput, with the place, where it is none.
     """
     known_fields(data)
-    data = plain_macros(data)
+    data = plain_macros(without_ticks(data))
     spelled = _spelled(data)
     refused: InvalidInput | None = None
     try:

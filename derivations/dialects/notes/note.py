@@ -20,6 +20,7 @@ from .declarations import plain_declarations
 from .derivatives import plain_derivatives
 from .displays import Statement, has_arrow, statements_of
 from .energies import Energy, energy, evident_rates
+from .entries import with_entries
 from .letters import Names, alone, names_of, with_accents, with_bold_apart
 from .partial import rows_of_partial
 from .points import of_unknown_points
@@ -150,7 +151,7 @@ def _with_equations(data: dict[str, Any], names: Names, new: dict[str, str], ste
         except InvalidInput as error:
             raise InvalidInput(f"equations.{label:.40}: {error}") from None
     try:
-        statements = of_unknown_points(by_rule(statements), names)
+        statements = with_entries(of_unknown_points(by_rule(statements), names), names)
         found: Sorted = sorted_statements(with_columns(statements, names), names)
         more, equal = rows_of_partial(found.partial, names, data)
         found.rows, found.steps = more + found.rows, found.steps + equal
