@@ -78,13 +78,26 @@ def translated(data: dict[str, Any], count: int = 0) -> dict[str, Any]:
     define = data.get("define")
     names = frozenset(map(str, define)) if isinstance(define, dict) else frozenset()
     made = _mapped(data, lambda line: _line(sums(line, count), names))
-    if known.coordinates:
+    made = _mapped(made, by_letters([str(made.get(name)) for name in (*TABLES, *ENERGIES)], known))
+    if known.coordinates and "t" not in known.coordinates:
         made = _mapped(made, lambda line: OF_TIME.sub(lambda found: " " * len(found[0]), line))
     made = shorter_names(_with_any_gravity(made), _mapped)
     made = _mapped(made, lambda line: suffixed(line, known.coordinates, known.quantities | set(made.get("define", {}))))
     made = _said_behind(made)
     made = named_rates(made, known.coordinates, known.quantities)
     return short_waves(made, known)
+
+
+def by_letters(texts: list[str], known: Known) -> Callable[[str], str]:
+    """What puts primes for d and dd behind a coordinate of one letter, ed and edd, where d is nothing of its own."""
+    text = "\n".join(texts)
+    own = [c for c in known.coordinates if len(c) == 1 and c.isascii()]
+    read = [c for c in own if re.search(rf"(?<![\w\\]){c}dd(?!\w)", text)]
+    free = known.quantities.isdisjoint({"d", *(c + d for c in own for d in ("d", "dd"))})
+    if not read or not free or re.search(r"(?<![\w\\])d(?![\w])", text):
+        return lambda line: line
+    pattern = re.compile(rf"(?<![\w\\])(?P<x>{'|'.join(read)})(?P<d>dd?)(?!\w)")
+    return lambda line: pattern.sub(lambda found: found["x"] + "'" * len(found["d"]), line)
 
 
 def _of_no_time(data: dict[str, Any]) -> dict[str, Any]:

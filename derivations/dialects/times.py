@@ -47,8 +47,8 @@ def with_times(data: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
     bodies, define = data.get("bodies"), data.get("define", {})
     if not isinstance(bodies, list) or len(bodies) > 8 or not all(isinstance(b, dict) for b in bodies):
         return data, []
-    if not isinstance(define, dict):
-        return data, []
+    if not isinstance(define, dict) or any(plain_name(str(b.get("coordinate", ""))) == "t" for b in bodies):
+        return data, []  # a coordinate that is called t is no time
     if any(b.get("motion") == "given" for b in bodies):
         data = data | {f: _apart(data[f]) for f in (*FIELDS, *ENERGIES) if f in data}
     if not _has_phase([data.get(f) for f in (*FIELDS, *ENERGIES)]):

@@ -11,7 +11,9 @@ from ..dialects.blocks import rows_of_blocks
 from ..dialects.code.programs import plain_programs
 from ..dialects.followed.chosen import from_languages
 from ..dialects.functions import whole_functions
+from ..dialects.letters.angle_t import require_no_time
 from ..dialects.letters.by_rule import by_rule
+from ..dialects.letters.drives import with_phases
 from ..dialects.letters.every_text import lines_of
 from ..dialects.letters.given_motions import without_given_motions
 from ..dialects.letters.gravity import said_of_gravity, said_of_squares
@@ -48,6 +50,8 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     """
     known_fields(data)
     data = plain_macros(without_ticks(data))
+    require_no_time(data)
+    data = with_phases(data)
     spelled = _spelled(data)
     refused: InvalidInput | None = None
     try:

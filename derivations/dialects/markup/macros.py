@@ -22,6 +22,7 @@ ALONE = ("dv", "derivative", "pdv", "partialderivative", "pderivative")  # \dv{t
 SECOND = ("odd", "dodd", "pdd")
 NAME = re.compile(r"\s*(?P<x>\\?[A-Za-z]+(?:\s*_\s*(?:\{[^{}]{1,8}\}|\w))?)\s*(?:\(\s*t\s*\))?\s*")
 DIFFERENTIAL = re.compile(r"(?<=\{)\s*\\(?:dd|dif|diff|ud|rd|d)(?![A-Za-z])(?:\[\s*2\s*\])?")
+BEGINS = re.compile(r"\\(?P<which>begin|end)\s+\{")
 DOTS = re.compile(r"\\D(?P<dots>d?)ot(?=\s*[{\\A-Za-z])")
 ABOVE = re.compile(r"\\(?:overset|stackrel)\s*\{\s*(?P<dots>(?:\\cdot|\\bullet|\.|\s){1,24})\s*\}\s*(?=\{)")
 FRACTION = re.compile(r"\\(?:nicefrac|sfrac|cfrac|flatfrac)(?=\s*\{)")
@@ -48,6 +49,7 @@ def plain_macros(data: dict[str, Any]) -> dict[str, Any]:
 def _plain(text: str) -> str:
     if "\\" not in text or is_program(text):
         return text
+    text = BEGINS.sub(lambda m: f"\\{m['which']}{{", text)
     text = DOTS.sub(lambda m: f"\\{m['dots']}dot", text)
     text = ABOVE.sub(_dotted, text)
     for _ in range(MOST):

@@ -30,6 +30,7 @@ from .words import formulas_of
 
 ENERGIES = ("kinetic", "potential", "lagrangian", "hamiltonian")
 MOST_ROWS = 16
+IN_FONT = re.compile(r"\\math(?:cal|scr)\s*(?:\{\s*L\s*\}|L(?![A-Za-z]))")
 WORDED = re.compile(
     r"\$|\\[\[(]|```|(?<![^\W\d_])[^\W\d_]{3,40} [^\W\d_]{2,40} [^\W\d_]{2}|[\u3040-\u30ff\u4e00-\u9fff]{3}|\*\*"
 )
@@ -124,6 +125,8 @@ def _with_energy(
     try:
         if kind == "hamiltonian":
             text = with_momenta(text, names)
+        if kind == "lagrangian" and "L" in names.all:  # L is a length, and the letter in a font the Lagrangian
+            text = IN_FONT.sub("ℒ ", text)
         found: Energy = energy(kind, by_rule(_statements(text, names)), names)
     except InvalidInput as error:
         raise InvalidInput(f"{kind}: {error}") from None

@@ -97,3 +97,31 @@ def test_a_backslash_and_a_blank_is_no_division():
     r"""r\ sin theta: LaTeX's blank, which MATLAB would take for a division."""
     with pytest.raises(InvalidInput, match="a backslash with a blank"):
         grade_text(PLACES.format(ASCII.replace("`", "")))
+
+
+FREE = "system='mechanism'\nfrom='down'\n[[bodies]]\ncoordinate='t'\nmass='0'\nlength='l'\n[[bodies]]\ncoordinate='e'\njoint='slide'\nalong='link'\nmass='m'\nspring='k'\n{}[equations]\n1='{}'\n2='{}'\n"
+ALONG, ACROSS = "edd = (l + e)*td*td + g*cos(t) - k*e/m", "tdd = -(2*ed*td + g*sin(t))/(l + e)"
+
+
+def test_an_angle_that_is_called_t():
+    assert grade_text(FREE.format("", ALONG, ACROSS)).verdict == "correct"
+    assert grade_text(FREE.format("", ALONG.replace("cos", "sin"), ACROSS)).verdict == "wrong"
+    assert grade_text(FREE.format("", ALONG, ACROSS.replace("2*", ""))).verdict == "wrong"
+
+
+@pytest.mark.parametrize(("more", "row"), [
+    ("drive='F(t)'\n", ALONG + " + F(t)/m"), ("drive='F*cos(w*t)'\n", ALONG + " + F*cos(w*t)/m"), ("", ALONG.replace("edd", "d^2e/dt^2")),
+])  # fmt: skip
+def test_an_angle_that_is_called_t_besides_time_is_refused(more, row):
+    with pytest.raises(InvalidInput):
+        grade_text(FREE.format(more, row, ACROSS))
+
+
+@pytest.mark.parametrize("second", ["d 2(theta)/ dt2", "d2(theta)/dt2", "d2theta/dt2", "d^2(theta)/dt^2", "theta''"])
+def test_a_drive_with_a_cosine_of_an_angle_that_is_no_coordinate(second):
+    text = ONE.replace("'θ'", "'theta'")
+    row = f"l {second} = -g sin(theta) + A cos(phi)/(m l)"
+    assert grade_text(text.format("drive='A cos(phi)'", row)).verdict == "correct"
+    assert grade_text(text.format("drive='A cos(phi)'", row.replace("+ A", "- A"))).verdict == "wrong"
+    with pytest.raises(InvalidInput):
+        grade_text(text.format("drive='A cos(phi)'", row.replace("cos(phi)", "sin(phi)")))
