@@ -125,3 +125,22 @@ def test_a_drive_with_a_cosine_of_an_angle_that_is_no_coordinate(second):
     assert grade_text(text.format("drive='A cos(phi)'", row.replace("+ A", "- A"))).verdict == "wrong"
     with pytest.raises(InvalidInput):
         grade_text(text.format("drive='A cos(phi)'", row.replace("cos(phi)", "sin(phi)")))
+
+
+PARTS = r"""
+\begin {align*} T_1 &= \frac {1}{2} m_1 L^2\dot {\theta}_1^2 \\ V_1 &= -m_1 g L\cos\theta_1 \end {align*}
+
+\begin {align*} T_2 &= \frac {1}{2} m_2 L^2\left ( \dot\theta_1^2 + \dot\theta_2^2 + 2\dot\theta_1\dot\theta_2\cos(\theta_1-\theta_2)\right ) \\ V_2 &= -m_2 g L(\cos\theta_1 + \cos\theta_2) \end {align*}
+
+$\mathcal {L} = (T_1 + T_2) - (V_1 + V_2)$
+"""
+
+
+@pytest.mark.parametrize(
+    ("slip", "verdict"), [(("", ""), "correct"), (("_1 + \\cos", "_1 - \\cos"), "wrong"), (("+ 2", "+ "), "wrong")]
+)
+def test_a_lagrangian_of_parts_beside_a_length_with_its_letter(slip, verdict):
+    bodies = "".join(f"[[bodies]]\ncoordinate='\\theta_{k}'\nmass='m_{k}'\nlength='L'\n" for k in (1, 2))
+    parts = PARTS.replace(*slip) if slip[0] else PARTS
+    text = f"system='mechanism'\nangles='absolute'\nfrom='down'\nlagrangian='''{parts}'''\n{bodies}"
+    assert grade_text(text).verdict == verdict
