@@ -22,6 +22,6 @@ def require_no_time(data: dict[str, Any]) -> None:
         found = OF_T.search(text) or BY_T.search(text)
         if found:
             raise InvalidInput(
-                f"{found[0].strip()}: t is a coordinate here, and is it time as well? Give the angle another letter, and "
-                "write * before (t) for a product"
+                f"{found[0].strip()}: t is a coordinate here, and is it time as well? Give the angle another letter, "
+                "and write * before (t) for a product"
             )
