@@ -174,7 +174,7 @@ def unnamed(line: str) -> str:
         if behind < 0:
             return line
         inner = line[found.end() + 1 : end - 1]
-        if len(_cut(inner.strip()[1:], SUM_SIGN)) > 1 and not (
+        if len(_cut(re.sub(r"^\s*[+−–-]", "", inner), SUM_SIGN)) > 1 and not (
             SUM_BEFORE.search(line[: found.start()]) and SUM_BEHIND.match(line, behind)
         ):
             return line  # 2\\underbrace{a + b}: whether the brace binds as a bracket does is the author's secret

@@ -26,10 +26,10 @@ ENERGIES = ("kinetic", "potential", "lagrangian", "hamiltonian")
 MOST_LINES, MOST_BODIES, LONGEST_NAME = 50, 8, 80
 # Behind a name, in a declared mechanism, where no coordinate is called t
 OF_TIME = re.compile(
-    r"(?<=[A-Za-z0-9_}₀-₉\u0307\u0308'])(?<!sin)(?<!cos)(?<!tan)\s*(?:\\left\s*)?\(\s*t\s*(?:\\right\s*)?\)"
+    r"(?<=[A-Za-z0-9_}α-ωΑ-Ωϑϕϵ₀-₉\u0307\u0308'])(?<!sin)(?<!cos)(?<!tan)\s*(?:\\left\s*)?\(\s*t\s*(?:\\right\s*)?\)"
 )
 GRAVITY = re.compile(r"(?<![A-Za-z\\])g(?![A-Za-z])")
-DRIVE_OF_TIME = re.compile(r"(?<=[A-Za-z0-9_}])(?<!sin)(?<!cos)\s*\(\s*t\s*\)")
+DRIVE_OF_TIME = re.compile(r"(?<=[A-Za-z0-9_}α-ωΑ-Ωϑϕϵ₀-₉])(?<!sin)(?<!cos)\s*\(\s*t\s*\)")
 NUMBER = re.compile(r"\s*([0-9]{1,3}(?:\.[0-9]{0,8})?)\s*;?\s*(?:m\s*/\s*s(?:\^2|²|\*\*2))?\s*$")
 WHERE = re.compile(
     r"(?:[,;.]|\\[,;]|\\q?quad|\s){0,20}(?:\\q?quad|\\(?:text|mbox|textrm|mathrm)\s*\{\s*(?:where|with|mit|wobei|où|avec|ただし)(?:\s[^{}$=\\]{0,60})?\s*:?\s*\}|[,;]\s*(?:where|with))"
@@ -78,7 +78,8 @@ def translated(data: dict[str, Any], count: int = 0) -> dict[str, Any]:
     define = data.get("define")
     names = frozenset(map(str, define)) if isinstance(define, dict) else frozenset()
     made = _mapped(data, lambda line: _line(sums(line, count), names))
-    if known.coordinates:
+    made = _mapped(made, by_letters([str(made.get(name)) for name in (*TABLES, *ENERGIES)], known))
+    if known.coordinates and "t" not in known.coordinates:
         made = _mapped(made, lambda line: OF_TIME.sub(lambda found: " " * len(found[0]), line))
     made = shorter_names(_with_any_gravity(made), _mapped)
     made = _mapped(made, lambda line: suffixed(line, known.coordinates, known.quantities | set(made.get("define", {}))))
@@ -93,6 +94,18 @@ def _texts(data: Mapping[str, Any]) -> list[str]:
     tables = [t for name in TABLES if isinstance(t := data.get(name), dict | list)]
     lines = [line for table in tables for line in (table.values() if isinstance(table, dict) else table)]
     return [line for line in (*lines, *(data.get(name) for name in ENERGIES)) if isinstance(line, str)]
+
+
+def by_letters(texts: list[str], known: Known) -> Callable[[str], str]:
+    """What puts primes for d and dd behind a coordinate of one letter, ed and edd, where d is nothing of its own."""
+    text = "\n".join(texts)
+    own = [c for c in known.coordinates if len(c) == 1 and c.isascii()]
+    read = [c for c in own if re.search(rf"(?<![\w\\]){c}dd(?!\w)", text)]
+    free = known.quantities.isdisjoint({"d", *(c + d for c in own for d in ("d", "dd"))})
+    if not read or not free or re.search(r"(?<![\w\\])d(?![\w])", text):
+        return lambda line: line
+    pattern = re.compile(rf"(?<![\w\\])(?P<x>{'|'.join(read)})(?P<d>dd?)(?!\w)")
+    return lambda line: pattern.sub(lambda found: found["x"] + "'" * len(found["d"]), line)
 
 
 def _of_no_time(data: dict[str, Any]) -> dict[str, Any]:

@@ -47,8 +47,8 @@ def with_times(data: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
     bodies, define = data.get("bodies"), data.get("define", {})
     if not isinstance(bodies, list) or len(bodies) > 8 or not all(isinstance(b, dict) for b in bodies):
         return data, []
-    if not isinstance(define, dict):
-        return data, []
+    if not isinstance(define, dict) or any(plain_name(str(b.get("coordinate", ""))) == "t" for b in bodies):
+        return data, []  # a coordinate that is called t is no time
     if any(b.get("motion") == "given" for b in bodies):
         data = data | {f: _apart(data[f]) for f in (*FIELDS, *ENERGIES) if f in data}
     if not _has_phase([data.get(f) for f in (*FIELDS, *ENERGIES)]):
@@ -68,11 +68,11 @@ def with_times(data: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
         if given[coordinate].get("joint") != "slide" or given[coordinate].get("along") == "link":
             raise InvalidInput(f"define.{name}: a given motion is put in for a slide that is fixed in direction; "
                                f"here write the rows with {coordinate} and its rates")  # fmt: skip
-        amplitude, found = _motion(name, line)
+        amplitude, found = motion_of(name, line)
         if any("spring" in b for b in bodies):
             raise InvalidInput(f"define.{name}: with a spring in the mechanism, leave cosines out; write "
                                f"{coordinate}'' and {coordinate} in the rows")  # fmt: skip
-        rate = _rate(found)
+        rate = rate_of(found)
         written = str(given[coordinate]["coordinate"]).replace("\\", "")
         second, first = f"(-{written}''/(({amplitude})*{rate}^2))", f"({written}'/(({amplitude})*{rate}))"
         other = "sin" if found["wave"] == "cos" else "cos"
@@ -83,7 +83,7 @@ def with_times(data: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
         waves[key], places[key] = second, f"({written}/({amplitude}))"
         slower.append(((other, *key[1:]), first, first))
         moved[coordinate or ""] = (amplitude, found["wave"], rate)
-        constants += [*_names_in(amplitude), *_names_in(rate)]
+        constants += [*names_in(amplitude), *names_in(rate)]
     for key, in_rows, in_energies in slower:  # where nothing else moves so, what is a quarter of a turn behind
         waves.setdefault(key, in_rows)
         places.setdefault(key, in_energies)
@@ -101,13 +101,13 @@ def with_times(data: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
     return data | made, list(dict.fromkeys(constants))
 
 
-def _rate(found: re.Match[str]) -> str:
+def rate_of(found: re.Match[str]) -> str:
     """The rate of a cosine of time; 1 of cos t."""
     return found["rate"] or found["bare"] or found["long"] or "1"
 
 
 def _key(found: re.Match[str]) -> Wave:
-    rate = _rate(found)
+    rate = rate_of(found)
     return found["wave"], plain_name(rate) or rate, (found["sign"] or "") + (plain_name(found["shift"] or "") or "")
 
 
@@ -126,7 +126,7 @@ def _is_timed(data: dict[str, Any], bodies: list[dict[str, Any]], places: Mappin
     return True
 
 
-def _motion(name: str, line: str) -> tuple[str, re.Match[str]]:
+def motion_of(name: str, line: str) -> tuple[str, re.Match[str]]:
     """The amplitude and the cosine of a given motion."""
     found = list(PHASE.finditer(line))
     bare = line.strip().rstrip(" ;.,")
@@ -153,8 +153,9 @@ def _of_drives(bodies: list[Any], known: Mapping[Wave, str], constants: list[str
     return made
 
 
-def _names_in(text: str) -> list[str]:
-    return [m[0] for m in WRITTEN.finditer(re.sub(r"\\[dt]?frac|[0-9.]+", " ", text))]
+def names_in(text: str) -> list[str]:
+    """The names in a product of quantities."""
+    return [m[0] for m in WRITTEN.finditer(re.sub(r"\\[dt]?frac|(?<![\w{])[0-9.]+", " ", text))]
 
 
 def _has_phase(values: list[Any]) -> bool:

@@ -177,7 +177,11 @@ def _coordinate(body: dict[str, str], place: int) -> tuple[str, str]:
     """The letter or word of a coordinate and its index, "" for none."""
     written = body.get("coordinate", "")
     found = base_and_index(written)
-    if found is None or found[0] in TAKEN or not found[1].isalnum() * len(found[1]) == len(found[1]):
+    if (
+        found is None
+        or (found[0] in TAKEN and written.strip() != "t")
+        or not found[1].isalnum() * len(found[1]) == len(found[1])
+    ):
         raise InvalidInput(f"bodies {place}: coordinate: {written!r:.40} is not known; a letter or a Greek one, "
                            "with an index if you like")  # fmt: skip
     base, index = found

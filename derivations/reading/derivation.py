@@ -11,13 +11,18 @@ from ..dialects.blocks import rows_of_blocks
 from ..dialects.code.programs import plain_programs
 from ..dialects.followed.chosen import from_languages
 from ..dialects.functions import whole_functions
+from ..dialects.letters.angle_t import require_no_time
 from ..dialects.letters.by_rule import by_rule
+from ..dialects.letters.drives import with_phases
 from ..dialects.letters.every_text import lines_of
+from ..dialects.letters.given_motions import without_given_motions
 from ..dialects.letters.gravity import said_of_gravity, said_of_squares
 from ..dialects.letters.indices import plain_indices
 from ..dialects.letters.left_sides import without_left_sides
 from ..dialects.letters.members import without_low_lines, without_pointers
 from ..dialects.letters.odd_waves import with_odd_waves
+from ..dialects.markup.asciimath import without_ticks
+from ..dialects.markup.macros import plain_macros
 from ..dialects.markup.pages import from_pages
 from ..dialects.markup.prose import FormulasInWords
 from ..dialects.notes.note import as_note, is_worded
@@ -46,7 +51,9 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     Raises InvalidInput, with the place, where it is none.
     """
     known_fields(data)
-    data = without_pointers(data)
+    data = plain_macros(without_ticks(without_pointers(data)))
+    require_no_time(data)
+    data = with_phases(data)
     spelled = _spelled(data)
     refused: InvalidInput | None = None
     try:
@@ -123,6 +130,7 @@ def _plain(data: dict[str, Any]) -> tuple[dict[str, Any], list[str], int]:
     data = whole_functions(data, len(free) or count, free)
     data = with_vectors(_with_positions(rows_of_blocks(data)), count)
     data, constants = with_times(data)
+    data = without_given_motions(data)
     data = translated(data, count)
     data, of_gravity = said_of_gravity(data)
     return data, [*constants, *of_gravity], count

@@ -9,6 +9,7 @@ import re
 from collections.abc import Iterable
 from typing import Any
 
+from ...models.errors import InvalidInput
 from ..dialects.lines import FULL_WIDTH
 
 BLANKS = r"(?:\s|\\[,;:!>\s]|\\\\|\\q?quad(?![A-Za-z])|[$}]|\\end\{[a-z]+\*?\}|\\(?:tag|label)\{[^{}]{0,40}\})"
@@ -29,6 +30,7 @@ GREEK = r"\\(?:var)?(?:theta|phi)|\\(?:psi|alpha|beta|gamma)|[θϑφϕψ]"
 SQUARED = re.compile(
     rf"(?P<dotted>\\d?dot\s*\{{\s*(?:{GREEK})\s*(?:_\s*(?:\{{\s*\w+\s*\}}|\w))?)\s*(?P<power>\^(?:\{{\s*\d\s*\}}|\d))\s*\}}"
 )
+BLANK_OR_DIVISION = re.compile(r"(?<=[^\s\\])\\(?= \S)")
 TRANSPOSED = re.compile(r"(?P<list>\[[^\[\];]{0,2000}\])\.?'")
 MATLAB = re.compile(r"\[[^\[\]]*;[^\[\]]*\]")
 _ENTRY = r"(?:[A-Za-z]{1,3}_?[1-9]{2}|0)"  # M11, which is an entry and no factor
@@ -101,6 +103,10 @@ def _matlab(line: str) -> str:
     """A transposed list, which is a column anyhow; entries with a blank between; A \\\\ b."""
     line = TRANSPOSED.sub(lambda found: found["list"].ljust(len(found[0])), line)
     line = MATLAB.sub(lambda found: _entries(found[0]), line)
+    if BLANK_OR_DIVISION.search(line):
+        raise InvalidInput(
+            "a backslash with a blank behind it: MATLAB's division, or LaTeX's blank? Write A\\b, or leave it out"
+        )
     return re.sub(r"(?<!\\)\\(?!\\)", "⧵", line)
 
 

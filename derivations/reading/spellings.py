@@ -31,6 +31,8 @@ RULES = [
     rf"\\[dt]?frac\s*\{{\s*{D}\s*(?P<two>{TWO})?\s*{X}\s*\}}\s*\{{\s*{D}\s*t\s*{TWO}?\s*\}}",
     rf"\\[dt]?frac\s*\{{\s*{D}\s*(?P<two>{TWO})?\s*\}}\s*\{{\s*{D}\s*t\s*{TWO}?\s*\}}\s*{X}",
     rf"(?<![A-Za-z]){D}\s*(?P<two>{TWO})?\s*{BEHIND_D}\s*/\s*{D}\s*t\s*{TWO}?(?![A-Za-z])",
+    rf"(?<![A-Za-z\\]){D}\s*(?P<two>2|{TWO})?\s*\(\s*{BEHIND_D}\s*\)\s*/\s*{D}\s*t\s*(?:2|{TWO})?(?![A-Za-z0-9])",
+    rf"(?<![A-Za-z\\]){D}\s*(?P<two>2)\s*{BEHIND_D}\s*/\s*{D}\s*t\s*2(?![A-Za-z0-9])",
     rf"(?<![A-Za-z\\])(?:d(?P<two>d|2)?)(?P<x>(?:theta|phi|psi|th(?![a-z])|[θϑφϕψ]|q(?![a-z])|\\theta|\\phi){INDEX})",
     rf"(?P<x>(?:theta|phi|psi|th|[θφϕψ]|(?<![A-Za-z])[qx]){INDEX})_?d(?P<two>d)?(?:ot)?(?![A-Za-z0-9])",
     r"(?P<x>theta|phi|psi|th)_?d(?P<two>d)?ot_?(?P<index>[0-9]{1,2})?(?![A-Za-z])",

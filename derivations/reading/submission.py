@@ -200,6 +200,7 @@ def _letters(names: Iterable[str]) -> frozenset[str]:
 
 
 ACCELERATION = re.compile("\\\\ddot|''|″|ddot|\u0308")
+RATE = re.compile("\\\\d?dot|['′″]|dot|[\u0307\u0308]")
 
 
 class Reader:
@@ -271,7 +272,7 @@ class Reader:
     def _check_name(self, name: str) -> None:
         """Raises InvalidInput where a name is none, or means something already."""
         short, n = plain_name(name), self.evaluation.space.n
-        if short is None or short in FUNCTIONS or self.words.kind(name) or self.words.kind(short):
+        if short is None or short in FUNCTIONS or not self._is_free(name, short):
             raise InvalidInput(f"define.{name!s:.40}: a name is a letter, then letters and digits, and not one in use")
         own = {plain_name(other) for other in self.names}
         base, index = base_and_index(name) or ("", "")
@@ -285,6 +286,16 @@ class Reader:
             counted = False  # accelerations are written with dots or primes
         if short in own or (counted and taken):
             raise InvalidInput(f"define.{name!s:.40}: already has a meaning")
+
+    def _is_free(self, name: str, short: str) -> bool:
+        """Whether no convention has this letter for something else that the text may mean by it."""
+        kinds = {kind for word in (name, short) if (kind := self.words.kind(word))}
+        if self.words.declared:  # x, where the coordinate is x_t
+            return not kinds or (short in self.words.numbers and kinds == {"t"})
+        free = {"a": ACCELERATION, "w": RATE}
+        if any(kind in free and free[kind].search(self.source) for kind in kinds):
+            return True  # accelerations and rates are written with dots or primes
+        return kinds <= ({"I"} if self.evaluation.meaning.kind == "rod-chain" else {"I", "r"})
 
     def _expression(self, line: object) -> Any:
         written = self.written(line)

@@ -358,7 +358,8 @@ class _Tokenizer:
             return self.declared(at, len(name[0])) or (Token("name", name[0], at), name.end())
         word = next((w for w in self.words.words if line.startswith(w, at)), "")
         # names of the author may stand side by side, mgl, and before functions: the longest that fits is cut off
-        own = self.declared(at, len(word) if word in FUNCTIONS or len(word) > 1 else 0)
+        least = len(word) if word in FUNCTIONS else max(len(word) - 1, 0)  # theta, where the coordinate is theta_1
+        own = self.declared(at, least)
         if own:
             return own
         centre = None if self.words.declared else CENTRE.match(line, at)

@@ -1,6 +1,6 @@
 """Derivations as computer algebra, programs, word processors and textbooks print them (the second collection), pasted
 whole, as programs, pages and forums have them (the third), in notations that furiko had not been tried with (the
-fourth), and as public notes and programs have them (the fifth): none is misjudged."""
+fourth), and as public notes and programs have them (the fifth and the sixth): none is misjudged."""
 
 import tomllib
 from functools import cache
@@ -10,6 +10,7 @@ import prove_fifth_code
 import prove_fifth_notes
 import prove_fresh
 import prove_pasted
+import prove_sixth
 import prove_strange_machines
 import prove_strange_pendulums
 import pytest
@@ -25,6 +26,7 @@ PROOFS = {
     "third_collection": prove_pasted.PROOFS,
     "fourth_collection": prove_fresh.PROOFS,
     "fifth_collection": prove_fifth_code.PROOFS | prove_fifth_notes.PROOFS,
+    "sixth_collection": prove_sixth.PROOFS,
 }
 
 

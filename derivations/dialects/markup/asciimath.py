@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import re
+from typing import Any
 
 from ....models.errors import InvalidInput
+from ..letters.every_text import everywhere
 from ..names import GREEK
 
 _GREEK = "|".join(sorted(GREEK, key=len, reverse=True))
 _X = rf"(?:{_GREEK}|[A-Za-z]|[{''.join(GREEK.values())}])"
 _I = r"(?:_\(\s*[0-9A-Za-z]{1,3}\s*\)|_\{\s*[0-9A-Za-z]{1,3}\s*\}|_[0-9A-Za-z])?"
-TICKED = re.compile(r"`(?P<inner>[^`]{1,4000})`")
+TICKED = re.compile(r"(?<!`)`(?P<inner>[^`]{1,4000})`(?!`)")
+WHOLE = re.compile(r"\s*`(?P<inner>[^`]{1,4000})`\s*[.,;]?\s*")
 WORDS = re.compile(r"(?:\s|[,;.:]|\b(?:and|und|et|the|cart|pole|pendulum|row|equations?|of|motion)\b)*", re.IGNORECASE)
 DOT = re.compile(
     rf"(?<![A-Za-z])(?P<two>d)?dot\s*(?:\(\s*(?P<a>{_X})(?P<ai>{_I})\s*\)|\{{\s*(?P<b>{_X})(?P<bi>{_I})\s*\}}|\s(?P<c>{_X}))(?P<i>{_I})"
@@ -21,6 +24,19 @@ ABOVE = re.compile(
 FRACTION = re.compile(
     r"(?<![A-Za-z])frac\s*(?:\{(?P<a>[^{}]{1,200})\}\s*\{(?P<b>[^{}]{1,200})\}|\((?P<c>[^()]{1,200})\)\s*\((?P<d>[^()]{1,200})\))"
 )
+
+
+def without_ticks(data: dict[str, Any]) -> dict[str, Any]:
+    """The fields without the backticks around a whole formula; a backslash and a blank is a blank of AsciiMath."""
+
+    def one(text: str) -> str:
+        found = WHOLE.fullmatch(text)
+        if found is None:
+            return text
+        inner = re.sub(r"\\\s", " ", found["inner"])
+        return inner if "\\" in inner else _formula(inner)
+
+    return everywhere(data, one)
 
 
 def from_asciimath(text: str) -> str:

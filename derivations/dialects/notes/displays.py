@@ -148,6 +148,10 @@ def _text(found: re.Match[str]) -> str:
     return found[0]
 
 
+# A letter, with dots, an index and a power: what stands in front of = in a list of equations
+LETTER = re.compile(
+    r"^\s*(?:\\d?dot\s*)?(?:\{\s*\\?[A-Za-z]+\s*(?:_\s*(?:\{\w{1,6}\}|\w))?\s*\}|\\?[A-Za-z]+)\s*(?:_\s*(?:\{\w{1,8}\}|\w))?\s*$"
+)
 WORDS = re.compile(r"[^\W\d_]{3,}|[\u3040-\u30ff\u4e00-\u9fff]")
 
 
@@ -164,7 +168,8 @@ def _is_words(side: str) -> bool:
 def _rows(text: str) -> list[str]:
     """The rows of a display; one that goes on in the next is joined with it."""
     separator = ROW_END if ROW_END.search(text) or "\\" in text else re.compile(r"\n|;\s*\n?")
-    pieces = [p for p in cut(text, separator) if not BLANK.fullmatch(p.replace(END, " "))]
+    pieces = _lines(text) if "\\" in text and not ROW_END.search(text) else cut(text, separator)
+    pieces = [p for p in pieces if not BLANK.fullmatch(p.replace(END, " "))]
     if len(pieces) > MOST_PIECES:
         raise InvalidInput(f"more than {MOST_PIECES} lines in one formula; give the equations of motion alone")
     rows: list[str] = []
@@ -192,6 +197,14 @@ def _rows(text: str) -> list[str]:
             rows.append(piece)
     apart = [column for row in rows for column in _columns(row)]
     return [re.sub(r"\s+", " ", _without_marks(row).replace(END, " ")) for row in apart]
+
+
+def _lines(text: str) -> list[str]:
+    r"""The lines of a text without \\\\, where each is an equation that says what one letter is; else the text."""
+    lines = [line for line in cut(text, re.compile(r"\n")) if line.strip()]
+    sides = [_sides(line) for line in lines]
+    apart = len(lines) > 1 and all(len(x) == 2 and LETTER.match(x[0]) and not LETTER.match(x[1]) for x in sides)
+    return lines if apart and not any(GOES_ON.search(line) for line in lines) else [text]
 
 
 def _columns(row: str) -> list[str]:

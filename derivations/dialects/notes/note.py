@@ -20,6 +20,7 @@ from .declarations import plain_declarations
 from .derivatives import plain_derivatives
 from .displays import Statement, has_arrow, statements_of
 from .energies import Energy, energy, evident_rates
+from .entries import with_entries
 from .letters import Names, alone, names_of, with_accents, with_bold_apart
 from .partial import rows_of_partial
 from .points import of_unknown_points
@@ -29,9 +30,15 @@ from .words import formulas_of
 
 ENERGIES = ("kinetic", "potential", "lagrangian", "hamiltonian")
 MOST_ROWS = 16
+IN_FONT = re.compile(r"\\math(?:cal|scr)\s*(?:\{\s*L\s*\}|L(?![A-Za-z]))")
 WORDED = re.compile(
     r"\$|\\[\[(]|```|(?<![^\W\d_])[^\W\d_]{3,40} [^\W\d_]{2,40} [^\W\d_]{2}|[\u3040-\u30ff\u4e00-\u9fff]{3}|\*\*"
 )
+
+DIFFERENCE = re.compile(
+    r"(?:\\Delta|Δ|∆)\s*(?P<x>\\(?:var)?(?:theta|phi)(?![A-Za-z])|\\psi(?![A-Za-z])|[θϑφϕψ])(?:\s*_\s*(?:\{\s*(?P<i>\w{1,4})\s*\}|(?P<j>\w)))?"
+)
+SAID_DIFFERENCE = re.compile(rf"{DIFFERENCE.pattern}\s*&?\s*(?::?=|\\equiv|≡)")
 
 
 def as_note(data: dict[str, Any], usual: list[dict[str, str]] | None = None) -> dict[str, Any] | None:
@@ -76,12 +83,20 @@ def is_fit_table(data: Mapping[str, Any]) -> bool:
 
 
 def _statements(text: str, names: Names) -> list[Statement]:
-    text = apart(index_first(plain_derivatives(text.translate(FULL_WIDTH))), names)
+    text = _with_differences(text.translate(FULL_WIDTH), names)
+    text = apart(index_first(plain_derivatives(text)), names)
     found: list[Statement] = []
     for formula in formulas_of(with_bold_apart(with_accents(text), names)):
         said = statements_of(formula.text)
         found += [s for s in said if not formula.inline or _is_said(s, names)]
     return found
+
+
+def _with_differences(text: str, names: Names) -> str:
+    r"""The text with a name for \Delta\theta, where it says what that is, and Δ is nothing else."""
+    if "Delta" in names.all or not SAID_DIFFERENCE.search(text):
+        return text
+    return DIFFERENCE.sub(lambda m: f"\\Delta_{{{(plain_name(m['x']) or '') + (m['i'] or m['j'] or '')}}} ", text)
 
 
 def _is_said(sides: Statement, names: Names) -> bool:
@@ -110,6 +125,8 @@ def _with_energy(
     try:
         if kind == "hamiltonian":
             text = with_momenta(text, names)
+        if kind == "lagrangian" and "L" in names.all:  # L is a length, and the letter in a font the Lagrangian
+            text = IN_FONT.sub("ℒ ", text)
         found: Energy = energy(kind, by_rule(_statements(text, names)), names)
     except InvalidInput as error:
         raise InvalidInput(f"{kind}: {error}") from None
@@ -137,7 +154,7 @@ def _with_equations(data: dict[str, Any], names: Names, new: dict[str, str], ste
         except InvalidInput as error:
             raise InvalidInput(f"equations.{label:.40}: {error}") from None
     try:
-        statements = of_unknown_points(by_rule(statements), names)
+        statements = with_entries(of_unknown_points(by_rule(statements), names), names)
         found: Sorted = sorted_statements(with_columns(statements, names), names)
         more, equal = rows_of_partial(found.partial, names, data)
         found.rows, found.steps = more + found.rows, found.steps + equal

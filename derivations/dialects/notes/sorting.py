@@ -43,7 +43,8 @@ def sorted_statements(statements: Sequence[Statement], names: Names) -> Sorted:
     first = {alone(sides[0]) for sides in statements}
     for sides in statements:
         sorter.take(sides, first)
-    sorter.left = _without_abstract(sorter.left, sorter.values, names)
+    said = {*sorter.values, *(plain_name(name) or name for name in sorter.found.defined)}
+    sorter.left = _without_abstract(sorter.left, said, names)
     sorter.left = [sides for sides in sorter.left if not _is_derived(sides, sorter.values, sorter.found)]
     sorter.partials()
     sorter.rows_of_drives()
@@ -126,9 +127,9 @@ class _Sorter:
             raise InvalidInput(f"more than {MOST_DEFINITIONS} names are said; give the equations with these put in")
 
 
-def _without_abstract(left: list[Statement], values: Values, names: Names) -> list[Statement]:
+def _without_abstract(left: list[Statement], said: set[str], names: Names) -> list[Statement]:
     r"""Without M q̈ + h = τ or Σ F = m a of letters that nobody says, where there are rows enough besides."""
-    abstract = [sides for sides in left if is_abstract(sides, set(values), names)]
+    abstract = [sides for sides in left if is_abstract(sides, said, names)]
     rows = [sides for sides in left if sides not in abstract]
     enough = len(rows) >= len(names.coordinates) or any(re.search(r"matrix\}|array\}", " ".join(row)) for row in rows)
     return rows if enough else left

@@ -23,6 +23,11 @@ MARKS = re.compile(
     r"(?m)^[ \t]*(?:>[ \t]?|#{1,6}[ \t]+|[-*+•▪‣◦][ \t]+(?=[^\d\s])|\d{1,2}[.)][ \t]+|\|[ \t]*)|(?<!\*)\*\*(?!\*)|(?<!_)__(?!_)|[ \t]*\|[ \t]*$"
 )
 IMAGE = re.compile(r"!?\[[^\[\]\n]{0,80}\]\([^()\n]{0,200}\)|<!--.{0,400}?-->|https?://\S{1,200}", re.DOTALL)
+# What a page has around its formulas; a style may hide them, or strike them out
+PAGE = re.compile(
+    r"</?(?:div|p|br|span|center|details|summary|section|article|figure|ul|ol|li|h[1-6]|hr)(?:\s+(?:class|align|id)=\"(?![^\"]*hid)[^\"<>]{0,60}\"){0,3}\s*/?>",
+    re.IGNORECASE,
+)
 SECTION = re.compile(
     r"\\(?:(?:sub){0,2}section|paragraph|chapter|textbf|emph|textit|text|item)\*?\s*(?:\{(?P<x>[^{}]{0,120})\})?"
 )
@@ -56,6 +61,8 @@ def formulas_of(text: str) -> list[Found]:
     if sum(text.count(mark) for mark in ("$", "\\(", "\\[", "\\begin")) > MOST_MARKS:
         raise InvalidInput(f"more than {MOST_MARKS} marks of formulas; give the equations of motion alone")
     text = FENCE.sub(_fenced, text)
+    if FORMULA.search(text):
+        text = PAGE.sub("\n", text)
     matches = list(FORMULA.finditer(text))
     outside = _plain_words(FORMULA.sub(" \0 ", text))
     if not matches or SIGN.search(outside.replace("\0", " ")):

@@ -1,0 +1,53 @@
+r"""M(q)\ddot q + C(q,\dot q)\dot q + g(q) = \tau whose entries are said one by one: M_{11} = …, g_1 = …."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from ..given_names import OF_COORDINATES
+from .displays import Statement
+from .letters import Names, alone, unfonted, written_alone
+
+ENTRY = re.compile(r"(?P<letter>[A-Za-z])(?P<index>[1-9]{1,2})")
+MOTION = re.compile(r"\\ddot")
+
+
+def with_entries(statements: Sequence[Statement], names: Names) -> list[Statement]:
+    """The statements with a matrix or a column of entries in place of its letter, where each entry is said.
+
+    M_{12} = M_{21} = … says both. A letter that is a quantity as well, as g, is meant only with arguments, g(q).
+    """
+    count = len(names.coordinates)
+    made = [*statements, *(s for sides in statements for s in _also(sides, statements))]
+    said = {name for sides in made if (name := alone(sides[0])) and len(sides) > 1}
+    literals: dict[str, str] = {}
+    figures = range(1, count + 1)
+    for letter in sorted({m["letter"] for name in said if (m := ENTRY.fullmatch(name))} - said):
+        for rows in ([[f"{i}{j}" for j in figures] for i in figures], [[f"{i}"] for i in figures]):
+            if count > 1 and all(letter + index in said for row in rows for index in row):
+                literals[letter] = _literal(letter, rows)
+    return [_put(sides, literals, names) for sides in made] if literals else list(statements)
+
+
+def _also(sides: Statement, statements: Sequence[Statement]) -> list[Statement]:
+    """M_{21} = … of M_{12} = M_{21} = …."""
+    first = {alone(other[0]) for other in statements}
+    inner = [side for side in sides[1:-1] if (name := alone(side)) and ENTRY.fullmatch(name) and name not in first]
+    return [(written_alone(side), sides[-1]) for side in inner]
+
+
+def _literal(letter: str, rows: list[list[str]]) -> str:
+    inner = " \\\\ ".join(" & ".join(f"{letter}_{{{index}}}" for index in row) for row in rows)
+    return f" \\begin{{bmatrix}} {inner} \\end{{bmatrix}} "
+
+
+def _put(sides: Statement, literals: dict[str, str], names: Names) -> Statement:
+    if not MOTION.search(" ".join(sides)) or len(sides) != 2:
+        return sides
+    made = tuple(unfonted(side) for side in sides)
+    for letter, literal in literals.items():
+        of = rf"\s*{OF_COORDINATES}"
+        x = re.compile(rf"(?<![A-Za-z\\_]){letter}(?![A-Za-z])(?:{of})" + ("" if letter in names.all else r"?(?!\s*_)"))
+        made = tuple(x.sub(lambda _, literal=literal: literal, side) for side in made)  # type: ignore[misc]
+    return made
