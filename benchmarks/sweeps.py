@@ -2,6 +2,7 @@
 
     python benchmarks/sweeps.py rate [--scenes 1000] [--jobs 1 2]     # cells a second; ms and MiB of the main process
     python benchmarks/sweeps.py rate --cores 0 --jobs 1               # on one core: the main process shares it
+    python benchmarks/sweeps.py rate --jobs 2 --dask FILE             # on a cluster of two workers of one thread each
     python benchmarks/sweeps.py faults [--scenes 5000] [--faults 200] [--dask FILE]
 
 ``rate``: random rod chains of 3 links in 20 states, accelerations, on MuJoCo and Pinocchio. ``faults``: two fake
@@ -29,7 +30,7 @@ OVERHEAD = 0.5e-3  # [s] asked: of the main process, for a cell
 ENGINES = ["mujoco", "pinocchio-aba"]
 
 
-def rate(scenes: int, jobs: int) -> bool:
+def rate(scenes: int, jobs: int, dask: str | None = None) -> bool:
     """One measurement, printed; whether the main process did what is asked."""
     with tempfile.TemporaryDirectory(prefix="furiko-sweeps-") as folder:
         file = Path(folder) / "rate.toml"
@@ -43,7 +44,7 @@ def rate(scenes: int, jobs: int) -> bool:
             marks.append((time.perf_counter(), time.process_time(), now.here))
 
         before = peak()
-        found = sweep(file, out=Path(folder) / "out", jobs=jobs, watch=watch)
+        found = sweep(file, out=Path(folder) / "out", jobs=jobs, dask=dask, watch=watch)
     begun, spent, first = marks[jobs]  # each worker has done a chunk: all is imported
     ended, used, last = marks[-1]
     cells = last - first
@@ -112,7 +113,7 @@ def main() -> int:
     if given.cores:
         os.sched_setaffinity(0, given.cores)
     if given.what == "rate":
-        done = [rate(given.scenes or 1000, jobs) for jobs in given.jobs or [1, 2]]
+        done = [rate(given.scenes or 1000, jobs, given.dask) for jobs in given.jobs or [1, 2]]
         return 0 if all(done) else 1
     return 0 if faults(given.scenes or 5000, given.faults, given.jobs[0] if given.jobs else None, given.dask) else 1
 
