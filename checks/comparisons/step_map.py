@@ -36,7 +36,7 @@ from ..motions.step_rounding import (
     rate_of_positions,
     sharp_steps,
 )
-from ..motions.textbook import MAXIMAL, Candidate, candidates
+from ..motions.textbook import MAXIMAL, Candidate, candidates, says_whose_step
 
 Array = NDArray[np.float64]
 Wide = NDArray[Any]
@@ -223,9 +223,5 @@ def _reason(integrator: Integrator, fits: list[SchemeFit]) -> str:
             f"one step of {integrator.name} is no textbook scheme's; the nearest, {name}, misses by "
             f"{best.measured:.3g} rad/s, and rounding explains {best.bound:.3g}"
         )
-    if best.candidate.scheme.order != integrator.order:
-        return f"{integrator.name} is said to be of order {integrator.order}; one step is that of {name}"
     alike = [one.candidate.name for one in fits[1:] if one.excess <= 1]
-    if alike:
-        return f"one step is that of {name}; rounding hides how it differs from {', '.join(alike)}"
-    return f"one step is that of {name}"
+    return says_whose_step(integrator, name, best.candidate.scheme.order, alike)

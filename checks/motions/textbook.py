@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...engines import Integrator
 from ...models.units import in_units, units_of
 from ...reference import literal_accelerations
 from ...reference.integration.schemes import RADIUS, SCHEMES, Scheme, generalized_alpha, newmark, run
@@ -47,6 +48,15 @@ class Candidate:
     def end(self, theta: Array, omega: Array, h: float, steps: int = 1) -> tuple[Wide, Wide]:
         """θ and ω after the steps, from states (B, n) in double precision."""
         return self.steps(theta.astype(np.longdouble), omega.astype(np.longdouble), h, steps)
+
+
+def says_whose_step(integrator: Integrator, name: str, order: int, alike: Sequence[str]) -> str:
+    """In words: one step of the integrator is that of the scheme of this ``name`` and ``order``, or ``alike``'s too."""
+    if order != integrator.order:
+        return f"{integrator.name} is said to be of order {integrator.order}; one step is that of {name}"
+    if alike:
+        return f"one step is that of {name}; rounding hides how it differs from {', '.join(alike)}"
+    return f"one step is that of {name}"
 
 
 def candidates(cell: Cell, rates: Array, *, literal: bool = True) -> list[Candidate]:

@@ -29,6 +29,7 @@ from ...reference.integration.tree_variation import accelerations, slopes
 from ...reference.rounding.bounds import EPSILON
 from ...reference.rounding.stepped import step_bound
 from ..cell import quotient, worst
+from ..motions.textbook import says_whose_step
 from .cell import TreeCell
 
 Array = NDArray[np.float64]
@@ -153,7 +154,8 @@ class Fit:
 def _compare(cell: TreeCell, integrator: Integrator, steps: Steps, textbook: Textbook) -> Result:
     ends = [cell.trajectory(q, v, integrator, steps.h, 1) for q, v in zip(steps.q, steps.v, strict=True)]
     got = np.stack(ends, axis=1)
-    bounds = {scheme.name: bound(scheme, integrator, steps) for scheme in textbook.schemes}
+    off = steps.off(integrator)
+    bounds = {scheme.name: bound(scheme, off, steps) for scheme in textbook.schemes}
 
     def fits(schemes: list[Scheme]) -> list[Fit]:
         found = []
@@ -193,10 +195,12 @@ def _compare(cell: TreeCell, integrator: Integrator, steps: Steps, textbook: Tex
     )
 
 
-def bound(scheme: Scheme, integrator: Integrator, steps: Steps) -> Array:
-    """How far rounding may take an engine from a scheme's step, in each coordinate and rate, (2, B, nv)."""
-    h = steps.h
-    off = first = steps.off(integrator)
+def bound(scheme: Scheme, first: Array, steps: Steps) -> Array:
+    """How far rounding may take an engine from a scheme's step, in each coordinate and rate, (2, B, nv).
+
+    ``first``: the accelerations' error in the first stage, (B, nv).
+    """
+    h, off = steps.h, first
     carried = h * h * steps.by_q + h * steps.by_v
     for _ in range(scheme.stages):
         off = first + (carried @ off[..., None])[..., 0]
@@ -221,9 +225,5 @@ def _reason(cell: TreeCell, integrator: Integrator, best: Fit, rest: list[Fit]) 
             f"{cell.freedom(best.place[2])!r} by {best.excess * best.bound:.3g} {unit}, and rounding explains "
             f"{best.bound:.3g}"
         )
-    if best.scheme.order != integrator.order:
-        return f"{integrator.name} is said to be of order {integrator.order}; one step is that of {best.scheme.name}"
     alike = [one.scheme.name for one in rest if one.excess <= 1]
-    if alike:
-        return f"one step is that of {best.scheme.name}; rounding hides how it differs from {', '.join(alike)}"
-    return f"one step is that of {best.scheme.name}"
+    return says_whose_step(integrator, best.scheme.name, best.scheme.order, alike)
