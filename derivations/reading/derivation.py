@@ -51,6 +51,7 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     Raises InvalidInput, with the place, where it is none.
     """
     known_fields(data)
+    data = _of_one_text(data)
     data = plain_macros(without_ticks(without_pointers(data)))
     require_no_time(data)
     data = with_phases(data)
@@ -68,6 +69,11 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
         if refused is not None:
             raise refused from None
         raise
+
+
+def _of_one_text(data: dict[str, Any]) -> dict[str, Any]:
+    """The fields with a table for rows that are given as one text."""
+    return data | {name: {"1": data[name]} for name in ("equations", "solved") if isinstance(data.get(name), str)}
 
 
 def _as_program(data: dict[str, Any], lines: Mapping[str, str], slashes: int) -> Submission:

@@ -9,9 +9,9 @@ from flint import fmpq
 from ..algebra.quotient import Budget, Quotient, number
 from ..algebra.signs import sign_of
 from ..algebra.trig import CONSTANT_ONE, COS, SIN, Formula, unit
-from .matrices import Grid, added, inverse, multiplied, scaled
+from .matrices import Grid, added, determinant, inverse, multiplied, scaled
 from .meaning import WORDS, Meaning
-from .nodes import Call, Inverse, Matrix, Name, Node, Number, Power, Product, Rate, Root, Sum, Symbol
+from .nodes import Call, Determinant, Inverse, Matrix, Name, Node, Number, Power, Product, Rate, Root, Sum, Symbol
 from .tokens import fail
 
 LARGEST_ANGLE_FACTOR = 16  # cos(16 θ) at most: harmonics stay small, and nobody writes more
@@ -77,8 +77,13 @@ class Evaluation:
                 return self._call(node)
             case Matrix(rows=rows):
                 return Grid(tuple(tuple(self.scalar(entry) for entry in row) for row in rows))
-            case Inverse(base=base, at=at):
+            case Inverse(base=base, at=at, left=left):
+                if left and not isinstance(self.value(base), Grid):
+                    fail(at, "a backslash behind what is no matrix: does the line go on? Then leave it out; what is "
+                             "divided is a column, as in M\\b")  # fmt: skip
                 return self._power(base, -1, at)
+            case Determinant(base=base, at=at):
+                return self._determinant(base, at)
             case Rate():
                 return self._rate(node)
             case Root(at=at):
@@ -100,6 +105,13 @@ class Evaluation:
                 self._values[text] = self.value(self.definitions[text])
             return self._values[text]
         return self.meaning.own(text, at)
+
+    def _determinant(self, base: Node, at: int) -> Quotient:
+        value = self.value(base)
+        self.budget.at = at
+        if isinstance(value, Quotient):
+            fail(at, "the determinant of a number; of a matrix it is read, as in det(M)")
+        return determinant(value, self.budget)
 
     def _rate(self, node: Rate) -> Value:
         """The time derivative; of a matrix, entry by entry."""

@@ -8,7 +8,7 @@ from typing import NoReturn
 from ...models.errors import InvalidInput
 from ..algebra.quotient import Budget, Quotient, number
 
-LARGEST_INVERSE = 4  # rows; by cofactors
+LARGEST = 4  # rows of a matrix whose inverse or determinant is taken, by cofactors
 
 
 @dataclass(frozen=True)
@@ -83,8 +83,8 @@ def _dot(row: tuple[Quotient, ...], column: tuple[Quotient, ...], budget: Budget
 def inverse(a: Grid, budget: Budget) -> Grid:
     """By cofactors over the determinant."""
     size = a.height
-    if size != a.width or size > LARGEST_INVERSE:
-        _refuse(budget, f"the inverse of a {a.height}×{a.width} matrix; square ones up to {LARGEST_INVERSE} are read")
+    if size != a.width or size > LARGEST:
+        _refuse(budget, f"the inverse of a {a.height}×{a.width} matrix; square ones up to {LARGEST} are read")
     whole = _determinant(a.rows, budget)
     if not whole.numerator:
         _refuse(budget, "the inverse of a singular matrix")
@@ -92,6 +92,13 @@ def inverse(a: Grid, budget: Budget) -> Grid:
     return Grid(tuple(
         tuple(_cofactor(a, j, i, budget).times(over, budget) for j in range(size)) for i in range(size)
     ))  # fmt: skip
+
+
+def determinant(a: Grid, budget: Budget) -> Quotient:
+    """By cofactors."""
+    if a.height != a.width or a.height > LARGEST:
+        _refuse(budget, f"the determinant of a {a.height}×{a.width} matrix; of square ones up to {LARGEST} it is read")
+    return _determinant(a.rows, budget)
 
 
 def _cofactor(a: Grid, i: int, j: int, budget: Budget) -> Quotient:

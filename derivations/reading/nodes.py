@@ -85,7 +85,16 @@ class Matrix:
 
 @dataclass(frozen=True)
 class Inverse:
-    """The inverse of a matrix, or 1 over a number."""
+    """The inverse of a matrix, or 1 over a number. ``left``: of ``base``, which divides what follows, as in A \\ b."""
+
+    base: Node
+    at: int
+    left: bool = False
+
+
+@dataclass(frozen=True)
+class Determinant:
+    """The determinant of a matrix."""
 
     base: Node
     at: int
@@ -99,4 +108,4 @@ class Root:
     at: int
 
 
-Node = Number | Symbol | Sum | Product | Power | Call | Name | Matrix | Inverse | Root | Rate
+Node = Number | Symbol | Sum | Product | Power | Call | Name | Matrix | Inverse | Determinant | Root | Rate

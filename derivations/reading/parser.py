@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 
 from flint import fmpq
 
-from .nodes import Call, Inverse, Matrix, Name, Node, Number, Power, Product, Rate, Root, Sum, Symbol
+from .nodes import Call, Determinant, Inverse, Matrix, Name, Node, Number, Power, Product, Rate, Root, Sum, Symbol
 from .tokens import CLOSING, FASTER, OPENING, Token, fail, tokenize
 from .vocabulary import Vocabulary
 
@@ -129,7 +129,7 @@ class _Parser:
             if token.kind == "operator" and token.text == "left":  # MATLAB's A \\ b
                 self.advance()
                 before = parts[0][1] if len(parts) == 1 else Product(tuple(parts), at)
-                parts = [(True, Inverse(before, token.at)), (True, self.factor(depth))]
+                parts = [(True, Inverse(before, token.at, left=True)), (True, self.factor(depth))]
             elif token.kind == "operator" and token.text in ("*", "/"):
                 self.advance()
                 parts.append((token.text == "*", self.factor(depth)))
@@ -252,7 +252,8 @@ class _Parser:
         if self.next.kind != "close" or not self.next.text.startswith("\\end"):
             fail(self.next.at, f"\\end{{{begun.text}}} is missing for the matrix of column {begun.at + 1}")
         self.advance()
-        return self.checked(rows, begun.at)
+        found = self.checked(rows, begun.at)
+        return Determinant(found, begun.at) if begun.text == "vmatrix" else found
 
     def checked(self, rows: list[list[Node]], at: int) -> Matrix:
         if len({len(row) for row in rows}) != 1:
@@ -292,7 +293,7 @@ class _Parser:
                 return fail(token.at, f"a term is expected before {token.text!r}")
 
     def bars(self, depth: int) -> Node:
-        """|x|; bars within bars cannot be told apart."""
+        """|x|, of a matrix its determinant; bars within bars cannot be told apart."""
         opened = self.advance()
         self.in_bars = True
         node = self.sum(depth + 1)
@@ -300,7 +301,7 @@ class _Parser:
             fail(self.next.at, f"the bar of column {opened.at + 1} is not closed")
         self.advance()
         self.in_bars = False
-        return Call("abs", node, opened.at)
+        return Determinant(node, opened.at) if isinstance(node, Matrix) else Call("abs", node, opened.at)
 
     def call(self, depth: int) -> Node:
         function = self.advance()
@@ -308,6 +309,10 @@ class _Parser:
             if self.next.kind != "open":
                 fail(self.next.at, "inv needs a matrix in brackets, as in inv(M)")
             return Inverse(self.group(depth), function.at)
+        if function.text == "det":
+            if self.next.kind not in ("open", "matrix"):
+                fail(self.next.at, "det needs a matrix, as in det(M)")
+            return Determinant(self.primary(depth), function.at)
         if function.text == "solve":
             return self.solution(function, depth)
         if function.text in ("d/dt", "diff"):

@@ -19,6 +19,7 @@ from ..algebra.trig import Formula, Space
 from ..dialects.lines import LONGEST_LINE
 from ..dialects.names import base_and_index, base_word, plain_name
 from ..dialects.srepr import from_srepr
+from ..dialects.worksheets.definitions import ordered
 from ..steps.conventions import Convention
 from ..steps.declared import Declared
 from ..steps.first_order import FirstOrder
@@ -190,7 +191,7 @@ def opened(data: dict[str, Any], slashes: int = 0, constants: Sequence[str] = ()
         None if own is None else own.mechanism, letter,
     )  # fmt: skip
     reader.forces = tuple(forces)
-    reader.define(defined)
+    reader.define(ordered(defined))
     return reader
 
 

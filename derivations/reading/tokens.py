@@ -61,7 +61,7 @@ _SPACE = (
 )
 SPACING = re.compile(rf"(?:{_SPACE}|\\(?:begin|end)\{{(?!\w*matrix|array)[A-Za-z]{{1,20}}\*?\}}|\\\\|&)+")
 IN_MATRIX = re.compile(rf"(?:{_SPACE})+")
-MATRIX = re.compile(r"\\(?P<which>begin|end)\{(?P<name>[pbB]?(?:small)?matrix|array)\}(?:\{[clr| ]{0,20}\})?")
+MATRIX = re.compile(r"\\(?P<which>begin|end)\{(?P<name>[pbBv]?(?:small)?matrix|array)\}(?:\{[clr| ]{0,20}\})?")
 SIGN = re.compile(r"\\?(?P<name>sgn|sign|abs|tanh)(?=\s*[({\\\[])")
 SIGNS = re.compile(r"sgn|sign|abs|[|]|vert(?![A-Za-z])")
 BARS = re.compile(r"\||\\[lr]?vert(?![A-Za-z])|\\mid(?![A-Za-z])")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..algebra.notation import SUBSCRIPTS, SUPERSCRIPTS
-from .nodes import Call, Inverse, Matrix, Name, Node, Number, Power, Product, Rate, Root, Sum, Symbol
+from .nodes import Call, Determinant, Inverse, Matrix, Name, Node, Number, Power, Product, Rate, Root, Sum, Symbol
 from .vocabulary import Vocabulary
 
 LONGEST = 600  # characters that are said back of one line
@@ -89,6 +89,8 @@ class Typesetter:
                 return f"d/dt {self.text(base, 3)}"
             case Inverse(base=base):
                 return self.text(base, 3) + "⁻¹"
+            case Determinant(base=base):
+                return f"det {self.text(base, 3)}"
 
     def _call(self, function: str, argument: Node) -> str:
         inner = self.text(argument)

@@ -22,7 +22,7 @@ LETTERS = {
     "rho": "r", "ρ": "r", "\\rho": "r", "I": "I", "pi": "p", "π": "p", "\\pi": "p",
 }  # fmt: skip
 FUNCTIONS = {"cos": "cos", "sin": "sin", "tan": "tan", "\\cos": "cos", "\\sin": "sin", "\\tan": "tan", "inv": "inv",
-             "solve": "solve", "sqrt": "sqrt", "\\sqrt": "sqrt"}  # fmt: skip
+             "det": "det", "\\det": "det",             "solve": "solve", "sqrt": "sqrt", "\\sqrt": "sqrt"}  # fmt: skip
 # Families of letters that are angles where they are used: the likeliest first, which is also their order.
 ANGLES: dict[str, tuple[str, ...]] = {
     "α": ("\\alpha", "alpha", "α"),

@@ -168,7 +168,9 @@ def _is_words(side: str) -> bool:
 def _rows(text: str) -> list[str]:
     """The rows of a display; one that goes on in the next is joined with it."""
     separator = ROW_END if ROW_END.search(text) or "\\" in text else re.compile(r"\n|;\s*\n?")
-    pieces = _lines(text) if "\\" in text and not ROW_END.search(text) else cut(text, separator)
+    pieces = cut(text, separator)
+    if "\\" in text and len(pieces) == 1:  # row ends in matrices are none of these rows
+        pieces = _lines(text)
     pieces = [p for p in pieces if not BLANK.fullmatch(p.replace(END, " "))]
     if len(pieces) > MOST_PIECES:
         raise InvalidInput(f"more than {MOST_PIECES} lines in one formula; give the equations of motion alone")
@@ -202,7 +204,7 @@ def _rows(text: str) -> list[str]:
 def _lines(text: str) -> list[str]:
     r"""The lines of a text without \\\\, where each is an equation that says what one letter is; else the text."""
     lines = [line for line in cut(text, re.compile(r"\n")) if line.strip()]
-    sides = [_sides(line) for line in lines]
+    sides = [_sides(part) for line in lines for part in cut(line, WIDE) if part.strip()]
     apart = len(lines) > 1 and all(len(x) == 2 and LETTER.match(x[0]) and not LETTER.match(x[1]) for x in sides)
     return lines if apart and not any(GOES_ON.search(line) for line in lines) else [text]
 

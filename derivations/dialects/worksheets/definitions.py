@@ -68,19 +68,24 @@ def _is_a_rate(value: str) -> bool:
 
 
 def in_order(said: Mapping[str, str]) -> Definitions | None:
-    """The definitions, each behind those that it needs; None where they go in a circle."""
+    """The definitions, each behind those that it needs, else as they stand; None where they go in a circle."""
     plain = {plain_name(name) or name: name for name in said}
     needs = {key: {p for m in WRITTEN.finditer(said[name]) if (p := plain_name(m[0])) in plain} - {None}
              for key, name in plain.items()}  # fmt: skip
     made: Definitions = {}
     left = dict(plain)
     while left:
-        ready = [key for key in left if not needs[key] & left.keys()]
-        if not ready:
+        key = next((key for key in left if not needs[key] & left.keys()), None)
+        if key is None:
             return None
-        for key in ready:
-            made[left.pop(key)] = said[plain[key]]
+        made[left.pop(key)] = said[plain[key]]
     return made
+
+
+def ordered(table: dict[str, Any]) -> dict[str, Any]:
+    """Definitions of a file, whose tables have no order; as they stand where they are no texts, or go in a circle."""
+    made = in_order(table) if all(isinstance(line, str) for line in table.values()) else None
+    return table if made is None or len(made) < len(table) else dict(made)
 
 
 def split_statements(text: str, ends: str) -> list[str]:
