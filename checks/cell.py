@@ -19,7 +19,9 @@ from ..models.states import States
 from ..models.systems import DocumentSystem
 from ..records.check import Outcome, Result
 from ..reference import mass_matrix
+from ..reference.rounding.bodies_first import bodies_first
 from ..reference.rounding.bounds import Amplitudes, amplitudes
+from ..reference.rounding.maximal_elimination import elimination, states_within_a_second
 from .facts import SceneFacts
 
 Array = NDArray[np.float64]
@@ -63,7 +65,30 @@ class Cell:
     def ways(self) -> tuple[Cell, ...]:
         """This cell with each way in which the engine may compute, where that is not known; itself where it is."""
         ways = self.info.ways
+        if any(not link.inertia > 0 for link in self.scene.system.tree().links):  # no body to be solved for by itself
+            ways = tuple(way for way in ways if way.ordering != "bodies") or (replace(self.info, ordering="pivoted"),)
         return (self,) if ways == (self.info,) else tuple(replace(self, info=info) for info in ways)
+
+    @property
+    def most_eliminations(self) -> int:
+        """In how many states :meth:`elimination` can be had in about a second."""
+        n = self.scene.system.n
+        return min(states_within_a_second(n, ordering=way.info.ordering) for way in self.ways)
+
+    def elimination(self, theta: Array, omega: Array) -> tuple[Array, Array]:
+        """In maximal coordinates, what elimination adds to the magnitudes of rows [N m] and of joints' forces [N].
+
+        Of states (B, n), (B, n) each: the largest of all ways in which the engine may eliminate.
+        """
+        system = self.scene.system
+        found = [
+            bodies_first(system, theta, omega, way.info.placed)
+            if way.info.ordering == "bodies"
+            else elimination(system, theta, omega)
+            for way in self.ways
+        ]
+        rows, forces = np.max(found, axis=0)
+        return rows, forces
 
     def amplitude_of(self, system: DocumentSystem) -> Amplitudes:
         """The same for another mechanism in this engine."""

@@ -150,7 +150,7 @@ def states_for_accelerations(info: EngineInfo, n: int) -> int:
         return 0
     if info.coordinates != "maximal":
         return max(4, ENTRIES // n)
-    return min(FEW, spread_states(n, info.ordering))
+    return min(FEW, *(spread_states(n, way.ordering) for way in info.ways))
 
 
 def steps_together(integrator: Integrator, n: int) -> int:
@@ -163,7 +163,7 @@ def states_for_symmetries(info: EngineInfo, n: int) -> int:
     if not is_known(info):
         return 0
     if info.coordinates == "maximal":
-        return min(2, spread_states(n, info.ordering) // 4)
+        return min(2, *(spread_states(n, way.ordering) // 4 for way in info.ways))
     return min(2, SYMMETRIES // n)
 
 

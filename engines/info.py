@@ -10,6 +10,7 @@ Quantity = Literal["fields", "accelerations", "inverse_dynamics", "joint_forces"
 TreeQuantity = Literal["accelerations", "mass_matrix", "bias", "passive", "energy", "trajectory"]
 Algorithm = Literal["aba", "crba", "other", "unknown"]
 Moments = Literal["hinge", "tree", "world", "unknown"]
+Ordering = Literal["bodies", "colamd", "pivoted", "unknown"]
 # Asked of engines whose ``offers`` names them, of the documents' mechanisms and of trees.
 Offer = Literal["derivatives", "inverse_mass"]
 # What a tree may have that an engine cannot hold. "several joints": of one link; "spring of a ball": or of a free one;
@@ -94,7 +95,9 @@ class EngineInfo:
       difference of two places in the ``world``.
     * ``interchanges``: whether its linear solver interchanges rows (partial pivoting, without scaling them); None where
       it is not known.
-    * ``ordering``: in maximal coordinates, the order in which unknowns are eliminated: by ``colamd``, or ``unknown``.
+    * ``ordering``: in maximal coordinates, the order in which unknowns are eliminated: the ``bodies`` first, each for
+      itself, and then the multipliers from a dense matrix; all of them by a sparse solver that interchanges rows, in
+      the order of ``colamd`` or in another (``pivoted``); or ``unknown``.
     * ``accuracy``: relative accuracy of one operation, with ``accuracy_reason`` where it is not the unit roundoff.
     * ``algorithm``: how accelerations are solved for: articulated bodies (``aba``), or a mass matrix that is formed and
       factorised (``crba``), as the engines do it whose usual rounding was measured; ``other``: in another way, or in
@@ -128,7 +131,7 @@ class EngineInfo:
     moments_of_offers: Literal["", "world"] = ""
     placed: Literal["parent", "world", "unknown"] = "unknown"
     interchanges: bool | None = None
-    ordering: Literal["unknown", "colamd"] = "unknown"
+    ordering: Ordering = "unknown"
     algorithm: Algorithm = "unknown"
     inverse: Literal["rnea", "crba", "matrix"] = "matrix"
     tree: TreeInfo | None = None
@@ -143,7 +146,10 @@ class EngineInfo:
         Places in the world are less exact than those on the parent; articulated bodies need neither moments of a matrix
         nor a linear solver.
         """
-        if self.algorithm == "other" or self.coordinates == "maximal":
+        if self.coordinates == "maximal":
+            orderings: tuple[Ordering, ...] = ("bodies", "pivoted") if self.ordering == "unknown" else (self.ordering,)
+            return tuple(replace(self, ordering=ordering) for ordering in orderings)
+        if self.algorithm == "other":
             return (self,)
         algorithms: tuple[Algorithm, ...] = ("aba", "crba") if self.algorithm == "unknown" else (self.algorithm,)
         moments: tuple[Moments, ...] = (self.moments,)

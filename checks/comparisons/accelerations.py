@@ -12,7 +12,7 @@ from ...records.check import Result
 from ...reference import mass_matrix
 from ...reference.rounding import spread
 from ...reference.rounding.bounds import EPSILON, Amplitudes, allowed, turns
-from ...reference.rounding.maximal_elimination import elimination, furthest_off
+from ...reference.rounding.maximal_elimination import furthest_off
 from .. import sharp
 from ..cell import Cell, Worst, quotient, worst
 from ..facts import forward_error
@@ -104,8 +104,8 @@ def backward_error(cell: Cell, accelerations: Array, amplitude: Amplitudes) -> t
     if beyond.any():
         rows[beyond] = amplitude.rows(accelerations[beyond], omega[beyond], mass[beyond]) * turned[beyond]
         if cell.info.coordinates == "maximal":
-            looked_at = furthest_off(beyond, quotient(residual, rows).max(axis=-1), system.n)
-            rows[looked_at] += elimination(system, theta[looked_at], omega[looked_at])[0]
+            looked_at = furthest_off(beyond, quotient(residual, rows).max(axis=-1), cell.most_eliminations)
+            rows[looked_at] += cell.elimination(theta[looked_at], omega[looked_at])[0]
             judged[beyond] = False
             judged[looked_at] = True
     return quotient(residual, EPSILON * rows), judged

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ...records.check import Result
 from ...reference.rounding import spread
 from ...reference.rounding.bounds import EPSILON, allowed, turns
-from ...reference.rounding.maximal_elimination import elimination, furthest_off
+from ...reference.rounding.maximal_elimination import furthest_off
 from .. import sharp
 from ..cell import Cell, quotient, worst
 from ..facts import FORCE_STATES
@@ -34,8 +34,8 @@ def compare(cell: Cell) -> Iterator[Result]:
     beyond = (error > bound * EPSILON * scale).any(axis=-1)
     judged = np.ones(len(theta), dtype=np.bool_)
     if cell.info.coordinates == "maximal" and beyond.any():  # seldom, and costs more than all the rest
-        looked_at = furthest_off(beyond, quotient(error, scale).max(axis=-1), cell.scene.system.n)
-        scale[looked_at] += elimination(cell.scene.system, theta[looked_at], omega[looked_at])[1]
+        looked_at = furthest_off(beyond, quotient(error, scale).max(axis=-1), cell.most_eliminations)
+        scale[looked_at] += cell.elimination(theta[looked_at], omega[looked_at])[1]
         judged[beyond] = False
         judged[looked_at] = True
     excess, left = quotient(error, EPSILON * scale), int((~judged).sum())

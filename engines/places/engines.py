@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, get_args
 
 from ...models.errors import EngineMissing, InvalidInput
-from ..info import EngineInfo, Integrator, Offer, Quantity
+from ..info import EngineInfo, Integrator, Offer, Ordering, Quantity
 from ..releases import ALSO_AS
 from .connection import Connection
 from .environments import Kept, ensure, kept, kept_name
@@ -170,6 +170,7 @@ def _info(name: str, hello: Mapping[str, Any]) -> EngineInfo:
         "coordinates": _choice(hello, "coordinates", ("relative", "absolute", "maximal"), "absolute"),
         "algorithm": _choice(hello, "algorithm", ("aba", "crba", "other", "unknown"), "unknown"),
         "inverse": _choice(hello, "inverse", ("rnea", "crba", "matrix"), "matrix"),
+        "ordering": _choice(hello, "ordering", get_args(Ordering), "unknown"),
     }
     largest = hello.get("largest_n", 1000)
     if type(largest) is not int or largest < 1:

@@ -52,18 +52,22 @@ class Equations:
     units: Units
 
 
-def states_within_a_second(n: int, orders: int = ORDERS) -> int:
+def states_within_a_second(n: int, orders: int = ORDERS, ordering: str = "unknown") -> int:
     """In how many states of n links the elimination can be looked at in about a second, at least in one."""
+    if ordering == "bodies":
+        return max(1, int(1 / (1e-3 + 4e-6 * n**2)))
     return max(1, int(WORK / (orders * (5.0 * n) ** 3 + ASIDE)))
 
 
-def furthest_off(beyond: NDArray[np.bool_], excess: Array, n: int) -> NDArray[np.intp]:
-    """Of the states (B,) that are ``beyond`` a bound, those of most ``excess`` that can be looked at in a second."""
-    return np.flatnonzero(beyond)[np.argsort(-excess[beyond], kind="stable")][: states_within_a_second(n)]
+def furthest_off(beyond: NDArray[np.bool_], excess: Array, most: int) -> NDArray[np.intp]:
+    """Of the states (B,) that are ``beyond`` a bound, the ``most`` with the most ``excess``."""
+    return np.flatnonzero(beyond)[np.argsort(-excess[beyond], kind="stable")][:most]
 
 
 def spread_states(n: int, ordering: str) -> int:
     """In how many states of n links a spread can be had in about a quarter of a second; 0: in none."""
+    if ordering == "bodies":
+        return int(0.25 / (1e-3 + 4e-6 * n**2)) or int(n <= LONGEST)
     if ordering == "colamd":
         return int(0.25 / (1e-3 + 4e-5 * n**2)) or int(n <= LONGEST)
     return states_within_a_second(n, _spread_orders(n) + 2) // 4 or int(n <= LONGEST)

@@ -13,7 +13,7 @@ random number of the size that it has in this very state, so that errors add up 
   sine one (an angle known to ε makes a sine near zero known to ε, not to ε of itself), diagonal included: in relative
   coordinates v × I v leaves it as a difference. There m v_h v_c comes besides, with v_h and v_c the speeds of a link's
   hinge and centre of mass: in the moment of v × m v about the hinge it cancels but for its rounding.
-* Maximal coordinates: the same with the matrix (M, Gᵀ; G, 0), :mod:`.maximal_elimination`.
+* Maximal coordinates: the same with the matrix (M, Gᵀ; G, 0), :mod:`.maximal_elimination`, or :mod:`.bodies_first`.
 
 No entry is known better than the last digits of what is summed up for it: the relative accelerations on the way, and
 what the loss of digits below the smallest normal number does. These are added everywhere, so that an entry that is
@@ -31,6 +31,7 @@ from numpy.typing import NDArray
 
 from ...models import DocumentSystem
 from .. import gravity_vector, mass_matrix
+from .bodies_first import bodies_first_spread
 from .bounds import EPSILON, Amplitudes, turns
 from .entries import entries, reach, speeds
 from .lever_arms import from_support
@@ -69,7 +70,7 @@ def accelerations(
     """Spread of θ̈ [rad/s²], (B, n), in states (B, n) whose true accelerations are ``alpha``."""
     mass = mass_matrix(system, theta)
     if how.coordinates == "maximal":
-        found = maximal_spread(system, theta, omega, how.ordering)[0] * _coarser(how)
+        found = _maximal(how, system, theta, omega)[0] * _coarser(how)
     elif how.algorithm == "aba":
         found = aba_accelerations(system.tree(), theta, omega, alpha, accuracy=how.accuracy, placed=how.placed)
     else:
@@ -173,7 +174,7 @@ def joint_forces(
 ) -> Array:
     """Spread of the length of each joint's force, (B, n) [N], in the true motion."""
     if how.coordinates == "maximal":
-        found = maximal_spread(system, theta, omega, how.ordering)[1] * _coarser(how)
+        found = _maximal(how, system, theta, omega)[1] * _coarser(how)
     elif how.inverse != "matrix":
         facts: dict[str, Any] = {"accuracy": how.accuracy, "placed": how.placed, "moments": how.moments}
         found = rnea(system.tree(), theta, omega, alpha, gravity=np.full(len(theta), system.gravity), **facts)[1]
@@ -224,6 +225,13 @@ def velocity_bias(how: Formulation, system: DocumentSystem, amplitude: Amplitude
     speed = (np.abs(amplitude.own(omega))[:, None, :] @ levers)[:, 0]
     force = (levers @ (2 * amplitude.mass * felt * speed)[..., None])[..., 0]
     return np.asarray(force + (amplitude.mass * speed**2 + amplitude.inertia * felt**2) @ amplitude.carried)
+
+
+def _maximal(how: Formulation, system: DocumentSystem, theta: Array, omega: Array) -> tuple[Array, Array]:
+    """Spreads of accelerations and of joints' forces in maximal coordinates."""
+    if how.ordering == "bodies":
+        return bodies_first_spread(system, theta, omega, how.placed)
+    return maximal_spread(system, theta, omega, how.ordering)
 
 
 def _columns(responses: Array, count: int) -> Array:

@@ -52,6 +52,11 @@ class AccelerationCase(RungCase):
         return ladder.recipe(self.rung).n > HEAVY
 
     @property
+    def compiles(self) -> bool:
+        """Whether a process has machine code compiled for it: where none is kept, that takes ten seconds and more."""
+        return self.engine == KERNELS
+
+    @property
     def takes(self) -> float:
         """Seconds that it may well take: proofs for ten thousand rods, or compiling the kernels."""
         return 120.0 if self.engine == KERNELS or self.heavy else 0.0

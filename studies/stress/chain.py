@@ -69,6 +69,7 @@ class StepCase:
     engine: str = KERNEL
     scene = "chain, usable step"
     takes = 120.0  # seconds that it may well take: compiling comes first
+    compiles = True  # machine code, once for each process
 
     @property
     def check(self) -> str:
@@ -97,6 +98,7 @@ class MemoryCase:
     engine: str = ENGINE
     scene = "chain, memory"
     takes = 120.0  # seconds that it may well take: compiling comes first
+    compiles = True  # machine code, once for each process
 
     @property
     def check(self) -> str:
@@ -135,6 +137,7 @@ class ChainCase:
     start: tuple[Sequence[float], Sequence[float]] | None = None
     engine: str = ENGINE
     takes = 300.0  # seconds that it may well take: a thousand rods, on a processor that is shared
+    compiles = True  # machine code, once for each process
 
     @property
     def scene(self) -> str:

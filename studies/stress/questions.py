@@ -1,8 +1,10 @@
 """Which question is asked next: of every axis something first, coarse before fine.
 
-Families of searches share the time by weight. In a family the search with fewest answers is next, so that each is
-looked at in as many places as the others, whatever the time allows; cases that take long come after all that do not. To
-choose one, and to take its answer, costs a time that grows with the logarithm of how many there are.
+First every search has one answer, whatever its family; then families share the time by weight. In a family the search
+with fewest answers is next, so that each is looked at in as many places as the others, whatever the time allows; cases
+that take long come after all that do not, and of searches with as many answers those for which a process has to compile
+machine code first. To choose one, and to take its answer, costs a time that grows with the
+logarithm of how many there are.
 """
 
 from __future__ import annotations
@@ -38,7 +40,7 @@ class Questions(Generic[S, C]):
     ) -> None:
         self._next_case, self._weights = next_case, weights
         self._families = {name: number for number, name in enumerate(weights)}
-        self._waiting: defaultdict[str, list[tuple[tuple[bool, int, int], S, C]]] = defaultdict(list)
+        self._waiting: defaultdict[str, list[tuple[tuple[bool, int, bool, int], S, C]]] = defaultdict(list)
         self._spent: defaultdict[str, float] = defaultdict(float)
         self._places: dict[S, int] = {}
         self._asked: set[S] = set()
@@ -56,8 +58,11 @@ class Questions(Generic[S, C]):
         families = [name for name, waiting in self._waiting.items() if waiting]
         if not families:
             return None
-        family = min(families, key=lambda name: (self._spent[name] / self._weights[name], self._families[name]))
-        _, search, case = heapq.heappop(self._waiting[family])
+        unanswered = [name for name in families if self._waiting[name][0][0][:2] == (False, 0)]
+        turn = min(
+            unanswered or families, key=lambda name: (self._spent[name] / self._weights[name], self._families[name])
+        )
+        _, search, case = heapq.heappop(self._waiting[turn])
         self._asked.add(search)
         return search, case
 
@@ -70,5 +75,6 @@ class Questions(Generic[S, C]):
     def _put(self, search: S) -> None:
         case, answers = self._next_case(search)
         if case is not None:
-            urgency = (getattr(case, "heavy", False), answers, self._places[search])
+            late = bool(getattr(case, "compiles", False))
+            urgency = (bool(getattr(case, "heavy", False)), answers, late, self._places[search])
             heapq.heappush(self._waiting[search.family], (urgency, search, case))

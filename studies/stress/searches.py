@@ -2,9 +2,10 @@
 
 What has been found is in the results alone, each under a name of its own. A search is a function of them: it says which
 case it needs next, or that it knows. So a run that was cut off goes on where it stood, nothing is lost and nothing is
-done twice, and the order in which cases come in changes nothing. Families of searches (frontiers of accelerations,
-frontiers of the step, …) share the time by weight; within a family every search is asked as often as the others, from
-coarse to fine (:mod:`.questions`): a run that is cut off has something to say of each.
+done twice, and the order in which cases come in changes nothing. Every search has a first answer before any has two;
+then families of searches (frontiers of accelerations, frontiers of the step, …) share the time by weight, and within a
+family every search is asked as often as the others, from coarse to fine (:mod:`.questions`): a run that is cut off has
+something to say of each.
 """
 
 from __future__ import annotations

@@ -209,7 +209,7 @@ static void hello(bool maximal) {
     std::string common = "{\"say\": \"hello\", \"protocol\": 1, \"version\": \"" + version + "\", ";
     if (maximal)
         answer(common +
-               "\"questions\": [\"accelerations\", \"energy\"], \"coordinates\": \"maximal\", \"largest_n\": 100, "
+               "\"questions\": [\"accelerations\", \"energy\"], \"coordinates\": \"maximal\", \"ordering\": \"bodies\", \"largest_n\": 100, "
                "\"largest_n_reason\": \"longer chains were not tried\", "
                "\"no_point_masses\": \"a free body without an inertia of its own has a singular mass matrix\", "
                "\"formulation\": \"free planar bodies, two constraints a hinge, Lagrange multipliers; in C++\"}");

@@ -8,10 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from furiko.checks.comparisons import accelerations
 from furiko.checks.conformance.kit import steps
 from furiko.engines import cannot, engine_info
 from furiko.engines.registry import load_engine
-from furiko.models import NLegPendulum, RodChain
+from furiko.models import NLegPendulum, RodChain, Scene
 from furiko.reference.truth.enclosures import enclosed_accelerations
 
 SCRIPT = Path(__file__).parents[3] / "docs" / "examples" / "simbody" / "build.sh"
@@ -49,6 +50,23 @@ def test_both_formulations_have_the_proved_accelerations(folder, name, close):
     true = enclosed_accelerations(CHAIN, theta, omega).high
     got = load_engine(str(folder / name), CHAIN).accelerations(theta, omega)
     assert np.abs(got - true).max() < close * np.abs(true).max()
+
+
+def test_unlike_links_are_within_the_bound_of_multipliers_from_a_dense_matrix(folder, make_cell):
+    """A rod of a hundredth between two others: 3,209 ε where only an elimination that interchanges rows is allowed."""
+    cell = make_cell(str(folder / "furiko-simbody-maximal"), "rods-3-length-ratio", random_states=200)
+    assert cell.info.ordering == "bodies"
+    (result,) = accelerations.compare(cell)
+    assert (result.outcome, result.loose) == ("agrees", False), result.reason
+
+
+@pytest.mark.parametrize(("middle", "outcome"), [(2e-10, "agrees"), (3e-11, "differs")])
+def test_an_equation_that_simbody_drops_is_seen(folder, make_cell, middle, outcome):
+    """Of G M⁻¹ Gᵀ the smallest singular value is about ``middle`` / 8 of the largest; below 6 ε^(3/4) it is dropped."""
+    scene = Scene("light", RodChain((1.0, middle, 1.0)))
+    cell = make_cell(str(folder / "furiko-simbody-maximal"), scene, random_states=20)
+    (result,) = accelerations.compare(cell)
+    assert result.outcome == outcome, result.reason
 
 
 def test_point_masses_are_refused_by_the_maximal_formulation_alone():

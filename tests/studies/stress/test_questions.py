@@ -21,6 +21,7 @@ class Ladder:
     fails: int
     family: str = "first"
     heavy_from: int = 10**9
+    compiled: bool = False
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,10 @@ class Rung:
     @property
     def heavy(self):
         return self.rung >= self.ladder.heavy_from
+
+    @property
+    def compiles(self):
+        return self.ladder.compiled
 
 
 def asked(ladders, count, seconds=lambda case: 1.0):
@@ -76,7 +81,7 @@ def test_what_takes_long_comes_last():
 
 
 def test_families_share_the_time_by_weight():
-    ladders = [Ladder(f"{family} {k}", 40, 41, family) for family in WEIGHTS for k in range(30)]
+    ladders = [Ladder(f"{family} {k}", 40, 41, family) for family in WEIGHTS for k in range(15)]
     found, _ = asked(ladders, 80)
     shares = Counter(case.ladder.family for case in found)
     assert shares == {"first": 60, "second": 20}
@@ -84,6 +89,22 @@ def test_families_share_the_time_by_weight():
     found, _ = asked(ladders, 80, lambda case: 3.0 if case.ladder.family == "first" else 1.0)
     shares = Counter(case.ladder.family for case in found)
     assert shares["first"] == pytest.approx(shares["second"], abs=2)
+
+
+def test_every_search_has_an_answer_before_any_has_two():
+    """Also of a family with little weight, and of one whose cases take long; what is heavy can wait."""
+    ladders = [Ladder(f"{family} {k}", 40, 41, family) for family in WEIGHTS for k in range(30)]
+    ladders.append(Ladder("heavy", 40, 41, heavy_from=0))
+    for slow in WEIGHTS:
+        found, _ = asked(ladders, 61, lambda case, slow=slow: 20.0 if case.ladder.family == slow else 1.0)
+        assert len({case.ladder for case in found[:60]}) == 60
+        assert not any(case.heavy for case in found)
+
+
+def test_what_is_compiled_comes_after_the_first_answers_of_its_family():
+    ladders = [Ladder("kernels", 40, 41, compiled=True), Ladder("one", 40, 41), Ladder("another", 40, 41)]
+    found, _ = asked(ladders, 4)
+    assert [case.ladder.name for case in found] == ["one", "another", "kernels", "one"]
 
 
 def test_one_that_is_being_answered_is_not_asked_again_and_is_still_open():
