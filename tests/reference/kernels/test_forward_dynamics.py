@@ -327,8 +327,11 @@ def test_a_few_small_calls_do_not_import_numba():
 
 
 def test_compiled_kernels_once_loaded_serve_every_system():
-    kernels.kernel_of(RodChain((1.0, 0.5)))
-    assert kernels._COMPILED in sys.modules
+    kernel = kernels.kernel_of(RodChain((1.0, 0.5)))
+    state = np.array([0.3, 0.4]), np.array([0.1, 0.2])
+    found = kernel(*state)
+    np.testing.assert_array_equal(kernels.accelerations(RodChain((1.0, 0.5)), *state), found)
+    assert kernels._is_compiled(RodChain((2.0, 0.5, 1.0)), np.zeros(3))
 
 
 def test_compiles_where_no_cache_can_be_written(tmp_path):
