@@ -352,10 +352,15 @@ def test_compiles_where_no_cache_can_be_written(tmp_path):
 @pytest.mark.slow
 @pytest.mark.skipif(platform.machine() != "x86_64", reason="the processors named here are x86-64")
 @pytest.mark.parametrize("processor", ["x86-64", "haswell"])  # without fused multiply-add; with it, in 256 bits
-def test_other_processors_are_as_exact(processor, tmp_path):
+@pytest.mark.parametrize("way", ["made", "by_numba"])
+def test_other_processors_are_as_exact(processor, way, tmp_path):
     script = (
         "import sys, numpy as np; from furiko.models import NLegPendulum\n"
+        "from furiko.reference.kernels.ahead import load\n"
         "from furiko.reference.kernels.forward_dynamics import kernel_of\n"
+        "load.is_ahead = lambda name: sys.argv[2] == 'made'\n"
+        "made = load.made\n"
+        "load.made = lambda name: made(name, sys.argv[3])\n"
         "lengths, masses, theta, omega = np.load(sys.argv[1])\n"
         "kernel = kernel_of(NLegPendulum(tuple(lengths.tolist()), tuple(masses.tolist())))\n"
         "batch = kernel.batch(np.tile(theta, (3, 1)), np.tile(omega, (3, 1)))[1]\n"
@@ -366,7 +371,9 @@ def test_other_processors_are_as_exact(processor, tmp_path):
     theta, omega = STATES["huge angles"](rng, 1001)
     np.save(tmp_path / "state.npy", [system.lengths, system.masses, theta, omega])
     named = {"NUMBA_CPU_NAME": processor, "NUMBA_CPU_FEATURES": "", "NUMBA_CACHE_DIR": str(tmp_path)}
-    subprocess.run([sys.executable, "-c", script, str(tmp_path / "state.npy")], env=os.environ | named, check=True)
+    subprocess.run(
+        [sys.executable, "-c", script, str(tmp_path / "state.npy"), way, processor], env=os.environ | named, check=True
+    )
     errors = errors_of(system, theta, omega, dict(enumerate(np.load(tmp_path / "state.npy"))))
     assert max(errors.values()) <= ALLOWED, errors
 
