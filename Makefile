@@ -6,7 +6,7 @@ JOBS ?= 2
 # Slow tests wait for a third of their time: for processes of their own, and for time limits that these shall pass.
 SLOW_JOBS ?= 3
 
-.PHONY: check test test-slow test-all lint docs engines notebooks models architecture clean
+.PHONY: check test test-slow test-all lint docs engines notebooks models kernels architecture clean
 
 check: $(VENV)/.check  ## run the catalogue against every engine; writes furiko-report/
 	$(BIN)/furiko check
@@ -41,6 +41,9 @@ engines:  ## measure all engines on the whole catalogue, and write docs/engines.
 models:  ## write the catalogue's model files and the JSON schemas again
 	$(BIN)/python -m furiko.models.writers.catalogue_files
 	$(BIN)/python -m furiko.records.schema
+
+kernels: $(VENV)/.check  ## write the compiled kernels ahead again, once their text has changed
+	$(BIN)/python -m furiko.reference.write_kernels
 
 architecture:  ## draw the picture of the rooms in docs/architecture.md again
 	$(BIN)/python tests/package_rooms.py

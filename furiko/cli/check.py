@@ -13,6 +13,15 @@ from .output import print_failure, print_json, print_text
 from .progress import check_progress
 
 
+def usual_jobs(profile: str, engines: int) -> int:
+    """Worker processes where the user does not say: one a core.
+
+    Of a smoke run, in which a worker's start costs more than all that it does, at most one for each engine named.
+    """
+    cores = os.cpu_count() or 1
+    return min(cores, engines) if profile == "smoke" and engines else cores
+
+
 @click.command()
 @click.argument("scenes", nargs=-1, metavar="[SCENE|FILE.toml]...", shell_complete=scene_names)
 @engine_option
@@ -65,7 +74,8 @@ def check(
     from ..engines.workers.processes import worker_processes
 
     most = None if memory is None else int(memory * 2**30)
-    with worker_processes(jobs or os.cpu_count() or 1, MODULES, most) as source:
+    jobs = jobs or usual_jobs(profile, len(engines))
+    with worker_processes(jobs, MODULES, most) as source:
         from ..reports import compare, known_in, read_known, read_stream
         from ..run import ReportNotWritten
         from ..run import check as run_check

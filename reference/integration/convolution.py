@@ -13,7 +13,8 @@ from numba import types
 from numba.core import cgutils
 
 from ..kernels.compiling import intrinsic
-from ..kernels.vector import EIGHT, INTEGER, VECTOR
+from ..kernels.sizes import EIGHT
+from ..kernels.vector import INTEGER, VECTOR
 
 SINE, COSINE, OMEGA, FP, FQ, SERIES = range(6)  # series[which, order, link]
 WP, WQ, R = range(3)  # part[which, link]

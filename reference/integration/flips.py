@@ -16,6 +16,8 @@ from numpy.typing import NDArray
 
 from ...models.errors import InvalidInput
 from ...models.systems import System
+from ..kernels.ahead.load import kernel
+from ..kernels.sizes import EIGHT
 from .starts import (
     FINEST,
     Starts,
@@ -121,10 +123,7 @@ def _follow(
     local: float,
     out: tuple[NDArray[np.int64], Array, NDArray[np.int64]],
 ) -> None:
-    from ..kernels.vector import EIGHT
-    from . import taylor_flips as compiled
-
-    run = compiled.run_rod_flips if kind == "rod-chain" else compiled.run_leg_flips
+    run = kernel("run_rod_flips" if kind == "rod-chain" else "run_leg_flips")
     steps, times, link = out
     n = given[3].shape[1]
     state, factors, clock, lanes = empty_lanes(n)

@@ -14,8 +14,10 @@ from numpy.typing import NDArray
 from ...models.errors import InvalidInput
 from ...models.systems import System
 from ..kernels.forward_dynamics import link_masses
+from ..kernels.sizes import EIGHT
 from ..kernels.threads import processors, thread_pool
 from ..limits import checked_state
+from .layout import BROKEN, CLOCK, FACTORS, IDLE, LANE_ROWS, MORE, NEXT, STATE, TIME, TRAJECTORY
 
 Array = NDArray[np.float64]
 
@@ -140,27 +142,19 @@ def step_accuracy(tolerance: float, *, finer: bool = False) -> tuple[int, float]
 
 def empty_lanes(n: int) -> tuple[Array, Array, Array, NDArray[np.int64]]:
     """What the kernels of eight lanes keep between calls, nothing begun: state, factors, clock, lanes."""
-    from ..kernels.vector import EIGHT
-    from . import taylor_lanes as compiled
-    from .taylor_compiled import FACTORS, STATE
-
-    lanes = np.zeros((compiled.LANE_ROWS, EIGHT), np.int64)
-    lanes[compiled.TRAJECTORY] = compiled.IDLE
-    return np.zeros((n, STATE, EIGHT)), np.zeros((n, FACTORS, EIGHT)), np.zeros((compiled.CLOCK, EIGHT)), lanes
+    lanes = np.zeros((LANE_ROWS, EIGHT), np.int64)
+    lanes[TRAJECTORY] = IDLE
+    return np.zeros((n, STATE, EIGHT)), np.zeros((n, FACTORS, EIGHT)), np.zeros((CLOCK, EIGHT)), lanes
 
 
 def run_lanes(advance: Callable[[int], int], clock: Array, lanes: NDArray[np.int64], until: float) -> None:
     """Call a kernel of eight lanes with a number of steps until all are done. Raises InvalidInput for a broken one."""
-    from ..kernels.vector import EIGHT
-    from . import taylor_lanes as compiled
-    from .taylor_compiled import BROKEN, MORE
-
     status = MORE
     while status == MORE:
         status = advance(STEPS_A_CALL // EIGHT)
     if status == BROKEN:
-        lane = int(np.argmax(lanes[compiled.TRAJECTORY] == lanes[compiled.NEXT, 1]))
-        raise too_fast(clock[compiled.TIME, lane], until)
+        lane = int(np.argmax(lanes[TRAJECTORY] == lanes[NEXT, 1]))
+        raise too_fast(clock[TIME, lane], until)
 
 
 def on_threads(count: int, threads: int | None, work: Callable[[slice], None]) -> None:

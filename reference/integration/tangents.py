@@ -17,6 +17,9 @@ from numpy.typing import NDArray
 from ...models.errors import InvalidInput
 from ...models.states import natural_rate
 from ...models.systems import System
+from ..kernels.ahead.load import kernel
+from ..kernels.sizes import EIGHT
+from .layout import DIFFERENCE, FACTORS, SCALES
 from .starts import (
     FINEST,
     Starts,
@@ -215,17 +218,13 @@ class _Run:
     def _follow(
         self, given: list[Array], order: int, local: float, steps: NDArray[np.int64], out: list[Array], scale: Array
     ) -> None:
-        from ..kernels.vector import EIGHT
-        from . import taylor_tangents as compiled
-        from .taylor_compiled import FACTORS
-
-        run = compiled.run_rod_tangents if self.starts.kind == "rod-chain" else compiled.run_leg_tangents
+        run = kernel("run_rod_tangents" if self.starts.kind == "rod-chain" else "run_leg_tangents")
         n, k = self.starts.n, len(self.first)
         state, factors, clock, lanes = empty_lanes(n)
-        first = np.ascontiguousarray(self.first.reshape(k, compiled.DIFFERENCE, n))
+        first = np.ascontiguousarray(self.first.reshape(k, DIFFERENCE, n))
         still = np.zeros((n, FACTORS, EIGHT))
-        differences, product = np.zeros((k, compiled.DIFFERENCE, n, EIGHT)), np.zeros((k, k, EIGHT))
-        growth, scales = np.zeros((k, EIGHT)), np.zeros((compiled.SCALES, EIGHT))
+        differences, product = np.zeros((k, DIFFERENCE, n, EIGHT)), np.zeros((k, k, EIGHT))
+        growth, scales = np.zeros((k, EIGHT)), np.zeros((SCALES, EIGHT))
         begun = *given, self.times, order, local, state, factors, clock, lanes, steps, *out[:2]
         beside = first, scale, still, differences, product, growth, scales, *out[2:]
         run_lanes(lambda count: run(*begun, *beside, count // k + 1), clock, lanes, self.times[-1])

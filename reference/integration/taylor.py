@@ -44,6 +44,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...models.systems import System
+from ..kernels.ahead.load import kernel
+from .layout import BROKEN, MORE, STATE
 from .starts import (
     FINEST,
     STEPS_A_CALL,
@@ -180,9 +182,7 @@ def _integrate(
 
 def _follow_lanes(kind: str, runs: _Runs, times: Array, order: int, local: float) -> None:
     """Many trajectories, eight at a time."""
-    from . import taylor_lanes as compiled
-
-    run = compiled.run_rod_lanes if kind == "rod-chain" else compiled.run_leg_lanes
+    run = kernel("run_rod_lanes" if kind == "rod-chain" else "run_leg_lanes")
     state, factors, clock, lanes = empty_lanes(runs.theta.shape[1])
     given = runs.masses, runs.lengths, runs.gravity, runs.theta, runs.omega, times, order, local
     kept = state, factors, clock, lanes, runs.steps, runs.out_theta, runs.out_omega
@@ -191,16 +191,14 @@ def _follow_lanes(kind: str, runs: _Runs, times: Array, order: int, local: float
 
 def _follow(kind: str, run: _Runs, times: Array, order: int, local: float) -> int:
     """One trajectory, of which the arrays have one axis less. Returns the number of steps."""
-    from . import taylor_compiled as compiled
-
-    advance = compiled.run_rods if kind == "rod-chain" else compiled.run_legs
-    state = np.zeros((len(run.theta), compiled.STATE))
-    compiled.start(run.theta, run.omega, state)
+    start, advance = kernel("start"), kernel("run_rods" if kind == "rod-chain" else "run_legs")
+    state = np.zeros((len(run.theta), STATE))
+    start(run.theta, run.omega, state)
     clock, counts = np.array([times[0], 0.0]), np.zeros(2, np.int64)
     given = run.masses, run.lengths, float(run.gravity), times, order, local
-    status = compiled.MORE
-    while status == compiled.MORE:
+    status = MORE
+    while status == MORE:
         status = advance(*given, state, clock, counts, run.out_theta, run.out_omega, STEPS_A_CALL)
-    if status == compiled.BROKEN:
+    if status == BROKEN:
         raise too_fast(clock[0], times[-1])
     return int(counts[1])

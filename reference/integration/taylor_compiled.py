@@ -16,22 +16,46 @@ from ..kernels import elimination
 from ..kernels.compiling import aligned, bits, called, compiled, inlined, merged, wide_vectors
 from ..kernels.sincos import sincos
 from ..kernels.sine import ROUNDER
-from ..kernels.vector import EIGHT, fma, load, store
+from ..kernels.sizes import EIGHT
+from ..kernels.vector import fma, load, store
 from .convolution import COSINE, FP, FQ, OMEGA, SERIES, SINE, WP, WQ, R, convolve_eight
+from .layout import (
+    ACROSS_R,
+    ACROSS_W,
+    ANGLE,
+    ANGLE_LOW,
+    BROKEN,
+    COS,
+    DONE,
+    FACTORS,
+    GRAVITY,
+    INVERSE,
+    KAPPA,
+    KB,
+    KC,
+    KM,
+    LENGTH,
+    M12,
+    M22,
+    MASS,
+    MORE,
+    RATE,
+    RATE_LOW,
+    SIN,
+    TURNS,
+    UP_W,
+    WP_R,
+    A,
+    B,
+)
 
 absorb_rod = inlined(elimination.absorb_rod)
 turn = inlined(elimination.turn)
 two_difference = inlined(elimination.difference)
 
 MOST_STEPS = 1e11  # to one output: days of work; more is probably a wrong unit
-DONE, MORE, BROKEN = 0, 1, 2
 TWO_PI, TWO_PI_LOW = 6.283185307179586, 2.4492935982947064e-16
 TURNS_A_RADIAN = 0.15915494309189535
-# columns of the state, one row a link: angle and rate as sums of two numbers, and whole turns taken off the angle
-ANGLE, ANGLE_LOW, RATE, RATE_LOW, TURNS, STATE = range(6)
-# columns of the factors of a step, one row a link; gravity stands in the first row
-MASS, LENGTH, INVERSE, GRAVITY, SIN, COS, A, B, KAPPA, KC = range(10)
-KB, KM, M12, M22, UP_W, ACROSS_W, ACROSS_R, WP_R, FACTORS = range(10, 19)
 # rows of what one order of the series needs: WP, WQ, R of the convolution, then
 BETA_P, TAU, ORDER = 3, 4, 5
 

@@ -14,16 +14,25 @@ from typing import Any
 import numpy as np
 
 from ..kernels.compiling import aligned, called, compiled, inlined, merged
-from ..kernels.vector import EIGHT, load, magnitude, store
+from ..kernels.sizes import EIGHT
+from ..kernels.vector import load, magnitude, store
 from .convolution import OMEGA, SERIES
-from .taylor_compiled import (
+from .layout import (
+    AHEAD,
     ANGLE,
     ANGLE_LOW,
     BROKEN,
     DONE,
+    IDLE,
     MORE,
-    ORDER,
+    TIME,
+    TIME_LOW,
+    TRAJECTORY,
     TURNS,
+    WRITTEN,
+)
+from .taylor_compiled import (
+    ORDER,
     expand,
     factor_legs,
     factor_rods,
@@ -31,13 +40,7 @@ from .taylor_compiled import (
     solve_rods,
 )
 from .taylor_lanes import (
-    AHEAD,
-    IDLE,
     SIZES,
-    TIME,
-    TIME_LOW,
-    TRAJECTORY,
-    WRITTEN,
     begin,
     go_on,
     largest,

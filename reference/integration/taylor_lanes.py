@@ -12,22 +12,34 @@ from typing import Any
 import numpy as np
 
 from ..kernels.compiling import aligned, called, compiled, inlined, merged
-from ..kernels.vector import EIGHT, load, magnitude, maximum, store
+from ..kernels.sizes import EIGHT
+from ..kernels.vector import load, magnitude, maximum, store
 from .convolution import OMEGA, SERIES
-from .taylor_compiled import (
+from .layout import (
+    AHEAD,
     BROKEN,
     DONE,
+    DUE,
     GRAVITY,
+    IDLE,
     INVERSE,
     LENGTH,
     MASS,
     MORE,
-    MOST_STEPS,
-    ORDER,
+    NEXT,
     RATE,
     RATE_LOW,
     STATE,
+    STEP,
+    TIME,
+    TIME_LOW,
+    TRAJECTORY,
     TURNS,
+    WRITTEN,
+)
+from .taylor_compiled import (
+    MOST_STEPS,
+    ORDER,
     advance,
     expand,
     factor_legs,
@@ -41,9 +53,6 @@ from .taylor_compiled import (
     wrap,
 )
 
-IDLE = -1
-TRAJECTORY, WRITTEN, DUE, NEXT, LANE_ROWS = range(5)  # rows of lanes; in NEXT: the next start, a broken trajectory
-TIME, TIME_LOW, STEP, AHEAD, CLOCK = range(5)  # rows of the clock
 SIZES = 5
 
 

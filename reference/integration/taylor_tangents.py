@@ -17,15 +17,30 @@ import math
 from typing import Any
 
 from ..kernels.compiling import aligned, called, compiled, inlined, merged, wide_vectors
-from ..kernels.vector import EIGHT, load, magnitude, maximum, square_root, store
+from ..kernels.sizes import EIGHT
+from ..kernels.vector import load, magnitude, maximum, square_root, store
 from .convolution import COSINE, OMEGA, SERIES, SINE, convolve_tangent
-from .taylor_compiled import (
+from .layout import (
+    AHEAD,
     BROKEN,
+    DIFFERENCE,
     DONE,
+    DUE,
+    IDLE,
     INVERSE,
     LENGTH,
     MASS,
     MORE,
+    RATE_SCALE,
+    SIZE,
+    SPED,
+    STEP,
+    TAKEN_OUT,
+    TRAJECTORY,
+    TURNED,
+    WRITTEN,
+)
+from .taylor_compiled import (
     ORDER,
     expand,
     factor_legs,
@@ -35,13 +50,7 @@ from .taylor_compiled import (
     step_size,
 )
 from .taylor_lanes import (
-    AHEAD,
-    DUE,
-    IDLE,
     SIZES,
-    STEP,
-    TRAJECTORY,
-    WRITTEN,
     begin,
     find_due,
     go_on,
@@ -51,9 +60,6 @@ from .taylor_lanes import (
     set_steps,
     write,
 )
-
-TURNED, SPED, DIFFERENCE = range(3)  # rows of a difference: δθ [rad], δω [rad/s]
-RATE_SCALE, TAKEN_OUT, SIZE, SCALES = range(4)  # rows of the scales: the unit of δω [rad/s], ln of sizes, the last size
 
 
 @merged

@@ -1,33 +1,31 @@
-"""Says on a terminal that numba compiles a kernel, where that takes a while: the first call would stall without a word.
-
-Nothing is written into a pipe or a file. Imported with numba alone.
-"""
+"""Says on a terminal that numba compiles a kernel, where that takes a while. Imported with numba alone."""
 
 from __future__ import annotations
 
-import sys
 import threading
 from typing import Any
 
 from numba.core import event
 
-LONG = 1.0  # [s] of compiling before a word is said
-# What each kernel is for, and how long it takes to compile: seconds of one core of an EPYC, numba 0.68.
-KERNELS = {
-    "rods_single": ("accelerations of rods", 2),
-    "rods_batch": ("accelerations of rods in many states", 6),
-    "refined_rods_batch": ("accelerations of unequal rods in many states", 8),
-    "legs_single": ("accelerations of an N-leg pendulum", 1),
-    "legs_batch": ("accelerations of an N-leg pendulum in many states", 4),
-    "start": ("the start of a simulation", 1),
-    "run_rods": ("simulations of rods", 6),
-    "run_legs": ("simulations of an N-leg pendulum", 5),
-    "run_rod_lanes": ("simulations of ensembles of rods", 9),
-    "run_leg_lanes": ("simulations of ensembles of N-leg pendulums", 8),
-    "run_rod_tangents": ("the growth of small differences of rods", 16),
-    "run_leg_tangents": ("the growth of small differences of N-leg pendulums", 15),
-    "run_rod_flips": ("flip times of rods", 10),
-    "run_leg_flips": ("flip times of N-leg pendulums", 10),
+from .ahead.announcing import saying_later
+from .ahead.kernels import KERNELS
+
+# How long each takes to compile: seconds of one core of an EPYC, numba 0.68.
+SECONDS = {
+    "rods_single": 2,
+    "rods_batch": 6,
+    "refined_rods_batch": 8,
+    "legs_single": 1,
+    "legs_batch": 4,
+    "start": 1,
+    "run_rods": 6,
+    "run_legs": 5,
+    "run_rod_lanes": 9,
+    "run_leg_lanes": 8,
+    "run_rod_tangents": 16,
+    "run_leg_tangents": 15,
+    "run_rod_flips": 10,
+    "run_leg_flips": 10,
 }
 
 
@@ -46,9 +44,7 @@ class Announcer(event.Listener):  # type: ignore[misc]  # numba has no types
         timer = None
         if not inside and ours and name in KERNELS:
             kept = type(dispatcher._cache).__name__ != "NullCache"
-            timer = threading.Timer(LONG, say, (name, kept))
-            timer.daemon = True
-            timer.start()
+            timer = saying_later(line(name, kept))
         inside.append(timer)
 
     def on_end(self, event: Any) -> None:
@@ -58,14 +54,10 @@ class Announcer(event.Listener):  # type: ignore[misc]  # numba has no types
             timer.cancel()
 
 
-def say(name: str, kept: bool) -> None:
-    """One line on standard error, if it is a terminal."""
-    if sys.stderr is None or not sys.stderr.isatty():
-        return
-    what, seconds = KERNELS[name]
+def line(name: str, kept: bool) -> str:
+    """What is said of a kernel."""
     again = "once: the result is kept" if kept else "in each process: there is no folder to keep the result in"
-    sys.stderr.write(f"furiko: numba compiles {what}, about {seconds} s, {again}\n")
-    sys.stderr.flush()
+    return f"numba compiles {KERNELS[name].what}, about {SECONDS[name]} s, {again}"
 
 
 def announce() -> None:

@@ -5,10 +5,7 @@ Imported only when compiled code is needed: importing numba takes a quarter of a
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable
-from functools import cache
-from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
@@ -23,6 +20,7 @@ try:
 except ImportError as error:  # whatever else needs numba imports this module first
     raise missing("numba", error) from error
 
+from .ahead.kernels import source_stamp
 from .announcing import announce  # needs numba as well
 from .instructions import FAST
 
@@ -32,22 +30,6 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 # error_model: Python's check for division by zero would keep every loop with a division from being vectorised.
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": set(FAST)}
-SOURCES = (
-    "kernels/elimination.py",
-    "kernels/compiling.py",
-    "kernels/instructions.py",
-    "kernels/lanes.py",
-    "kernels/vector.py",
-    "limits.py",
-    "kernels/sincos.py",
-    "kernels/sine.py",
-    "integration/convolution.py",
-    "kernels/forward_dynamics_compiled.py",
-    "integration/taylor_compiled.py",
-    "integration/taylor_lanes.py",
-    "integration/taylor_tangents.py",
-    "integration/taylor_flips.py",
-)
 
 njit: Any = numba.njit  # numba's own types know neither forceinline nor what the result can be called with
 
@@ -102,13 +84,6 @@ def compiled(*, releases_gil: bool) -> Callable[[F], F]:
         return decorated
 
     return decorate
-
-
-@cache
-def source_stamp() -> str:
-    """A digest of all source text that goes into compiled code."""
-    folder = Path(__file__).parent.parent
-    return hashlib.sha256(b"".join((folder / name).read_bytes() for name in SOURCES)).hexdigest()
 
 
 @inlined

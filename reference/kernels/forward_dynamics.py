@@ -2,19 +2,18 @@
 
 The formulas and their derivation are in :mod:`.elimination`: for rods an articulated-body algorithm (ABA). Plain numpy
 runs them in any float type and needs no start-up; compiled code (:mod:`.forward_dynamics_compiled`) is 20 to 200 times
-faster once numba is imported (0.3 s) and the kernels are loaded from numba's cache (0.1 s) or, once in the life of an
-installation, compiled (some seconds). Without numba (``furiko[fast]``) it is plain numpy always. Both are
-deterministic and a state's result does not depend on the other states of the call; between plain, single and batch form
-it may differ by rounding, 1e-15 of the largest acceleration.
+faster once there is machine code: made in 0.1 s (one state) or 0.6 s (many) of instructions that are written ahead
+(:mod:`.ahead`), or compiled by numba where these do not fit, in some seconds once in the life of an installation.
+Without llvmlite and numba (``furiko[fast]``) it is plain numpy always. Both are deterministic and a state's result does
+not depend on the other states of the call; between plain, single and batch form it may differ by rounding, 1e-15 of
+the largest acceleration.
 """
 
 from __future__ import annotations
 
-import sys
 import weakref
 from collections.abc import Callable, Iterator
-from functools import cache
-from importlib.util import find_spec
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
@@ -24,6 +23,7 @@ from ...models.errors import InvalidInput
 from ...models.spatial_mechanism import SpatialMechanism
 from ...models.systems import System
 from ..limits import checked_state, refuse_outside, shaped_state
+from .ahead import load
 from .elimination import (
     UNEQUAL,
     absorb_residual,
@@ -43,12 +43,11 @@ Array = NDArray[np.float64]
 FloatArray = NDArray[np.floating[Any]]
 
 # The compiled kernels are loaded at the first call with so many angles, or after so many calls: a program that has
-# asked eight times will ask again, one that asks a few times (a quick check) does not load numba.
+# asked eight times will ask again, one that asks a few times (a quick check) loads nothing.
 MANY_ANGLES, MANY_CALLS = 4096, 8
 ANGLES_A_THREAD = 50_000  # about 0.2 ms of work; handing a part to a thread takes 0.05 ms
 SCRATCH_COLUMNS = 9
 
-_COMPILED = f"{__package__}.forward_dynamics_compiled"
 _ARRAY, _FLOAT64, _empty = np.ndarray, np.dtype(np.float64), np.empty
 _kernels: dict[int, Kernel] = {}
 _calls = 0
@@ -105,7 +104,7 @@ def accelerations(
     if out is not None and not (out.shape == angles.shape and out.dtype == _FLOAT64 and out.flags.carray):
         raise InvalidInput(f"out: a contiguous float64 array of shape {angles.shape} is needed")
     out = np.empty(angles.shape) if out is None else out
-    if kernel is None and not (_worth_compiling(angles.size) and _can_compile()):
+    if kernel is None and not _is_compiled(system, angles):
         refuse_outside(angles, rates)
         out[...] = plain_accelerations(system, angles, rates)
         return out
@@ -138,17 +137,21 @@ class Kernel:
     """
 
     def __init__(self, system: System) -> None:
-        from . import forward_dynamics_compiled as compiled
-
-        rods = system.kind == "rod-chain"
         self.n = system.n
         self.masses, self.lengths = link_masses(system), np.array(system.lengths)
         self.gravity = system.gravity
         self.refined = unequal(self.lengths)
         self.table = table(self.masses, self.lengths, self.gravity, self.refined)
-        self.single = _entry(compiled.rods_single if rods else compiled.legs_single)
-        rods_batch = compiled.refined_rods_batch if self.refined else compiled.rods_batch
-        self._batch = rods_batch if rods else compiled.legs_batch
+        self._kind = system.kind
+
+    @cached_property
+    def single(self) -> Callable[[Array, Array, Array, Array], int]:
+        """The kernel of one state: θ, ω, θ'' of any stride, and :attr:`table`."""
+        return _entry(_name(self._kind, self.refined, many=False))
+
+    @cached_property
+    def _batch(self) -> Callable[..., int]:
+        return load.kernel(_name(self._kind, self.refined, many=True))
 
     def __call__(self, theta: Array, omega: Array) -> Array:
         """θ'' of one state; the types of the arrays are not checked."""
@@ -206,29 +209,41 @@ def unequal(lengths: FloatArray) -> bool:
     return bool(lengths.max() > UNEQUAL * lengths.min())
 
 
+def _name(kind: str, refined: bool, *, many: bool) -> str:
+    """Of the kernel."""
+    if kind != "rod-chain":
+        return "legs_batch" if many else "legs_single"
+    if not many:
+        return "rods_single"
+    return "refined_rods_batch" if refined else "rods_batch"
+
+
 @cache
-def _entry(dispatcher: Any) -> Callable[[Array, Array, Array, Array], int]:
-    """The compiled function itself, for states of any stride.
+def _entry(name: str) -> Callable[[Array, Array, Array, Array], int]:
+    """The kernel of one state; of numba's, the compiled function itself.
 
     numba's dispatcher looks up the arguments' types anew in each call, which takes 0.3 µs; the function itself trusts
     that it is given float64 arrays with one axis and, last, the two of :func:`table`.
     """
+    kernel: Any = load.kernel(name)
     strided = np.zeros(4)[::2]
-    dispatcher(strided, strided, np.zeros(2), table(np.ones(2), np.ones(2), 0.0, refined=False))
-    entry: Callable[[Array, Array, Array, Array], int] = dispatcher.overloads[dispatcher.signatures[0]].entry_point
+    kernel(strided, strided, np.zeros(2), table(np.ones(2), np.ones(2), 0.0, refined=False))
+    entry: Callable[[Array, Array, Array, Array], int] = kernel
+    if not load.is_ahead(name):
+        entry = kernel.overloads[kernel.signatures[0]].entry_point
     return entry
 
 
-def _worth_compiling(angles: int) -> bool:
+def _is_compiled(system: System, angles: Array) -> bool:
+    """Whether compiled code answers: it is worth it and can be had."""
+    name = _name(system.kind, unequal(np.array(system.lengths)), many=angles.ndim > 1)
+    return _worth_compiling(angles.size, name) and load.can_load(name)
+
+
+def _worth_compiling(angles: int, name: str) -> bool:
     global _calls  # noqa: PLW0603  # how often this process has asked is a fact of the process
     _calls += 1
-    return _COMPILED in sys.modules or angles >= MANY_ANGLES or _calls > MANY_CALLS
-
-
-@cache
-def _can_compile() -> bool:
-    """Whether numba is installed: without it plain numpy answers all calls, to the same accuracy."""
-    return find_spec("numba") is not None
+    return load.is_loaded(name) or angles >= MANY_ANGLES or _calls > MANY_CALLS
 
 
 def _parts(angles: int, threads: int | None) -> int:

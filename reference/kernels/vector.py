@@ -19,10 +19,10 @@ from numba.extending import lower_builtin, models, register_model
 
 from .compiling import intrinsic
 from .instructions import FAST, declared, in_quadrants
+from .sizes import EIGHT
 
 infer_global: Any = templates.infer_global  # of which numba does not say what it is
 
-EIGHT = 8
 DOUBLE, INTEGER = ir.DoubleType(), ir.IntType(64)
 VECTOR = ir.VectorType(DOUBLE, EIGHT)
 

@@ -13,6 +13,7 @@ import click
 import pytest
 
 import furiko
+from furiko.cli.check import usual_jobs
 from furiko.cli.main import COMMANDS, cli
 from furiko.cli.main import run as cli_run
 from furiko.records.check import Header
@@ -311,3 +312,12 @@ def test_the_adapter_that_the_help_shows_is_one(tmp_path):
     done = run("check", "rods-2", "-e", "my_engine.py", cwd=tmp_path)
     assert done.returncode == 0, done
     assert done.stdout.startswith("All 8 comparisons agree; 7 skipped")
+
+
+@pytest.mark.parametrize(
+    ("profile", "engines", "cores", "processes"),
+    [("smoke", 1, 8, 1), ("smoke", 3, 8, 3), ("smoke", 3, 2, 2), ("smoke", 0, 8, 8), ("quick", 1, 8, 8)],
+)
+def test_a_smoke_run_starts_no_more_workers_than_engines_are_named(profile, engines, cores, processes, monkeypatch):
+    monkeypatch.setattr("os.cpu_count", lambda: cores)
+    assert usual_jobs(profile, engines) == processes

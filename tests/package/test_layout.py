@@ -43,8 +43,8 @@ ROOMS = {
         [
             ("arithmetic", "limits"),
             ("documents",),
-            ("kernels.sine", "kernels.instructions", "kernels.threads"),
-            ("kernels.trees",),
+            ("kernels.sine", "kernels.sizes", "kernels.instructions", "kernels.threads", "kernels.native"),
+            ("kernels.ahead", "kernels.trees"),
             ("kernels",),
             ("integration",),
             (".",),

@@ -15,7 +15,7 @@ ALONE = (
     "action.yml", ".pre-commit-hooks.yaml", "Containerfile", ".containerignore",
 )  # fmt: skip
 # What the code reads at run time.
-DATA = {".toml", ".json", ".j2", ".css", ".js", ".html", ".txt", ".yml", ".typed", ".xml", ".urdf"}
+DATA = {".toml", ".json", ".j2", ".css", ".js", ".html", ".txt", ".yml", ".typed", ".xml", ".urdf", ".ll", ".xz"}
 
 
 def links():

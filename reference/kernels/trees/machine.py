@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from ....models.errors import missing
+from ..native import loaded, processor
 from .table import PIECES, WIDTH, Array, Table
 
 try:
@@ -41,19 +42,14 @@ class Machine:
 
     def __init__(self, lanes: int) -> None:
         self.lanes = lanes
-        binding.initialize_native_target()
-        binding.initialize_native_asmprinter()
-        target = binding.Target.from_default_triple().create_target_machine(
-            opt=2, cpu=binding.get_host_cpu_name(), features=binding.get_host_cpu_features().flatten(), jit=True
-        )
+        target = processor()
         module = binding.parse_assembly(str(written(lanes)))
         module.verify()
         options = binding.create_pipeline_tuning_options(speed_level=2)
         options.loop_vectorization = options.slp_vectorization = False  # all is in vectors already
         passes = binding.create_pass_builder(target, options)
         passes.getModulePassManager().run(module, passes)
-        self._engine = binding.create_mcjit_compiler(module, target)  # the code lives as long as this
-        self._engine.finalize_object()
+        self._engine = loaded(module, target)  # the code lives as long as this
         kinds = [ctypes.c_void_p] * len(ARRAYS) + [ctypes.c_int64] * len(COUNTS)
         self._run = ctypes.CFUNCTYPE(None, *kinds)(self._engine.get_function_address("run"))
 

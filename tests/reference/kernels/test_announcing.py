@@ -1,18 +1,24 @@
-"""The first call says on a terminal that numba compiles, and how long; a pipe stays empty."""
+"""The first call says on a terminal what it waits for, and how long; a pipe stays empty."""
 
 import os
 import pty
 import subprocess
 import sys
+import time
 
 import pytest
 
 pytest.importorskip("numba")
 from furiko.reference.kernels import announcing, forward_dynamics_compiled
+from furiko.reference.kernels.ahead import announcing as words
+from furiko.reference.kernels.ahead import load
+from furiko.reference.kernels.ahead.kernels import KERNELS
 
-# Nine calls of one state: from the ninth on furiko compiles, for some seconds on any machine.
+# Nine calls of one state: from the ninth on numba compiles, where nothing is written ahead, for some seconds.
 CALLS = """
 import furiko
+from furiko.reference.kernels.ahead import load
+load.is_ahead = lambda name: False
 for _ in range(9):
     furiko.accelerations(furiko.RodChain([1.0, 0.8]), [0.1, 0.2], [0.0, 0.0])
 """
@@ -45,7 +51,7 @@ def test_every_kernel_that_is_compiled_is_in_the_list():
         for name, value in vars(module).items()
         if type(value).__name__ == "CPUDispatcher" and type(value._cache).__name__ == "FunctionCache"
     }
-    assert found == set(announcing.KERNELS)
+    assert found == set(announcing.SECONDS) == set(KERNELS)
 
 
 class Terminal:
@@ -66,8 +72,28 @@ class Terminal:
 def test_where_nothing_is_kept_it_says_so(is_one, monkeypatch):
     stream = Terminal(is_one)
     monkeypatch.setattr(sys, "stderr", stream)
-    announcing.say("run_rods", kept=False)
-    words = (
+    words.say(announcing.line("run_rods", kept=False))
+    said = (
         "furiko: numba compiles simulations of rods, about 6 s, in each process: there is no folder to keep the result"
     )
-    assert stream.said == (f"{words} in\n" if is_one else "")
+    assert stream.said == (f"{said} in\n" if is_one else "")
+
+
+@pytest.mark.parametrize("waits", [True, False])
+def test_machine_code_that_takes_a_while_is_told(waits, monkeypatch):
+    stream = Terminal(True)
+    monkeypatch.setattr(sys, "stderr", stream)
+    monkeypatch.setattr(words, "LONG", 0.01 if waits else 60)
+    monkeypatch.setattr(load, "_loaded", {})
+    monkeypatch.setattr(load, "is_ahead", lambda name: True)
+
+    def slow(name):
+        deadline = time.monotonic() + (30 if waits else 0)
+        while not stream.said and time.monotonic() < deadline:
+            time.sleep(0.01)
+        return len
+
+    monkeypatch.setattr(load, "made", slow)
+    load.kernel("run_rod_tangents")
+    said = "furiko: machine code is made for the growth of small differences of rods, about a second in each process\n"
+    assert stream.said == (said if waits else "")
