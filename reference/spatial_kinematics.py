@@ -95,10 +95,10 @@ def momentum(mechanism: SpatialMechanism, moved: Motion, root: int) -> tuple[Arr
             continue
         turned, spin = moved.rotation[:, index], moved.angular[:, index]
         arm = np.einsum("bik,k->bi", turned, body.inertial.centre)
-        push = body.inertial.mass * (moved.linear[:, index] + np.cross(spin, arm))
+        push = np.asarray(body.inertial.mass * (moved.linear[:, index] + np.cross(spin, arm)), dtype=np.float64)
         linear += push
-        angular += np.cross(moved.position[:, index] + arm, push)
-        angular += np.einsum("bij,jk,blk,bl->bi", turned, body.inertial.tensor, turned, spin)
+        turning = np.einsum("bij,jk,blk,bl->bi", turned, body.inertial.tensor, turned, spin)
+        angular += np.asarray(np.cross(moved.position[:, index] + arm, push) + turning, dtype=np.float64)
     return linear, angular
 
 
