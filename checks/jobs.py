@@ -19,6 +19,7 @@ from .registry import CHECKS
 
 if TYPE_CHECKING:
     from ..engines import EngineInfo
+    from ..models.spatial_mechanism import SpatialMechanism
     from ..records.check import Diagnosis, Outcome, Result
     from .causes import Causes
     from .cell import Cell
@@ -194,7 +195,7 @@ class Announced:
     def __init__(self, engine: Any, announce: Callable[[bool], None]) -> None:
         self._engine, self._announce = engine, announce
 
-    def of(self, system: System) -> Announced:
+    def of(self, system: System | SpatialMechanism) -> Announced:
         """The same engine with another mechanism, announced as well."""
         return Announced(self.__getattr__("of")(system), self._announce)
 

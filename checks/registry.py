@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..engines import EngineInfo
+from ..engines import OWN_EQUATIONS, EngineInfo
 from ..models import AnyScene, TreeScene
 from .check import Check, OfTrees
 
@@ -23,6 +23,10 @@ def _no_model_file(scene: AnyScene, info: EngineInfo) -> str:
     return "" if info.name in ROBOT_READERS else f"no model file is given to {info.name}"
 
 
+def _no_images(_scene: AnyScene, info: EngineInfo) -> str:
+    return "the equations are those of this mechanism, not of its images" if info == OWN_EQUATIONS else ""
+
+
 def _no_motion(scene: AnyScene, info: EngineInfo) -> str:
     if isinstance(scene, TreeScene):
         if {"ball", "free"} & scene.system.features:
@@ -38,15 +42,27 @@ def _no_steps(scene: AnyScene, _info: EngineInfo) -> str:
     return ""
 
 
+def _no_runs(scene: AnyScene, _info: EngineInfo) -> str:
+    if isinstance(scene, TreeScene) and {"ball", "free"} & scene.system.features:
+        return "runs are made of trees of hinges and slides alone"
+    return ""
+
+
 def _no_derivatives(scene: AnyScene, info: EngineInfo) -> str:
     if not isinstance(scene, TreeScene):
         return "" if info.offers else "; ".join(dict.fromkeys(info.lacks.values())) or NOT_OFFERED
     if {"ball", "free"} & scene.system.features:
         return "derivatives are compared of trees of hinges and slides alone"
-    if info.tree is None or not info.tree.offers:
-        lacks = info.tree.lacks.values() if info.tree else ()
-        return "; ".join(dict.fromkeys(lacks)) or NOT_OFFERED
+    if info.tree is None or not {"derivatives", "inverse_mass"} & set(info.tree.offers):
+        lacks = {one: why for one, why in info.tree.lacks.items() if one != "joint_forces"} if info.tree else {}
+        return "; ".join(dict.fromkeys(lacks.values())) or NOT_OFFERED
     return ""
+
+
+def _no_joint_forces(scene: AnyScene, info: EngineInfo) -> str:
+    if not isinstance(scene, TreeScene) or info.tree is None or "joint_forces" in info.tree.offers:
+        return ""
+    return info.tree.lacks.get("joint_forces", "the engine's adapter does not offer the forces in a tree's joints")
 
 
 def _not_chaotic(scene: AnyScene, info: EngineInfo) -> str:
@@ -85,7 +101,8 @@ CHECKS = {
             module="symmetries",
             meaning="The engine answers alike where the mechanism looks alike: mirrored, turned, scaled, exchanged.",
             bound="rounding of both answers",
-            trees="in which ways a tree looks alike is not known beforehand",
+            trees=OfTrees("symmetries", "accelerations"),
+            why_not=_no_images,
         ),
         Check(
             name="terms",
@@ -111,7 +128,8 @@ CHECKS = {
             module="joint_forces",
             meaning="The joint reaction forces are those of Newton's law for all that hangs below.",
             bound="rounding of the sum of the magnitudes of the forces",
-            trees="forces in joints are compared for the documents' mechanisms alone",
+            trees=OfTrees("joint_forces", "accelerations"),
+            why_not=_no_joint_forces,
         ),
         Check(
             name="energy",
@@ -145,7 +163,8 @@ CHECKS = {
             module="invariants",
             meaning="Energy, angular momentum and the way back hold in the limit of small steps.",
             bound="Richardson extrapolation's own uncertainty, and rounding along the run",
-            trees="a tree may have dampers, and an energy that is not kept",
+            trees=OfTrees("invariants", "trajectory"),
+            why_not=_no_runs,
             long=True,
         ),
         Check(

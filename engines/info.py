@@ -13,6 +13,8 @@ Moments = Literal["hinge", "tree", "world", "unknown"]
 Ordering = Literal["bodies", "colamd", "pivoted", "unknown"]
 # Asked of engines whose ``offers`` names them, of the documents' mechanisms and of trees.
 Offer = Literal["derivatives", "inverse_mass"]
+# Of trees alone: of the documents' mechanisms joint forces are a quantity that every engine gives or is missing.
+TreeOffer = Literal["derivatives", "inverse_mass", "joint_forces"]
 # What a tree may have that an engine cannot hold. "several joints": of one link; "spring of a ball": or of a free one;
 # "massless link": that moves, and nothing with mass is fixed to it; "ball before a rotation": on one link;
 # "free beside others": a link with a free joint is not the only one on the world.
@@ -55,15 +57,15 @@ class TreeInfo:
 
     ``adapter``: the class for them, ``module:Class`` (:class:`~furiko.engines.protocol.TreeEngine`); ``missing``: by
     name of each quantity that it cannot give, and ``cannot_hold``: by name of each feature that it cannot have, a
-    sentence that says why. ``offers``, ``lacks``: as the engine's; ``cannot_differentiate``: as ``cannot_hold``, for
-    the derivatives alone. The largest system, the integrators and how it computes are the engine's.
+    sentence that says why. ``offers``, ``lacks``: as the engine's, and ``joint_forces``; ``cannot_differentiate``: as
+    ``cannot_hold``, for the derivatives alone. The largest system, integrators and ways to compute are the engine's.
     """
 
     adapter: str
     missing: Mapping[TreeQuantity, str] = field(default_factory=dict)
     cannot_hold: Mapping[TreeFeature, str] = field(default_factory=dict)
-    offers: tuple[Offer, ...] = ()
-    lacks: Mapping[Offer, str] = field(default_factory=dict)
+    offers: tuple[TreeOffer, ...] = ()
+    lacks: Mapping[TreeOffer, str] = field(default_factory=dict)
     cannot_differentiate: Mapping[TreeFeature, str] = field(default_factory=dict)
 
 

@@ -279,6 +279,17 @@ class TreeEngine(Protocol):
         """M⁻¹, (B, nv, nv), both triangles. Optional: where ``info.tree.offers`` names it."""
         ...
 
+    def joint_forces(self, q: Array, v: Array, a: Array) -> Array:
+        """Force [N], then moment [N m], of each moving link on its parent, or on the world, (B, links, 6).
+
+        For the links that have joints, in the mechanism's order, in the motion with the accelerations ``a`` (B, nv);
+        in the world's axes, the moment about the origin of the link's frame. It is what all of the link's joints hand
+        on, springs, dampers and drives included: by Newton's and Euler's laws the weights of all that hangs there less
+        the rates of its momenta. Rotors (armature) turn beside them and are left out. Optional: where
+        ``info.tree.offers`` names it.
+        """
+        ...
+
     def energy(self, q: Array, v: Array) -> Array:
         """Kinetic energy, with the armatures', and potential energy, with the springs', [J], (B, 2).
 

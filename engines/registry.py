@@ -42,6 +42,7 @@ OWN_EQUATIONS = EngineInfo(
             "energy": "equations of motion give no energies",
             "trajectory": "equations of motion have no integrator of their own",
         },
+        lacks={"joint_forces": "equations of motion have no forces that joints hold"},
     ),
 )
 

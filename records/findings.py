@@ -243,6 +243,14 @@ class EngineReading(msgspec.Struct, frozen=True, kw_only=True):
     motion: list[Difference] | None = None  # causes in the time steps of the integrator that the file asks for
 
 
+class WrittenFile(msgspec.Struct, frozen=True, kw_only=True):
+    """A file that ``--fix`` wrote: whether all engines that were asked read it alike, and sentences why not."""
+
+    path: str
+    agrees: bool
+    why: list[str]
+
+
 class DiagnoseDocument(msgspec.Struct, frozen=True, kw_only=True):
     """The document of ``furiko diagnose --json``."""
 
@@ -257,6 +265,7 @@ class DiagnoseDocument(msgspec.Struct, frozen=True, kw_only=True):
     mechanism: MechanismEntry | None  # None: not a planar tree of hinges
     spatial: SpatialEntry
     notes: list[str]
+    fix: WrittenFile | None = None  # what --fix wrote
 
 
 class DiagnosedModel(msgspec.Struct, frozen=True, kw_only=True):

@@ -82,6 +82,26 @@ def energy(mechanism: SpatialMechanism, q: Array, v: Array) -> Array:
     return np.stack([kinetic, potential], axis=-1)
 
 
+def momentum(mechanism: SpatialMechanism, moved: Motion, root: int) -> tuple[Array, Array]:
+    """Linear [kg m/s] and, about the world's origin, angular momentum [kg m²/s] of all that hangs on ``root``, (B, 3).
+
+    Without what armatures add.
+    """
+    hangs = [index == root for index in range(len(mechanism.bodies))]
+    linear, angular = (np.zeros((len(moved.linear), 3)) for _ in range(2))
+    for index, body in enumerate(mechanism.bodies):
+        hangs[index] |= body.parent != WORLD and hangs[body.parent]
+        if not hangs[index]:
+            continue
+        turned, spin = moved.rotation[:, index], moved.angular[:, index]
+        arm = np.einsum("bik,k->bi", turned, body.inertial.centre)
+        push = np.asarray(body.inertial.mass * (moved.linear[:, index] + np.cross(spin, arm)), dtype=np.float64)
+        linear += push
+        turning = np.einsum("bij,jk,blk,bl->bi", turned, body.inertial.tensor, turned, spin)
+        angular += np.asarray(np.cross(moved.position[:, index] + arm, push) + turning, dtype=np.float64)
+    return linear, angular
+
+
 def carried(mechanism: SpatialMechanism) -> list[bool]:
     """Whether each body is moved by any joint."""
     found: list[bool] = []

@@ -73,7 +73,7 @@ def about(name, **tree):
         homepage="",
         coordinates="relative",
         integrators=(Integrator("RK4", 4),),
-        tree=TreeInfo(f"fake_tree_engines:{name}", **tree),
+        tree=TreeInfo(f"fake_tree_engines:{name}", **{"offers": ("joint_forces",)} | tree),
     )
 
 
@@ -101,6 +101,10 @@ class Right:
 
     def passive(self, q, v):
         return np.array([truth.passive.float for truth in self._truths(q, v)])
+
+    def joint_forces(self, q, v, a):
+        truths = zip(self._truths(q, v), a, strict=True)
+        return np.array([truth.joint_forces(given).float for truth, given in truths])
 
     def energy(self, q, v):
         return np.array([energy(self.mechanism, *state).float for state in zip(q, v, strict=True)])
@@ -155,6 +159,45 @@ class WrongPassive(Right):
 
     def passive(self, q, v):
         return super().passive(q, v) * (1 + 1e-9)
+
+
+class WrongForces(Right):
+    """One part in 1e9 of the force is missing; the moment is right."""
+
+    info = about("WrongForces")
+
+    def joint_forces(self, q, v, a):
+        return super().joint_forces(q, v, a) * np.array([1 - 1e-9] * 3 + [1.0] * 3)
+
+
+class OtherPoint(Right):
+    """Moments about a point 1e-9 m beside the links' origins, along x."""
+
+    info = about("OtherPoint")
+
+    def joint_forces(self, q, v, a):
+        found = super().joint_forces(q, v, a)
+        found[..., 3:] -= np.cross([1e-9, 0.0, 0.0], found[..., :3])
+        return found
+
+
+class OnTheLink(Right):
+    """What is exerted on each link, not what each link exerts."""
+
+    info = about("OnTheLink")
+
+    def joint_forces(self, q, v, a):
+        return -super().joint_forces(q, v, a)
+
+
+class Rubbed(Right):
+    """Every run loses a part in 1e6 of its rates in a second, whatever the step."""
+
+    info = about("Rubbed")
+
+    def trajectory(self, q, v, integrator, step, steps):
+        at, rates = super().trajectory(q, v, integrator, step, steps)
+        return at, rates * (1 - 1e-6 * step * steps)
 
 
 class WrongEnergy(Right):
@@ -221,6 +264,12 @@ class FewQuestions(Right):
         missing=dict.fromkeys(("mass_matrix", "bias", "passive", "energy", "trajectory"), "it has accelerations alone"),
         cannot_hold={"spring": "it has no springs"},
     )
+
+
+class NoForces(Right):
+    """An adapter from before joint forces were asked of trees."""
+
+    info = about("NoForces", offers=())
 
 
 class BadShape(Right):

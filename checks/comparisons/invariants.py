@@ -27,21 +27,16 @@ from ...models import Scene
 from ...models.systems import DocumentSystem
 from ...records.check import Result
 from ...reference import energies, literal_accelerations, mass_matrix
-from ...reference.integration.richardson import amplified, at_step_zero, settles
 from ...reference.integration.variation import fastest_rate, lyapunov_time
 from ...reference.rounding.bounds import EPSILON, Amplitudes, allowed
 from ..cell import Cell
+from ..motions.invariance import ENERGY, LARGEST_N, NAME, RUNS, SHORT, STEPS, WAY_BACK, Kept, result, too_large
 from ..motions.step_rounding import acceleration_error, joints_apart, rate_of_positions
 from .energy import energy_amplitudes
 
+__all__ = ("NAME", "compare")
+
 Array = NDArray[np.float64]
-
-NAME = "invariant"
-
-STEPS = 16  # of the coarsest run
-SHORT = 1 / 4  # step × fastest rate, in the coarsest run
-RUNS = 4
-LARGEST_N = 32  # links; beyond, engines need seconds for it
 
 
 @dataclass(frozen=True)
@@ -76,7 +71,7 @@ def compare(cell: Cell) -> Iterator[Result]:
     """Three results for each integrator."""
     system = cell.scene.system
     if system.n > LARGEST_N:
-        yield cell.result(NAME, "skipped", reason=f"runs are made up to {LARGEST_N} links, not with {system.n}")
+        yield too_large(cell, system.n)
         return
     theta, omega = cell.states.theta[-1], cell.states.omega[-1]
     start = begin(cell, system, cell.engine, theta, omega)
@@ -114,45 +109,18 @@ def _by_joints(cell: Cell, integrator: Integrator, theta: Array, h: float) -> fl
 
 @dataclass(frozen=True)
 class Invariant:
-    """``left`` of it after a run in so many steps, and what of that is ``noise``: by rounding alone."""
+    """What is ``left`` of it after a run in so many steps, and what of that is ``noise``: by rounding alone."""
 
-    name: str
-    unit: str
-    says: str
+    kept: Kept
     left: Callable[[Start, Integrator, int], Array]
     noise: Callable[[Start, Integrator], float]
 
 
 def _compare(cell: Cell, integrator: Integrator, start: Start, invariant: Invariant) -> Result:
-    name, unit = f"{NAME} {invariant.name} {integrator.name}", invariant.unit
     runs = [np.atleast_1d(invariant.left(start, integrator, STEPS << k)) for k in range(RUNS)]
-    if not np.isfinite(runs).all():
-        reason = f"{integrator.name} diverges at a step of {start.step:.3g} s or a part of it"
-        return cell.result(name, "skipped", reason=reason)
-    at_zero, uncertainty = at_step_zero(runs, integrator.order)
-    limit = float(np.abs(at_zero).max())
-    noise = amplified(integrator.order) * invariant.noise(start, integrator)
-    bound = uncertainty + noise
-    agrees = limit <= bound
-    if not agrees and not settles(runs, integrator.order, noise):
-        reason = (
-            f"{integrator.name}: from a step of {start.step:.3g} s to an eighth of it, errors do not fall as they do "
-        )
-        return cell.result(name, "skipped", reason=reason + "where an extrapolation to step zero means something")
-    return cell.result(
-        name,
-        "agrees" if agrees else "differs",
-        measured=limit,
-        allowed=bound,
-        unit=unit,
-        reason=invariant.says if agrees else f"at step zero {limit:.3g} {unit} are left, and {invariant.says}",
-        details={
-            "Lyapunov time": _lyapunov_time(cell.scene),
-            "integrator": integrator.name,
-            "steps": [start.step / 2**k for k in range(RUNS)],
-            "left": [float(np.abs(run).max()) for run in runs],
-        },
-    )
+    noise = invariant.noise(start, integrator) if np.isfinite(runs).all() else 0.0
+    details = {"Lyapunov time": _lyapunov_time(cell.scene)}
+    return result(cell, integrator, invariant.kept, start.step, runs, noise, details)
 
 
 @lru_cache(maxsize=1)  # a worker looks at one scene with several integrators and engines
@@ -223,9 +191,11 @@ def way_back_noise(start: Start, integrator: Integrator) -> float:
 
 
 INVARIANTS = (
-    Invariant("energy", "J", "nothing takes energy away or brings any", energy_left, energy_noise),
-    Invariant("there and back", "rad", "with rates reversed the way leads back", way_back_left, way_back_noise),
+    Invariant(ENERGY, energy_left, energy_noise),
+    Invariant(Kept("there and back", "rad", WAY_BACK), way_back_left, way_back_noise),
 )
 MOMENTUM = Invariant(
-    "angular momentum", "kg m²/s", "without gravity no torque acts about the support", momentum_left, momentum_noise
+    Kept("angular momentum", "kg m²/s", "without gravity no torque acts about the support"),
+    momentum_left,
+    momentum_noise,
 )

@@ -49,14 +49,22 @@ class TreeCell:
     @cached_property
     def magnitudes(self) -> list[Magnitudes]:
         """Of the terms, as this engine computes them, in each state."""
-        world = self.info.moments in ("tree", "unknown") or self.info.placed in ("world", "unknown")
         pairs = zip(self.states.q, self.states.v, strict=True)
-        return [Magnitudes(self.mechanism, q, v, world=world) for q, v in pairs]
+        return [self.magnitudes_of(self.mechanism, q, v) for q, v in pairs]
+
+    def magnitudes_of(self, mechanism: SpatialMechanism, q: Array, v: Array) -> Magnitudes:
+        """Those of any mechanism in this engine, in one state, q (nq,) and v (nv,)."""
+        world = self.info.moments in ("tree", "unknown") or self.info.placed in ("world", "unknown")
+        return Magnitudes(mechanism, q, v, world=world)
 
     @cached_property
     def roundings(self) -> Array:
         """How many ε of its unit a number may be off by in each state, (B,)."""
-        return np.array([units.roundings for units in self.magnitudes]) * (self.info.accuracy / EPSILON)
+        return np.array([self.roundings_of(units) for units in self.magnitudes])
+
+    def roundings_of(self, units: Magnitudes) -> float:
+        """How many ε of these units a number may be off by."""
+        return units.roundings * (self.info.accuracy / EPSILON)
 
     @property
     def explanation(self) -> Explanation:

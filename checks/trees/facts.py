@@ -13,7 +13,7 @@ from ...models.trees.states import TreeStates
 from ...reference.truth.spatial import energy, spatial_truth
 from ...reference.truth.spatial_derivatives import spatial_derivatives
 from ...reference.truth.tree_end_points import end_points, moves, times
-from ..facts import PARTS, slope_states
+from ..facts import FORCE_STATES, PARTS, slope_states
 
 Array = NDArray[np.float64]
 
@@ -26,6 +26,7 @@ class TreeFacts:
     ``energy`` (B, 2): kinetic and potential. ``times`` (T,) [s], ``end_q`` and ``end_v`` (T, nv), ``end_error`` (T,):
     the scene's motion and how sure it is, T = 0 where it has none. ``slopes``, ``slopes_low``: ∂a/∂q, ∂a/∂v and M⁻¹ in
     the last states, (K, 3, nv, nv), K = 0 where no engine is asked, or the mechanism has balls or free joints.
+    ``forces``: the true joint forces in the last states, in the accelerations ``high``, (min(B, 20), links, 6).
     """
 
     high: Array
@@ -41,6 +42,7 @@ class TreeFacts:
     end_error: Array
     slopes: Array
     slopes_low: Array
+    forces: Array
 
     def to_bytes(self) -> bytes:
         """The arrays as one npz file, which is read without running anything."""
@@ -67,10 +69,13 @@ def tree_facts(scene: TreeScene, states: TreeStates, *, motion: bool = True, slo
     mechanism = scene.system.mechanism()
     truths = [spatial_truth(mechanism, q, v) for q, v in zip(states.q, states.v, strict=True)]
     nv = mechanism.nv
-    high, low = _slopes(scene, states, slope_states(nv) if slopes and differentiable(scene) else 0)
+    slopes_high, slopes_low = _slopes(scene, states, slope_states(nv) if slopes and differentiable(scene) else 0)
     accelerations = [truth.accelerations.enclosure for truth in truths]
+    high = np.array([each.high for each in accelerations]).reshape(-1, nv)
+    chosen = slice(-FORCE_STATES, None)
+    forces = [truth.joint_forces(a).float for truth, a in zip(truths[chosen], high[chosen], strict=True)]
     return TreeFacts(
-        high=np.array([each.high for each in accelerations]).reshape(-1, nv),
+        high=high,
         low=np.array([each.low for each in accelerations]).reshape(-1, nv),
         mass_matrix=np.array([truth.mass_matrix.float for truth in truths]).reshape(-1, nv, nv),
         bias=np.array([truth.bias.float for truth in truths]).reshape(-1, nv),
@@ -79,8 +84,9 @@ def tree_facts(scene: TreeScene, states: TreeStates, *, motion: bool = True, slo
         energy=np.array(
             [energy(mechanism, q, v).float for q, v in zip(states.q, states.v, strict=True)],
         ).reshape(-1, 2),
-        slopes=high,
-        slopes_low=low,
+        slopes=slopes_high,
+        slopes_low=slopes_low,
+        forces=np.array(forces).reshape(len(forces), -1, 6),
         **_motion(scene if motion and moves(scene) else None),
     )
 

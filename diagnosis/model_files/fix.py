@@ -12,8 +12,12 @@ from ...models.writers.spatial_mjcf import spatial_mjcf
 from ...models.writers.spatial_urdf import spatial_urdf
 from ...models.writers.whole_file import write_whole
 from ..robots.answer import listed
+from ..robots.built import BUILT
 from ..robots.moving_links import moving_links
+from .result import Diagnosis, Written
 
+# What an engine does with the file, by its status there.
+READS = {"differs": "reads otherwise", "refused": "refuses", "failed": "fails with"}
 WRITERS = {".xml": spatial_mjcf, ".mjcf": spatial_mjcf, ".urdf": spatial_urdf}
 
 
@@ -31,6 +35,27 @@ def write_fixed(model: ModelFile, out: Path) -> list[str]:
         raise InvalidInput(f"{out}: this is the file itself, which is not overwritten; give another name")
     write_whole(out, WRITERS[out.suffix](model.spatial))
     return list(_not_alike(model.spatial, out))
+
+
+def judged(out: Path, found: Diagnosis) -> Written:
+    """The file that was written, by what engines were ``found`` to make of it: all that read it have to agree.
+
+    Exudyn, which furiko builds, reads no file. An engine that cannot be imported says nothing of it either.
+    """
+    why = []
+    for name, engine in found.engines.items():
+        if name == BUILT.name or engine["status"] in ("agrees", "missing"):
+            continue
+        named = [finding.says for finding in found.findings if finding.where.startswith(name)]
+        if engine["status"] != "differs" or not named:
+            says = engine.get("says", "")
+            named = [f"{name} {READS[engine['status']]}" + (f": {says}" if says else "")]
+        why += named
+    if why:
+        return Written(str(out), tuple(why), 1)
+    if not any(engine["status"] == "agrees" for name, engine in found.engines.items() if name != BUILT.name):
+        return Written(str(out), ("no engine could be asked about it",), 3)
+    return Written(str(out), (), 0)
 
 
 def _not_alike(mechanism: SpatialMechanism, out: Path) -> Iterator[str]:

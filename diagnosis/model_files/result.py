@@ -13,13 +13,33 @@ HINGE_NUMBERS = ("armature", "damping", "friction", "stiffness", "rest", "limits
 
 
 @dataclass(frozen=True)
+class Written:
+    """A file that ``--fix`` wrote to ``path``; ``why``: why not all engines that were asked read it alike, empty where
+    they do. ``status``: its exit status: 0 they do, 1 they do not, 3 where no engine could be compared."""
+
+    path: str
+    why: tuple[str, ...]
+    status: int
+
+    def text(self) -> str:
+        """What the answer says of it: a line, and one for each reason."""
+        alike = ("", ", which not all engines read alike", "", ", which is not judged")[self.status]
+        return "\n".join([f"  written: {self.path}{alike}", *(f"      {reason}" for reason in self.why)])
+
+    def to_json(self) -> dict[str, Any]:
+        """As ``furiko diagnose --json`` prints it."""
+        return {"path": self.path, "agrees": self.status == 0, "why": list(self.why)}
+
+
+@dataclass(frozen=True)
 class Diagnosis:
     """``verdict``: ``agrees``, ``differs``, ``unexplained`` or ``incomplete``; ``findings``: the likeliest cause first.
 
     ``engines``: for each engine what it compiled, or why it did not; ``notes``: what was assumed; ``without``: what
     acts in the file and is left out of the comparison; ``against``: the name of what the file was compared with;
     ``mechanism``: the planar tree that was read, as :func:`mechanism_to_json` gives it, None where it is none;
-    ``spatial``: the bodies and joints that were read; ``simulation``: what a simulation of the file would add.
+    ``spatial``: the bodies and joints that were read; ``simulation``: what a simulation of the file would add;
+    ``written``: the file that ``--fix`` wrote.
     """
 
     model: str
@@ -32,11 +52,17 @@ class Diagnosis:
     spatial: Mapping[str, Any] = field(default_factory=dict)
     without: tuple[str, ...] = ()
     simulation: tuple[Finding, ...] = ()
+    written: Written | None = None
 
     @property
     def exit_status(self) -> int:
-        """0 agrees, 1 differs, 3 where an engine that was asked for, or every engine, could not be compared."""
-        return {"agrees": 0, "incomplete": 3}.get(self.verdict, 1)
+        """0 agrees, 1 differs, 3 where an engine that was asked for, or every engine, could not be compared.
+
+        A file that was written counts as well.
+        """
+        own = {"agrees": 0, "incomplete": 3}.get(self.verdict, 1)
+        written = self.written.status if self.written is not None else 0
+        return 1 if 1 in (own, written) else max(own, written)
 
     @property
     def headline(self) -> str:
@@ -58,6 +84,8 @@ class Diagnosis:
                 parts.append(f"{_listed(names)} {one if len(names) == 1 else several}")
         if self._of_file():
             parts.append(f"the file is not {self.against or 'a mechanism of ideal hinges'}")
+        if self.written is not None and self.written.status == 1:
+            parts.append(f"not all engines read {self.written.path}, which was written, alike")
         if not parts:
             return "no engine was compared"
         return "; ".join(parts)
@@ -84,6 +112,7 @@ class Diagnosis:
             "mechanism": dict(self.mechanism) if self.mechanism is not None else None,
             "spatial": dict(self.spatial),
             "notes": list(self.notes),
+            "fix": self.written.to_json() if self.written is not None else None,
         }
 
     def text(self) -> str:
@@ -104,6 +133,8 @@ class Diagnosis:
         lines += [f"  in a simulation: {found.says}" for found in self.simulation]
         lines += [f"  without: {line}" for line in self.without]
         lines += [f"  note: {note}" for note in self.notes]
+        if self.written is not None:
+            lines.append(self.written.text())
         return "\n".join(lines)
 
     def brief(self) -> str:

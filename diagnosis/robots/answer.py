@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -139,17 +140,18 @@ def _about_files(message: str) -> str:
 
 
 def _unreadable_with(reader: RobotReader, message: str, question: Question) -> Finding | None:
-    """The engine's known mistake with which furiko's own reader, too, finds no mechanism in the file."""
+    """The engine's known mistake, or two, with which furiko's own reader, too, finds no mechanism in the file."""
     language = question.file.language
     known = reader.mistakes.get(language, ())
-    beside = [(), (BESIDE_LOSING,)] if BESIDE_LOSING in known else [()]
-    for others in beside:
-        for flag in (lost for lost in LOSING if lost in known):
-            left = _what_is_left(question, [flag, *others])
-            if left:
-                does = ", and ".join(mistakes_in(language)[one] for one in (flag, *others))
-                says = f"{reader.name} refuses: {message.rstrip('.')}. It {does}; read so: {left}"
-                return Finding(flag.replace("_", "-"), reader.name, None, None, says + instead(flag))
+    losing = [lost for lost in LOSING if lost in known]
+    alone = [(flag,) for flag in losing]
+    beside = [(flag, BESIDE_LOSING) for flag in losing if BESIDE_LOSING in known]
+    for flags in (*alone, *beside, *combinations(losing, 2)):
+        left = _what_is_left(question, flags)
+        if left:
+            does = ", and ".join(mistakes_in(language)[one] for one in flags)
+            says = f"{reader.name} refuses: {message.rstrip('.')}. It {does}; read so: {left}"
+            return Finding(flags[0].replace("_", "-"), reader.name, None, None, says + instead(flags[0]))
     return None
 
 

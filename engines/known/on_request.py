@@ -74,6 +74,7 @@ _MJX: dict[str, Any] = {
     **_COMPILED_BY_MUJOCO,
 }
 _NO_ENERGY: Any = {"energy": "its energies are computed in steps alone"}
+_NO_JOINT_FORCES: Any = {"joint_forces": "it forms no forces in hinges without sensors"}
 _WARP_LACKS: Any = {
     "derivatives": "it differentiates no accelerations",
     "inverse_mass": "it has a function for M⁻¹ times a vector, which accelerations test",
@@ -134,7 +135,8 @@ ON_REQUEST: dict[str, EngineInfo] = {
                 _NO_RUNS | _NO_ENERGY,
                 _NOT_COMPILED,
                 offers=("derivatives",),
-                lacks={"inverse_mass": "it has a function for M⁻¹ times a vector, which accelerations test"},
+                lacks=_NO_JOINT_FORCES
+                | {"inverse_mass": "it has a function for M⁻¹ times a vector, which accelerations test"},
             ),
             **_MJX,
         ),
@@ -149,7 +151,8 @@ ON_REQUEST: dict[str, EngineInfo] = {
                 "furiko.engines.trees.mjx:MjxSingleTree",
                 _NO_RUNS | _NO_ENERGY,
                 _NOT_COMPILED,
-                lacks=dict.fromkeys(("derivatives", "inverse_mass"), "asked of mjx, in double precision"),
+                lacks=dict.fromkeys(("derivatives", "inverse_mass"), "asked of mjx, in double precision")
+                | _NO_JOINT_FORCES,
             ),
             **_MJX,
         ),
@@ -176,7 +179,10 @@ ON_REQUEST: dict[str, EngineInfo] = {
             },
             lacks=_WARP_LACKS,
             tree=TreeInfo(
-                "furiko.engines.trees.mujoco_warp:MujocoWarpTree", _NO_RUNS, _NOT_COMPILED, lacks=_WARP_LACKS
+                "furiko.engines.trees.mujoco_warp:MujocoWarpTree",
+                _NO_RUNS,
+                _NOT_COMPILED,
+                lacks=_WARP_LACKS | _NO_JOINT_FORCES,
             ),
             largest_n=200,
             largest_n_reason="longer chains were not tried",

@@ -20,6 +20,7 @@ _DIFFERENCED: Any = {
     "and no derivatives of accelerations"
 }
 _BOTH: Any = {"offers": ("derivatives", "inverse_mass")}
+_OF_TREES: Any = {"offers": ("derivatives", "inverse_mass", "joint_forces")}
 _FACTORS_ALONE: Any = {
     "offers": ("inverse_mass",),
     "lacks": {"derivatives": "Pinocchio differentiates its articulated-body algorithm alone"},
@@ -42,6 +43,7 @@ _PINOCCHIO: dict[str, Any] = {
 _NOT_DIFFERENTIATED: Any = dict.fromkeys(
     ("derivatives", "inverse_mass"), "Exudyn has neither derivatives of its accelerations nor an inverse mass matrix"
 )
+_NO_JOINT_FORCES = "a kinematic tree in minimal coordinates never forms the forces in its joints"
 _EXUDYN: dict[str, Any] = {
     "lacks": _NOT_DIFFERENTIATED,
     "module": "exudyn",
@@ -71,7 +73,7 @@ ENGINES: dict[str, EngineInfo] = {
             lacks=_DIFFERENCED,
             tree=TreeInfo(
                 "furiko.engines.trees.mujoco:MujocoTree",
-                offers=("inverse_mass",),
+                offers=("inverse_mass", "joint_forces"),
                 lacks=_DIFFERENCED,
                 cannot_hold={
                     "massless link": "MuJoCo's compiler refuses a moving link without mass",
@@ -92,7 +94,7 @@ ENGINES: dict[str, EngineInfo] = {
             placed="parent",
             algorithm="aba",
             moments_of_offers="world",  # oYaba: computeMinverse and computeABADerivatives have inertias in the world
-            tree=TreeInfo("furiko.engines.trees.pinocchio:PinocchioAbaTree", _NO_TRAJECTORY, _NOT_HELD, **_BOTH),
+            tree=TreeInfo("furiko.engines.trees.pinocchio:PinocchioAbaTree", _NO_TRAJECTORY, _NOT_HELD, **_OF_TREES),
             **_PINOCCHIO,
             **_BOTH,
         ),
@@ -111,7 +113,7 @@ ENGINES: dict[str, EngineInfo] = {
                     "several joints": "of several joints on one link its reader makes a JointModelComposite, whose "
                     "derivatives are not those of its own accelerations"
                 },
-                **_BOTH,
+                **_OF_TREES,
             ),
             **_PINOCCHIO,
             **_BOTH,
@@ -123,7 +125,10 @@ ENGINES: dict[str, EngineInfo] = {
             placed="parent",
             algorithm="crba",
             tree=TreeInfo(
-                "furiko.engines.trees.pinocchio:PinocchioCrbaTree", _NO_TRAJECTORY, _NOT_HELD, **_FACTORS_ALONE
+                "furiko.engines.trees.pinocchio:PinocchioCrbaTree",
+                _NO_TRAJECTORY,
+                _NOT_HELD,
+                **_FACTORS_ALONE | {"offers": ("inverse_mass", "joint_forces")},
             ),
             **_PINOCCHIO,
             **_FACTORS_ALONE,
@@ -135,7 +140,7 @@ ENGINES: dict[str, EngineInfo] = {
             tree=TreeInfo(
                 "furiko.engines.trees.exudyn:ExudynMechanism",
                 {"passive": "it gives the sum of all forces alone"},
-                lacks=_NOT_DIFFERENTIATED,
+                lacks=_NOT_DIFFERENTIATED | {"joint_forces": _NO_JOINT_FORCES},
                 cannot_hold={
                     "ball": "Exudyn's kinematic tree has hinges and slides alone",
                     "free": "Exudyn's kinematic tree has hinges and slides alone",
@@ -154,7 +159,7 @@ ENGINES: dict[str, EngineInfo] = {
                 Integrator("GeneralizedAlpha", 2, tolerance=1e-12, remembers=True),
             ),
             adaptive=("DOPRI5",),
-            missing={"joint_forces": "a kinematic tree in minimal coordinates never forms the forces in its joints"},
+            missing={"joint_forces": _NO_JOINT_FORCES},
             largest_n=1000,
             largest_n_reason="a state costs n³ operations",
             **_EXUDYN,

@@ -44,6 +44,7 @@ SPATIAL: dict[str, Question] = {
     "passive": Question(("q", "v"), ("forces",)),
     "derivatives": Question(("q", "v"), ("of_positions", "of_rates")),
     "inverse_mass": Question(("q",), ("inverse_mass",)),
+    "joint_forces": Question(("q", "v", "a"), ("forces",)),
     "energy": Question(("q", "v"), ("energy",)),
     "trajectory": Question(("q", "v"), ("q", "v"), _RUN),
 }

@@ -119,6 +119,9 @@ class _Tree(_Terms):
     def inverse_mass(self, q: Array) -> Array:
         return _spatial(self._model, "inverse_mass", q)
 
+    def joint_forces(self, q: Array, v: Array, a: Array) -> Array:
+        return _spatial(self._model, "joint_forces", q, v, a)
+
     def energy(self, q: Array, v: Array) -> Array:
         return _spatial(self._model, "energy", q, v)
 

@@ -48,6 +48,7 @@ class MujocoTree:
         self._data = quiet_data(self._model)
         self._columns_q = _columns(at_q, [placed.joint.coordinates for placed in mechanism.joints])
         self._columns_v = _columns(at_v, [placed.joint.freedoms for placed in mechanism.joints])
+        self._links = [self._model.body(f"body{k}").id for k, body in enumerate(mechanism.bodies) if body.joints]
         ends = at_q + [placed.joint.coordinates for placed in mechanism.joints]
         turning = [placed.joint.kind in {"ball", "free"} for placed in mechanism.joints]
         self._quaternions = ends[turning] - 4
@@ -95,6 +96,21 @@ class MujocoTree:
 
     def inverse_mass(self, q: Array) -> Array:
         return self._bound.inverse_mass(q)
+
+    def joint_forces(self, q: Array, v: Array, a: Array) -> Array:
+        model, data = self._model, self._data
+        found = np.empty((len(q), len(self._links), 6))
+        for row in range(len(q)):
+            self._set(q[row], v[row])
+            mujoco.mj_fwdPosition(model, data)
+            mujoco.mj_fwdVelocity(model, data)
+            data.qacc[self._columns_v] = a[row]
+            mujoco.mj_rnePostConstraint(model, data)
+            # Rows are torque about the tree's centre of mass, then force, in the world's axes, of parent on child.
+            moment, force = -data.cfrc_int[self._links, :3], -data.cfrc_int[self._links, 3:]
+            arm = data.subtree_com[model.body_rootid[self._links]] - data.xpos[self._links]
+            found[row] = np.concatenate([force, moment + np.cross(arm, force)], axis=1)
+        return found
 
     def energy(self, q: Array, v: Array) -> Array:
         found = np.empty((len(q), 2))

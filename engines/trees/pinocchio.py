@@ -26,6 +26,7 @@ import numpy as np
 
 from ...models.spatial import IDENTITY, Pose
 from ...models.spatial_mechanism import WORLD, Joint, SpatialMechanism
+from ...models.writers.explicit import unique_names
 from ...models.writers.spatial_mjcf import spatial_mjcf
 from ..model_files.robot_coordinates import Block, RobotCoordinates
 from ..model_files.robot_pinocchio import BoundPinocchio, PinocchioRobot
@@ -35,6 +36,7 @@ from ..protocol import Array
 # Pinocchio is a C++ extension without types: Any, here and nowhere else.
 pinocchio: Any = import_module("pinocchio")
 
+Links = list[tuple[int, Array]]
 WAYS = {"hinge": "same", "slide": "same", "ball": "quaternion-last", "free": "free-in-body"}
 
 
@@ -48,7 +50,7 @@ class PinocchioAbaTree:
 
     def __init__(self, mechanism: SpatialMechanism) -> None:
         self._mechanism = mechanism
-        self._model, self._coordinates = self._built(mechanism)
+        self._model, self._coordinates, self._links = self._built(mechanism)
         self._bodies = self._model.copy()
         self._bodies.armature = np.zeros(mechanism.nv)
         self._data = self._model.createData()
@@ -61,14 +63,16 @@ class PinocchioAbaTree:
         self._damping = mechanism.per_freedom("damping")
         self._armature = mechanism.per_freedom("armature")
 
-    def _built(self, mechanism: SpatialMechanism) -> tuple[Any, RobotCoordinates]:
-        """The model, and its coordinates for the mechanism's."""
+    def _built(self, mechanism: SpatialMechanism) -> tuple[Any, RobotCoordinates, Links]:
+        """The model, its coordinates for the mechanism's, and each moving link's joint and origin in its frame."""
         model, indices = _model(mechanism)
         blocks = [
             Block((k,), WAYS[placed.joint.kind], int(model.idx_qs[index]), int(model.idx_vs[index]))
             for k, (placed, index) in enumerate(zip(mechanism.joints, indices, strict=True))
         ]
-        return model, RobotCoordinates(mechanism, blocks, int(model.nq))
+        last = {placed.body: k for k, placed in enumerate(mechanism.joints)}
+        links = [(indices[k], _origin(mechanism.joints[k].joint)) for _, k in sorted(last.items())]
+        return model, RobotCoordinates(mechanism, blocks, int(model.nq)), links
 
     def accelerations(self, q: Array, v: Array) -> Array:
         return self._bound.accelerations(self._own(q), v, self.passive(q, v))
@@ -108,6 +112,20 @@ class PinocchioAbaTree:
             state = self._coordinates.state(positions, np.zeros(n))
             inverse = pinocchio.computeMinverse(self._model, self._data, state.positions)
             found[row] = state.our_matrix(both_triangles(inverse))
+        return found
+
+    def joint_forces(self, q: Array, v: Array, a: Array) -> Array:
+        model, data = self._model, self._data
+        found = np.empty((len(q), len(self._links), 6))
+        for row, (positions, rates, swings) in enumerate(zip(self._own(q), v, a, strict=True)):
+            state = self._coordinates.state(positions, rates)
+            pinocchio.rnea(model, data, state.positions, state.rates, state.theirs(swings) + state.drift)
+            pinocchio.forwardKinematics(model, data, state.positions)
+            for link, (joint, origin) in enumerate(self._links):
+                # data.f: the force of the parent on the child about the joint's frame, in that one's axes.
+                turn, wrench = data.oMi[joint].rotation, data.f[joint]
+                found[row, link, :3] = -turn @ wrench.linear
+                found[row, link, 3:] = -turn @ (wrench.angular - np.cross(origin, wrench.linear))
         return found
 
     def energy(self, q: Array, v: Array) -> Array:
@@ -162,14 +180,22 @@ class PinocchioMjcfTree(PinocchioAbaTree):
 
     counts_from_reference = False
 
-    def _built(self, mechanism: SpatialMechanism) -> tuple[Any, RobotCoordinates]:
+    def _built(self, mechanism: SpatialMechanism) -> tuple[Any, RobotCoordinates, Links]:
         with TemporaryDirectory() as folder:
             path = Path(folder) / "mechanism.xml"
             path.write_text(spatial_mjcf(mechanism), encoding="utf-8")
             robot = PinocchioRobot(path, "mjcf")
         model, coordinates = robot.bound_to(mechanism)
         model.gravity.linear = mechanism.gravity  # its reader does not read it
-        return model, coordinates
+        frames = {frame.name: frame for frame in model.frames if frame.type == pinocchio.FrameType.BODY}
+        names = unique_names(mechanism.bodies, "world")
+        moving = [frames[name] for name, body in zip(names, mechanism.bodies, strict=True) if body.joints]
+        return model, coordinates, [(int(one.parentJoint), np.array(one.placement.translation)) for one in moving]
+
+
+def _origin(joint: Joint) -> Array:
+    """The origin (3,) of the frame of the link that this is the last joint of, in the joint's frame."""
+    return np.zeros(3) if joint.kind == "free" else -joint.anchor
 
 
 def _model(mechanism: SpatialMechanism) -> tuple[Any, list[int]]:

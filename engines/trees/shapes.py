@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ...models import InvalidInput
 from ...models.spatial_mechanism import SpatialMechanism
-from ..info import EngineInfo, Offer, TreeQuantity
+from ..info import EngineInfo, TreeOffer, TreeQuantity
 from ..protocol import Array, TreeEngine
 
 
@@ -25,6 +25,11 @@ class TreeShape:
         self.info, self.mechanism = info, mechanism
         self._engine = engine
         self._nq, self._nv = mechanism.nq, mechanism.nv
+        self._links = sum(bool(body.joints) for body in mechanism.bodies)
+
+    def of(self, mechanism: SpatialMechanism) -> TreeShape:
+        """The same engine with another mechanism. What its adapter raises where it cannot hold it comes through."""
+        return TreeShape(type(self._engine)(mechanism), self.info, mechanism)
 
     def accelerations(self, q: ArrayLike, v: ArrayLike) -> Array:
         """a [rad/s² or m/s²], (..., nv)."""
@@ -61,6 +66,11 @@ class TreeShape:
         self._refuse_unless_offered("inverse_mass")
         return self._batched(self._engine.inverse_mass, (self._nv, self._nv), q)
 
+    def joint_forces(self, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> Array:
+        """Force [N] and moment [N m] of each moving link on what carries it, (..., links, 6)."""
+        self._refuse_unless_offered("joint_forces")
+        return self._batched(self._engine.joint_forces, (self._links, 6), q, v, a)
+
     def energy(self, q: ArrayLike, v: ArrayLike) -> Array:
         """Kinetic and potential energy [J], (..., 2)."""
         self._refuse_missing("energy")
@@ -88,7 +98,7 @@ class TreeShape:
         if quantity in self.info.tree.missing:
             raise InvalidInput(f"{self.info.name} has no {quantity} of a tree: {self.info.tree.missing[quantity]}")
 
-    def _refuse_unless_offered(self, quantity: Offer) -> None:
+    def _refuse_unless_offered(self, quantity: TreeOffer) -> None:
         assert self.info.tree is not None
         if quantity not in self.info.tree.offers:
             why = self.info.tree.lacks.get(quantity, "its adapter does not offer it")

@@ -95,16 +95,17 @@ def _one(model: Path, asked: _Asked, fix: Path | None, out: Path | None, as_json
     file = _read(model, asked)
     found = asked.answer(file)
     if fix is not None:
-        from ..diagnosis.model_files.fix import write_fixed
+        from ..diagnosis.model_files.fix import judged, write_fixed
 
         not_alike = [f"{fix}: {says}" for says in write_fixed(file, fix)]
-        found = replace(found, notes=(*found.notes, *not_alike))
+        written = judged(fix, replace(asked, against=None).answer(_read(fix, asked)))
+        found = replace(found, notes=(*found.notes, *not_alike), written=written)
     if out is not None:
         _write_page(found, file, out)
     if as_json:
         print_json(found.to_json())
     else:
-        print_text("\n".join([found.text(), *(f"  written: {path}" for path in (fix, out) if path is not None)]))
+        print_text(found.text() + (f"\n  written: {out}" if out is not None else ""))
     return found.exit_status
 
 

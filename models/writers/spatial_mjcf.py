@@ -107,7 +107,7 @@ def _top(world: ElementTree.Element, mechanism: SpatialMechanism) -> ElementTree
     roots = [body for body in mechanism.bodies if body.parent == WORLD]
     if roots and _free(roots[0]):
         return world
-    roots = [body for body in roots if not _free(body)]
+    roots = [_without_first_ref(body) for body in roots if not _free(body)]
     first_is_fixed = bool(roots) and len(roots[0].joints) != 1  # with several joints, what it stands in is
     posed = first_is_fixed and (roots[0].position.any() or not _unturned(roots[0]))
     if not (len(roots) > 1 or posed):
@@ -124,10 +124,13 @@ def _unturned(body: RigidBody) -> bool:
 
 
 def _without_first_ref(body: RigidBody) -> RigidBody:
-    """The body posed where it is at zero of its first joint, which then needs no ref; the others keep theirs."""
-    first = body.joints[0]
-    if not first.ref:
+    """The body posed where it is at zero of its first joint, which then needs no ref; the others keep theirs.
+
+    One with a single joint, whose ref is read, stays as it is.
+    """
+    if len(body.joints) < 2 or not body.joints[0].ref:
         return body
+    first = body.joints[0]
     axis = first.axis / np.linalg.norm(first.axis)
     if first.kind == "slide":
         back = Pose(np.eye(3), -first.ref * axis)
@@ -144,8 +147,7 @@ def _without_first_ref(body: RigidBody) -> RigidBody:
 
 
 def _body(parent: ElementTree.Element, body: RigidBody, name: str, inertial: Inertial) -> ElementTree.Element:
-    if len(body.joints) > 1:
-        body = _without_first_ref(body)
+    body = _without_first_ref(body)
     pose = {"pos": row(body.position)}
     if not _unturned(body):
         pose["quat"] = row(body.quaternion / np.linalg.norm(body.quaternion))

@@ -203,6 +203,40 @@ class Magnitudes:
             rows = rows + root * (root @ swings)
         return np.asarray(rows)
 
+    def joint_forces(self, accelerations: Array) -> Array:
+        """The units of force [N] and moment [N m] of each moving link on what carries it, (links, 2).
+
+        As rows of :meth:`residual` for a translation and a rotation about the origin of the link's frame: the sum of
+        the magnitudes over all that hangs there. Forces may come from the joint's pivot to that origin.
+        """
+        levers, rates, swings = self._levers, self.once(self.v), self.once(accelerations)
+        for one in self.mechanism.joints:
+            if one.joint.kind == "free":
+                swings[one.at_v] += rates[one.at_v] * rates[one.at_v + 3]
+        spin, swing = rates @ self._turns, Lengths(swings @ levers.own, swings @ levers.off)
+        speed = Lengths(rates @ levers.own, rates @ levers.off)
+        weight = float(np.linalg.norm(self.mechanism.gravity))
+        pull = Lengths(swing.own + 3 * spin * speed.own + weight, swing.off + 3 * spin * speed.off)
+        turning = self._mass * speed.times(speed) + self._tensor * (spin**2 + swings @ self._turns)
+        found = []
+        for index, body in enumerate(self.mechanism.bodies):
+            if body.joints:
+                below, arm = self._below(index), self._arms(index)
+                forces = self._mass * (pull.own + pull.off)
+                found.append([forces[below].sum(), (self._mass * arm.times(pull) + turning)[below].sum()])
+        return np.array(found).reshape(-1, 2)
+
+    def _arms(self, body: int) -> Lengths:
+        """The way from the origin of a link's frame, past its joints, to every body's centre, (bodies,)."""
+        pivots, frames, centres = self._ways
+        nearest = pivots[self._first_moved == body].min()
+        along = np.maximum(centres - nearest, 0.0) + frames[body] - nearest + EPSILON * centres
+        if not self.world:
+            return Lengths(along, np.zeros_like(along))
+        middle, far, places, _ = self._places()
+        about = float(np.linalg.norm(self._moved.position[0, body] - middle[body]))
+        return Lengths(np.maximum(along, about + np.linalg.norm(places - middle, axis=-1)), far)
+
     def _inverted(self, mass: Array, rows: Array, shares: Array) -> Array:
         """What inverting the block D of a ball's or a free joint's degrees of freedom adds to the units ``rows``.
 

@@ -130,6 +130,22 @@ class SpatialTruth:
 
         return BallArray(self._proved(solved))
 
+    def joint_forces(self, accelerations: Floats) -> BallArray:
+        """Force [N] and moment [N m] of each moving link on what carries it, in these accelerations (nv,); (links, 6).
+
+        In the order of the links that have joints, in the world's axes, the moment about the origin of the link's
+        frame. All that acts in its joints is in it, dampers and springs too; what turns rotors (armature) is not.
+        """
+        given = [arb(a) for a in np.asarray(accelerations, dtype=np.float64).tolist()]
+        gravity = self.mechanism.gravity.tolist()
+
+        def numbers(motion: Motion) -> tuple[list[Any], float]:
+            found = motion.wrenches(given, gravity)
+            weights = sum((abs(inertia[3, 3]) for inertia in motion.inertias), arb(0)) * max(map(abs, gravity))
+            return [entry for wrench in found for entry in wrench.entries()], float(weights.abs_upper())
+
+        return BallArray(self._proved(numbers).reshape(-1, 6))
+
     def residual(self, accelerations: Floats) -> BallArray:
         """M a + bias − passive − torque, (nv,), for an engine's accelerations a (nv,)."""
         given = [arb(a) for a in np.asarray(accelerations, dtype=np.float64).tolist()]

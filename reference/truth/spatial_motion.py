@@ -185,16 +185,37 @@ class Motion:
 
     def inertial_terms(self, accelerations: Sequence[Any]) -> list[Any]:
         """M a, in O(n)."""
-        swings: list[Any] = []
+        swings = self.swings(accelerations)
+        rows = self._rows_of([inertia * swing for inertia, swing in zip(self.inertias, swings, strict=True)])
+        return [row + i * a for row, i, a in zip(rows, self.armature, accelerations, strict=True)]
+
+    def swings(self, accelerations: Sequence[Any]) -> list[Any]:
+        """Σ s_j a_j of each group, (6, 1) each: its acceleration, but for what its velocity makes of it."""
+        found: list[Any] = []
         at = 0
         for index, group in enumerate(self.groups):
-            swing = swings[group.parent] if group.parent != WORLD else STILL
+            swing = found[group.parent] if group.parent != WORLD else STILL
             while at < len(self.moves) and self.moves[at] == index:
                 swing = swing + self.freedoms[at] * accelerations[at]
                 at += 1
-            swings.append(swing)
-        rows = self._rows_of([inertia * swing for inertia, swing in zip(self.inertias, swings, strict=True)])
-        return [row + i * a for row, i, a in zip(rows, self.armature, accelerations, strict=True)]
+            found.append(swing)
+        return found
+
+    def wrenches(self, accelerations: Sequence[Any], gravity: Sequence[Any]) -> list[Any]:
+        """What each group exerts on what carries it in the motion with these accelerations, (6, 1) each.
+
+        The force, then the moment about the origin of the group's frame, in the world's axes: Newton's and Euler's laws
+        for all that hangs there, the sum of its weights less the rates of its momenta.
+        """
+        weight = _column([0, 0, 0, *(-g for g in gravity)])
+        moving = zip(self.inertias, self.swings(accelerations), self.momentum_rates, strict=True)
+        sums = self._subtrees([inertia * (swing + weight) + rate for inertia, swing, rate in moving])
+        found = []
+        for total, (_, origin, _) in zip(sums, self.poses, strict=True):
+            *moment, x, y, z = (-total).entries()
+            force = (x, y, z)
+            found.append(_column([*force, *_difference((moment[0], moment[1], moment[2]), cross(origin, force))]))
+        return found
 
     def kinetic_energy(self, rates: Sequence[Any]) -> Any:
         """½ Σ V·𝕀V and the armatures' [J]."""

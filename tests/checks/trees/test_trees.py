@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from fake_tree_engines import SMALL, FewQuestions
+from fake_tree_engines import SMALL, FewQuestions, NoForces
 
 from furiko.checks.cache import _scene
 from furiko.checks.jobs import CellJob, TruthJob, messages_of
@@ -14,7 +14,7 @@ from furiko.checks.registry import CHECKS
 from furiko.checks.trees import accelerations
 from furiko.checks.trees.facts import TreeFacts, tree_facts
 from furiko.checks.trees.verdict import judged
-from furiko.engines import engine_info
+from furiko.engines import OWN_EQUATIONS, engine_info
 from furiko.models import find_scene
 from furiko.models.scene import scene_from_toml
 from furiko.models.states import States
@@ -22,7 +22,7 @@ from furiko.models.trees.states import TreeStates, tree_states
 from furiko.records.check import Result
 
 STATES = 2
-COMPARED = ("accelerations", "terms", "energy", "trajectory")
+COMPARED = ("accelerations", "terms", "joint forces", "energy", "trajectory")
 
 
 @pytest.fixture(scope="module")
@@ -54,6 +54,7 @@ def test_a_right_engine_agrees_in_every_comparison(scene, facts):
         "terms bias",
         "terms G",
         "terms passive",
+        "joint forces",
         "energy",
         "trajectory RK4",
     }
@@ -67,6 +68,9 @@ def test_a_right_engine_agrees_in_every_comparison(scene, facts):
         ("WrongMass", "terms M", "mass matrix: the entry of pin, pin is"),
         ("WrongVelocityTerms", "terms bias", "bias: the entry of"),
         ("WrongPassive", "terms passive", "forces of dampers and springs"),
+        ("WrongForces", "joint forces", "the force of 'block' on what carries it|the force of 'rod'"),
+        ("OtherPoint", "joint forces", "the moment of 'block' on what carries it|the moment of 'rod'"),
+        ("OnTheLink", "joint forces", "on what carries it is off by"),
         ("WrongEnergy", "energy", "the kinetic energy is off by"),
         ("WrongHeight", "energy", "the potential energy is off by"),
         ("WrongScheme", "trajectory RK4", "order"),
@@ -151,8 +155,15 @@ def test_what_is_skipped_has_its_reason(scene):
     without_spring = scene_from_toml(SMALL.replace("stiffness = 4.0\n", ""), "small")
     assert skip("accelerations", without_spring, FewQuestions.info) == ""
     assert skip("energy", without_spring, FewQuestions.info) == "it has accelerations alone"
-    for check in ("model fields", "symmetry", "joint forces", "invariant", "horizon"):
+    for check in ("model fields", "horizon"):
         assert len(skip(check, scene, engine_info("mujoco")).split()) > 5
+    assert "never forms the forces" in skip("joint forces", find_scene("cart-pole"), engine_info("exudyn-tree"))
+    assert "does not offer the forces" in skip("joint forces", scene, NoForces.info)
+    assert skip("invariant", scene, engine_info("pinocchio-aba")).startswith("Pinocchio computes dynamics")
+    assert "hinges and slides alone" in skip("invariant", find_scene("quadruped"), engine_info("mujoco"))
+    own = OWN_EQUATIONS
+    assert "not of its images" in CHECKS["symmetry"].skipped(scene, own)
+    assert "joints hold" in CHECKS["joint forces"].skipped(scene, own)
     for check in ("step map", "trajectory"):
         assert "hinges and slides alone" in skip(check, find_scene("humanoid"), engine_info("mujoco"))
     assert "no duration" in skip("trajectory", find_scene("arm-7"), engine_info("mujoco"))
@@ -174,7 +185,19 @@ def test_at_most_twenty_states_of_a_tree_in_a_quick_run():
 def test_facts_survive_the_way_to_another_process(scene):
     facts = tree_facts(scene, tree_states(scene, 1))
     again = TreeFacts.from_bytes(facts.to_bytes())
-    for name in ("high", "low", "mass_matrix", "bias", "gravity", "passive", "energy", "times", "end_q", "end_error"):
+    for name in (
+        "high",
+        "low",
+        "mass_matrix",
+        "bias",
+        "gravity",
+        "passive",
+        "energy",
+        "times",
+        "end_q",
+        "end_error",
+        "forces",
+    ):
         assert (getattr(again, name) == getattr(facts, name)).all()
 
 

@@ -537,3 +537,19 @@ def test_readings_are_spatial_wherever_a_file_is_no_planar_tree(tmp_path):
     file = read_model(saved(tmp_path, "a.xml", SOUND["arm.xml"]))
     assert file.planar is None
     assert "not a planar tree" in file.not_planar
+
+
+def test_two_misreadings_that_leave_nothing_only_together_are_both_named(tmp_path):
+    """As in MuJoCo's humanoid100: one robot is attached, and a hundred bodies stand in frames."""
+    other = f'<mujoco><worldbody><body name="b"><joint name="k" axis="0 1 0"/>{INERTIAL}</body></worldbody></mujoco>'
+    saved(tmp_path, "other.xml", other)
+    body = f'<body name="a"><joint name="j" axis="0 1 0"/>{INERTIAL}</body>'
+    text = f"""<mujoco><asset><model name="other" file="other.xml"/></asset><worldbody><attach model="other" body="b"
+        prefix="_"/><frame pos="0 0 1">{body}</frame></worldbody></mujoco>"""
+    found = diagnose(saved(tmp_path, "model.xml", text))
+    (finding,) = [one for one in found.findings if one.where.startswith("pinocchio-aba")]
+    assert found.engines["pinocchio-aba"]["status"] == "refused"
+    assert finding.cause == "attach-ignored"
+    assert "No such node (body). It ignores <attach>" in finding.says
+    assert "and ignores <frame>" in finding.says
+    assert "read so: no joint is left" in finding.says

@@ -1,0 +1,70 @@
+"""``furiko diagnose --fix``: whether all engines read what was written alike is measured, and said."""
+
+import json
+
+import pytest
+from click.testing import CliRunner
+
+from furiko.cli.diagnose import diagnose
+from furiko.engines import engine_version
+
+INERTIAL = '<inertial pos="0.1 0 -0.4" mass="1.5" diaginertia="0.1 0.2 0.25"/>'
+HINGE = f'<body name="a"><joint name="j" axis="0 1 0"/>{INERTIAL}</body>'
+# What the engines do not agree on is no fault of how it is written: a ball's damper, and a link without a mass.
+BALL = f'<body name="a"><joint name="j" type="ball" damping="0.3"/>{INERTIAL}</body>'
+SHOWN = f'<body name="a"><joint name="j" axis="0 1 0" ref="0.2"/><joint name="k" axis="1 0 0"/>{INERTIAL}</body>'
+WEIGHTLESS = """<robot name="r"><link name="world"/><link name="a"><inertial><origin xyz="0 0 -1"/><mass value="1"/>
+<inertia ixx=".1" iyy=".12" izz=".14" ixy="0" ixz="0" iyz="0"/></inertial></link><link name="tool"/>
+<joint name="j" type="continuous"><parent link="world"/><child link="a"/><axis xyz="0 1 0"/></joint>
+<joint name="k" type="continuous"><parent link="a"/><child link="tool"/><axis xyz="1 0 0"/></joint></robot>"""
+
+pytestmark = [
+    pytest.mark.slow,  # engines are asked in processes of their own, twice
+    pytest.mark.skipif(not (engine_version("mujoco") and engine_version("pinocchio-aba")), reason="two engines"),
+]
+
+
+def fixed(tmp_path, text, *options, name="model.xml"):
+    path, out = tmp_path / name, tmp_path / "fixed.xml"
+    path.write_text(f"<mujoco><worldbody>{text}</worldbody></mujoco>" if name.endswith("xml") else text)
+    found = CliRunner().invoke(diagnose, [str(path), "--fix", str(out), *options], standalone_mode=False)
+    return found.return_value, found.stdout, str(out)
+
+
+def test_a_file_that_all_read_alike_is_said_to_be_one(tmp_path):
+    status, text, out = fixed(tmp_path, HINGE)
+    assert (status, f"  written: {out}\n" in text) == (0, True)
+    status, text, out = fixed(tmp_path, HINGE, "--json")
+    assert json.loads(text)["fix"] == {"path": out, "agrees": True, "why": []}
+
+
+def test_a_misreading_that_is_mended_leaves_the_files_own_status(tmp_path):
+    """Pinocchio ignores the ref of the first of several joints: the model differs, and what is written does not."""
+    status, text, _ = fixed(tmp_path, SHOWN, "--json")
+    found = json.loads(text)
+    assert (status, found["verdict"], found["fix"]["agrees"]) == (1, "differs", True)
+    assert "alike" not in found["headline"]
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "says"),
+    [
+        (BALL, "model.xml", "pinocchio-aba drops damping and dry friction of free and ball joints: joint 'j'"),
+        (WEIGHTLESS, "model.urdf", "mujoco refuses"),
+    ],
+)
+def test_a_file_that_cannot_agree_is_said_not_to(tmp_path, text, name, says):
+    status, printed, out = fixed(tmp_path, text, "--json", name=name)
+    found = json.loads(printed)
+    assert status == 1
+    assert found["headline"].endswith(f"not all engines read {out}, which was written, alike")
+    assert found["fix"]["agrees"] is False
+    assert found["fix"]["why"][0].startswith(says)
+    status, printed, out = fixed(tmp_path, text, name=name)
+    assert f"  written: {out}, which not all engines read alike\n      {says}" in printed
+
+
+def test_the_status_is_that_of_the_file_that_was_written_where_the_model_itself_is_read_alike(tmp_path):
+    """MuJoCo alone reads the model alike; an engine that is named has to read what was written, too."""
+    status, text, _ = fixed(tmp_path, BALL, "-e", "mujoco", "--json")
+    assert (status, json.loads(text)["fix"]["agrees"]) == (0, True)
