@@ -11,6 +11,7 @@ from ..dialects.blocks import rows_of_blocks
 from ..dialects.code.programs import plain_programs
 from ..dialects.followed.chosen import from_languages
 from ..dialects.functions import whole_functions
+from ..dialects.grammars.rows import from_grammars
 from ..dialects.letters.angle_t import require_no_time
 from ..dialects.letters.by_rule import by_rule
 from ..dialects.letters.drives import with_phases
@@ -56,6 +57,9 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     require_no_time(data)
     data = with_phases(data)
     spelled = _spelled(data)
+    program = from_grammars(spelled)
+    if program is not None:
+        return _as_program(*program, slashes)
     refused: InvalidInput | None = None
     try:
         program = traced(spelled)

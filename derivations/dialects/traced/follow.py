@@ -169,19 +169,24 @@ class Follower:
             if isinstance(statement, nodes.Return | nodes.Leave):
                 return statement
             if isinstance(statement, nodes.Define):
-                if scope is not self.top:
-                    scope.names[statement.name] = Local(statement.parameters, statement, dict(scope.names))
-                    self.functions.setdefault(statement.name, Local(statement.parameters, statement, scope.names))
+                self._define(statement, scope)
                 continue
-            found: nodes.Return | nodes.Leave | None = None
-            if isinstance(statement, nodes.Repeat):
-                found = self._repeat(statement, scope)
-            elif isinstance(statement, nodes.Choice):
-                found = self._choice(statement, scope)
-            else:
-                self._statement(statement, scope)
-            if found is not None:
+            if (found := self._one(statement, scope)) is not None:
                 return found
+        return None
+
+    def _define(self, statement: nodes.Define, scope: Scope) -> None:
+        """A function within another one."""
+        if scope is not self.top:
+            scope.names[statement.name] = Local(statement.parameters, statement, dict(scope.names))
+            self.functions.setdefault(statement.name, Local(statement.parameters, statement, scope.names))
+
+    def _one(self, statement: nodes.Statement, scope: Scope) -> nodes.Return | nodes.Leave | None:
+        if isinstance(statement, nodes.Repeat):
+            return self._repeat(statement, scope)
+        if isinstance(statement, nodes.Choice):
+            return self._choice(statement, scope)
+        self._statement(statement, scope)
         return None
 
     def _choice(self, statement: nodes.Choice, scope: Scope) -> nodes.Return | nodes.Leave | None:
@@ -300,13 +305,10 @@ class Follower:
         target, line = statement.target, statement.line
         value = self.expressions.value(statement.value, scope)
         if statement.sign:
-            before = self.expressions.value(target, scope)
-            self._put(target, self._changed(before, value, statement.sign), line, scope, in_place=True)
+            value = self.expressions.combined(statement.sign, self.expressions.value(target, scope), value)
+            self._put(target, value, line, scope, in_place=True)
             return
         self._put(target, value, line, scope)
-
-    def _changed(self, before: Value, value: Value, sign: str) -> Value:
-        return self.expressions.combined(sign, before, value)
 
     def _put(self, target: nodes.Node, value: Value, line: str, scope: Scope, *, in_place: bool = False) -> None:
         match target:
@@ -348,9 +350,7 @@ class Follower:
 
     def _said_outside(self, name: str) -> Value:
         found = self._defined(name, self.known.defined[name]) if name in self.known.defined else None
-        if found is not None:
-            return copied(found)
-        return Outside((name,))
+        return Outside((name,)) if found is None else copied(found)
 
     def _put_several(self, items: tuple[nodes.Node, ...], value: Value, line: str, scope: Scope) -> None:
         count = len(items)

@@ -84,6 +84,9 @@ class Known:
 
     def of_rate(self, name: str, order: int) -> int | None:
         """The coordinate whose rate (order 1) or acceleration (order 2) is called so, by what stands in the name."""
+        said = re.fullmatch(r"\(?\s*(?P<of>[^'()\s]+)(?P<primes>'+)\s*\)?", self.defined.get(name, name))
+        if said:
+            return self.coordinate(said["of"].replace("\\", "")) if len(said["primes"]) == order else None
         found = {k for k in range(len(self.coordinates)) if _is_derivative(name, self, k, order)}
         return found.pop() if len(found) == 1 else None
 

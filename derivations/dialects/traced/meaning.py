@@ -29,6 +29,11 @@ def path_of(mark: str) -> Path:
     return tuple(int(p) if p.isdigit() else p for p in mark.split("|"))
 
 
+def rendered(path: Path, first: int) -> str:
+    """A path as [define] has it: bobs[0].m"""
+    return "".join(f"[{p + first}]" if isinstance(p, int) else f".{p}" for p in path).removeprefix(".")
+
+
 @dataclass
 class Meaning:
     """``order``: what is known of the places of the state: 0 a coordinate, 1 its rate, 2 its acceleration, -1 its
@@ -46,9 +51,14 @@ class Meaning:
 
     def said(self, path: Path) -> list[str]:
         """What is said of a place: in the file, then by the author's own names."""
-        found = []
+        found: list[str] = []
         last = path[-1]
-        if isinstance(last, int) and len(path) > 1:
+        whole = rendered(path, self.names.first)
+        if whole in self.known.defined and len(path) > 1:
+            found = [self.known.defined[whole]]
+        elif self.names.first and isinstance(last, int) and len(path) > 1:
+            found = [self.known.defined[k] for k in (f"{path[-2]}[{last + 1}]",) if k in self.known.defined]
+        elif isinstance(last, int) and len(path) > 1:
             base, k = str(path[-2]), last
             found = [self.known.defined[key] for key in (f"{base}[{k}]", f"{base}({k + 1})", f"{base}{{{k + 1}}}")
                      if key in self.known.defined]  # fmt: skip
@@ -201,9 +211,13 @@ class Meaning:
             return "p" if self.count == 1 else f"p{index}" if index else f"p_{name}"
         return name if order == 0 else f"({name}{chr(39) * order})"
 
-    def quantity(self, path: Path) -> str:  # noqa: PLR0911 -- one for each kind
+    def quantity(self, path: Path) -> str:  # noqa: PLR0911, PLR0912 -- one for each kind
         """A quantity of the mechanism, of the file, or a name that the reader will not know."""
-        said = [str(path[-1]), *self.names.labels.get(path, [])] if not isinstance(path[-1], int) else self.said(path)
+        is_entry = isinstance(path[-1], int)
+        said = self.said(path) if is_entry else [str(path[-1]), *self.names.labels.get(path, [])]
+        whole = rendered(path, self.names.first)
+        if len(path) > 1 and whole in self.known.defined:
+            said.insert(0, self.known.defined[whole])
         if path in self.names.aliases:
             said.insert(0, self.names.aliases[path])
         for s in said:
@@ -215,9 +229,9 @@ class Meaning:
         if counted is not None:
             return counted
         for s in said:
-            if s in GRAVITY:
+            if s.strip("_") in GRAVITY:
                 return "g"
-            if isinstance(path[-1], int) and not re.fullmatch(r"\w+", s):
+            if is_entry and not re.fullmatch(r"\w+", s):
                 return f"({s})"  # [define] 'u[0]' = 'F - b*x'
         drive = self.drive(path)
         if drive is not None:

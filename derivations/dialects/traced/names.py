@@ -13,6 +13,11 @@ MARK = re.compile(r"«([^«»]+)»")
 DECIMAL = re.compile(r"-?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:e[+-]?[0-9]+)?")
 
 
+def _is_gravity(name: str) -> bool:
+    """Whether a name is that of gravity, g_ of a class too."""
+    return name.strip("_") in GRAVITY
+
+
 @dataclass
 class Scope:
     """The names of a function that is followed. ``around``: of the functions and the text that it stands in."""
@@ -20,6 +25,7 @@ class Scope:
     around: Scope | None = None
     names: dict[str, Value] = field(default_factory=dict)
     parameters: frozenset[str] = frozenset()
+    shared: frozenset[str] = frozenset()  # parameters whose change the caller sees
 
     def find(self, name: str) -> Value | None:
         """What a name stands for."""
@@ -41,6 +47,7 @@ class Names:
 
     known: Known
     prefix: str = "val"
+    first: int = 0  # what the program counts entries from
     labels: dict[tuple[str | int, ...], list[str]] = field(default_factory=dict)
     aliases: dict[tuple[str | int, ...], str] = field(default_factory=dict)
     vectors: dict[tuple[str | int, ...], list[tuple[str, int]]] = field(default_factory=dict)  # q of q = x[:2]
@@ -68,13 +75,19 @@ class Names:
 
     def _outside(self, name: str, value: Outside) -> Value:
         path = value.path
-        if self.known.coordinate(name) is None and (self.known.is_quantity(name) or name in GRAVITY):
+        if self.known.coordinate(name) is None and (self.known.is_quantity(name) or _is_gravity(name)):
             own = (name,)
             if path == own:
                 return value
-            field_name = str(path[-1])
-            is_field = len(path) == 2 and isinstance(path[-1], str)
-            if is_field and field_name != name and self.known.is_quantity(field_name) and name not in GRAVITY:
+            last = value.path[-1]
+            field_name = str(last)
+            is_field = len(path) <= 2 and isinstance(last, str)
+            if (
+                is_field
+                and field_name.strip("_") != name.strip("_")
+                and self.known.is_quantity(field_name)
+                and not _is_gravity(name)
+            ):
                 raise NotFollowed(f"{name} = {'.'.join(map(str, path))}: both names are quantities of the mechanism; "
                                   "give each the name that its body has")  # fmt: skip
             before = self.aliases.get(path)
@@ -87,10 +100,12 @@ class Names:
 
     def _formula(self, name: str, value: Formula, line: str) -> Value:
         constant = DECIMAL.fullmatch(value.text) is not None
-        if constant and name in GRAVITY and value.text.startswith("-"):
+        if constant and _is_gravity(name) and value.text.startswith("-"):
             raise NotFollowed("g is a negative number here; give it without its sign, and the sign in the rows")
         is_own = self.known.is_quantity(name) and self.known.coordinate(name) is None
-        if (is_own or name in GRAVITY) and name not in self.read:
+        if (is_own or _is_gravity(name)) and name not in self.read:
+            if not constant and any(m.split("|")[-1] == name for m in MARK.findall(value.text)):
+                raise NotFollowed(f"{name} is computed from another {name} here; give each a name of its own")
             if constant or self._is_constant(value):
                 return Outside((name,))  # m1 = 1.0, I = m*l^2/12: what is right for every value is right for it
             if name.strip("_") in self.known.drives:

@@ -1,4 +1,4 @@
-"""A program's text as a tree: expressions and statements, one kind for Python and MATLAB. Nothing is run."""
+"""A program's text as a tree: expressions and statements, one kind for all languages. Nothing is run."""
 
 from __future__ import annotations
 
@@ -105,10 +105,11 @@ class Dots:
 
 @dataclass(frozen=True)
 class Nameless:
-    """A function without a name."""
+    """A function without a name; ``body``: its statements in front of what it gives back."""
 
     parameters: tuple[str, ...]
     value: Node
+    body: tuple[Statement, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -128,6 +129,15 @@ class Each:
     name: str
     over: Node
     tests: tuple[Node, ...] = ()
+
+
+@dataclass(frozen=True)
+class Fields:
+    """A thing with named parts; ``base``: another one, whose parts it has besides."""
+
+    names: tuple[str, ...]
+    values: tuple[Node, ...]
+    base: Node | None = None
 
 
 @dataclass(frozen=True)
@@ -154,18 +164,20 @@ Node = (
     | Nameless
     | Either
     | Each
+    | Fields
     | Strange
 )
 
 
 @dataclass(frozen=True)
 class Assign:
-    """``targets`` = ``value``; ``sign``: of an assignment in place, as + of +=."""
+    """``targets`` = ``value``; ``sign``: of an assignment in place, as + of +=; ``outer``: of a name around it."""
 
     target: Node
     value: Node
     line: str
     sign: str = ""
+    outer: bool = False
 
 
 @dataclass(frozen=True)
@@ -193,6 +205,8 @@ class Define:
     outs: tuple[str, ...]
     body: tuple[Statement, ...]
     of: str = ""
+    shared: tuple[str, ...] = ()  # parameters whose change the caller sees
+    optional: tuple[str, ...] = ()  # parameters that need not be given
 
 
 @dataclass(frozen=True)
@@ -201,6 +215,16 @@ class Repeat:
 
     name: str
     over: Node
+    body: tuple[Statement, ...]
+    line: str
+
+
+@dataclass(frozen=True)
+class Loop:
+    """A loop while a test holds; ``after``: what is done at the end of each turn."""
+
+    test: Node
+    after: tuple[Statement, ...]
     body: tuple[Statement, ...]
     line: str
 
@@ -232,7 +256,7 @@ class Unfollowed:
     names: tuple[str, ...] = ()
 
 
-Statement = Assign | Return | Do | Define | Repeat | Choice | Leave | Unfollowed
+Statement = Assign | Return | Do | Define | Repeat | Loop | Choice | Leave | Unfollowed
 
 
 def dotted(node: Node) -> str | None:

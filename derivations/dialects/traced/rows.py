@@ -47,7 +47,7 @@ def traced(data: dict[str, Any]) -> tuple[dict[str, Any], dict[str, str]] | None
         if tree is None or not _is_program(tree):
             continue
         try:
-            return _Reader(data, found, tree, matlab=matlab, prefix=prefix).read()
+            return Reader(data, found, tree, matlab=matlab, prefix=prefix).read()
         except NotFollowed as error:
             if any(isinstance(s, nodes.Define) for s in tree) or len(tree) >= LONG_SCRIPT:
                 refused.append(str(error))  # fewer are formulas, which other readers know
@@ -67,7 +67,9 @@ def _is_program(tree: Sequence[nodes.Statement]) -> bool:
     return nameless or len(assigned) > 1 or any(isinstance(s, nodes.Define) for s in tree)
 
 
-class _Reader(Forms):
+class Reader(Forms):
+    """The program of one file: its rows, from the text itself or from one of its functions."""
+
     def __init__(self, data: dict[str, Any], found: Known, tree: Sequence[nodes.Statement], *, matlab: bool, prefix: str
                  ) -> None:  # fmt: skip
         self.data, self.known = data, found
@@ -232,6 +234,8 @@ class _Reader(Forms):
         """A parameter that is filled, dydt[0] = …, is what the function gives back."""
         for name in define.parameters:
             value = scope.names.get(name)
+            if isinstance(value, Broken):
+                self.refused.append(value.why)
             if isinstance(value, Array) and len(value.entries) in (self.count, 2 * self.count):
                 found = self._try(lambda v=value: self._from_value(v, scope, define.parameters))
                 if found is not None:

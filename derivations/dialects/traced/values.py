@@ -91,6 +91,15 @@ class Local:
     parameters: tuple[str, ...]
     of: object  # nodes.Define or nodes.Nameless
     given: dict[str, Value] = field(default_factory=dict)
+    around: object = None  # the Scope that a closure sees
+
+
+@dataclass(eq=False)
+class Record:
+    """A thing with named parts; ``path``: of what comes from outside, and has all others."""
+
+    fields: dict[str, Value]
+    path: tuple[str | int, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -116,7 +125,7 @@ class Broken:
     why: str
 
 
-Value = Formula | Outside | Array | Several | Local | Words | Reach | Broken
+Value = Formula | Outside | Array | Several | Local | Record | Words | Reach | Broken
 ZERO, ONE = Formula("0"), Formula("1")
 
 

@@ -127,7 +127,7 @@ REFUSED = [
     ("entries", "A[1,1] = l", "A[2,1] = l", "it is not there"),
     ("julia", "s, c = sincos", "if t > 1 w1 = 2*w1 end\n    s, c = sincos", None),
     ("pointers", "  *xacc = (F", "  F = 2*F;\n  *xacc = (F", "F is changed"),
-    ("pointers", "  *xacc = (F", "  if (x > 1) F = 0;\n  *xacc = (F", "nothing else"),
+    ("pointers", "  *xacc = (F", "  if (x > 1) F = 0;\n  *xacc = (F", "what a loop or condition comes to"),
 ]
 
 

@@ -304,6 +304,13 @@ CASES = [
         "p.l and l",
         "refuse",
         one(
+            "double f(double theta, double w) {return 0;}\nvoid rhs(double *y, double *dy, P *p) { double theta = y[0]; double l = 2*p->l; dy[0]=y[1]; dy[1] = -g/l*sin(theta); }"
+        ),
+    ),
+    (
+        "p.l alone, where l is another thing",
+        "correct",
+        one(
             "double f(double theta, double w) {return 0;}\nvoid rhs(double *y, double *dy, P *p) { double theta = y[0]; double l = 2*p->l; dy[0]=y[1]; dy[1] = -g/p->l*sin(theta); }"
         ),
     ),

@@ -1,0 +1,124 @@
+"""Steps of a simulation: theta += omega*dt says what the rate is, omega += … what moves it."""
+
+from __future__ import annotations
+
+import re
+
+from ..traced import nodes
+from ..traced.names import Scope
+from ..traced.values import Broken, Formula, NotFollowed, Outside, Value
+from .places import Places
+
+STEP = re.compile(
+    r"(?:self\.)?(?:dt|h|delta|deltaTime|timestep|timeStep|time_step|DT|dT|step|STEP|Time\.deltaTime|Time\.fixedDeltaTime|deltatime|elapsed|dt_|DELTA)"
+)
+STALE = "{0} is computed from what was changed before; compute first, step then"
+
+
+class Steps(Places):
+    """``moved``: what is added to each name that comes from outside."""
+
+    moved: dict[tuple[str | int, ...], list[Value]]
+
+    def _holder(self, name: str, scope: Scope) -> Scope:
+        """The names around a function that have this one; those of the text where none has."""
+        return next((s for s in scope.all[1:] if name in s.names or name in s.parameters), self.top)
+
+    def _steps_of(self, statement: nodes.Assign, target: nodes.Node, scope: Scope) -> bool:
+        """theta += omega*dt: a step of what comes from outside, kept apart; behind it the name is another thing."""
+        if not self.inside or not isinstance(target, nodes.Word | nodes.Member):
+            return False
+        path = self._path(target, scope)
+        if path is None:
+            return False
+        added = self._added(statement, target)
+        if added is None:
+            return False
+        if path[-1] in ("t", "time"):
+            return True
+        before = self._before(target, scope)
+        is_stale = isinstance(before, Broken) and path in self.moved
+        if not is_stale and not (isinstance(before, Outside) and self._is_state(path)):
+            return False
+        sign, node = added
+        bare = self._per_step(node)
+        source = self._path(bare, scope) if isinstance(bare, nodes.Word | nodes.Member) else None
+        try:
+            made: Value = Outside(source) if source in self.moved else self.expressions.value(bare, scope)
+            if sign == "-":
+                made = self.expressions.combined("-", Formula("0"), made)
+            if isinstance(made, Formula):
+                made = self.names.line(made, statement.line)
+        except NotFollowed as error:
+            made = Broken(str(error))
+        self.moved.setdefault(path, []).append(made)
+        if statement.sign not in ("+", "-", ""):
+            self.doubts.append(f"{path[-1]} is changed more than once; give the equations alone")
+        self._forget(target, scope, Broken(STALE.format(path[-1])))
+        return True
+
+    def _path(self, node: nodes.Node, scope: Scope) -> tuple[str | int, ...] | None:
+        """Where a quantity from outside stands."""
+        node = self._plain(node, scope)
+        if isinstance(node, nodes.Word):
+            found = scope.find(node.name)
+            if isinstance(found, Outside):
+                return found.path
+            return (node.name,) if found is None or (node.name,) in self.moved else None
+        if isinstance(node, nodes.Member):
+            try:
+                of = self.expressions.value(node.of, scope)
+            except NotFollowed:
+                return None
+            return (*of.path, node.name) if isinstance(of, Outside) else None
+        return None
+
+    def _is_state(self, path: tuple[str | int, ...]) -> bool:
+        last = str(path[-1])
+        return (
+            not (self.known.is_quantity(last) and self.known.coordinate(last) is None) and last not in self.known.drives
+        )
+
+    def _added(self, statement: nodes.Assign, target: nodes.Node) -> tuple[str, nodes.Node] | None:
+        if statement.sign:
+            return statement.sign, statement.value
+        match statement.value:
+            case nodes.Binary(sign="+" | "-" as sign, left=left, right=right) if self._plain(left, self.top) == target:
+                return sign, right
+            case nodes.Binary(sign="+", left=left, right=right) if self._plain(right, self.top) == target:
+                return "+", left
+        return None
+
+    def _before(self, target: nodes.Node, scope: Scope) -> Value | None:
+        if isinstance(target, nodes.Word):
+            found = scope.find(target.name)
+            return Outside((target.name,)) if found is None else found
+        try:
+            return self.expressions.value(target, scope)
+        except NotFollowed as error:
+            return Broken(str(error))
+
+    def _forget(self, target: nodes.Node, scope: Scope, value: Broken) -> None:
+        if isinstance(target, nodes.Word):
+            holder = (
+                scope
+                if target.name in scope.names or target.name in scope.parameters
+                else self._holder(target.name, scope)
+            )
+            holder.names[target.name] = value
+            return
+        of = self.expressions.value(target.of, scope) if isinstance(target, nodes.Member) else None
+        if isinstance(of, Outside) and isinstance(target, nodes.Member):
+            self.expressions.changed[(*of.path, target.name)] = value
+
+    def _per_step(self, node: nodes.Node) -> nodes.Node:
+        """omega of omega*dt. Raises NotFollowed for a sum, of which not every part may have the step."""
+        match node:
+            case nodes.Binary(sign="*", left=left, right=right):
+                if STEP.fullmatch(nodes.dotted(right) or "") and not self.known.is_quantity(nodes.dotted(right) or ""):
+                    return left
+                if STEP.fullmatch(nodes.dotted(left) or "") and not self.known.is_quantity(nodes.dotted(left) or ""):
+                    return right
+            case nodes.Unary(sign="-", of=of):
+                return nodes.Unary("-", self._per_step(of))
+        return node
