@@ -100,7 +100,13 @@ def _rows_or_note(data: dict[str, Any], spelled: dict[str, Any], slashes: int, *
             first = refusal
     if not notes:
         raise first
-    return _meant(*_plain(_spelled(_as_note(data, first))), slashes)
+    note = _as_note(data, first)
+    try:
+        return _meant(*_plain(_spelled(note)), slashes)
+    except InvalidInput:
+        if is_worded(data):
+            raise
+        raise first from None  # rows without a word are no note: what they lack as rows says more
 
 
 def _as_note(data: dict[str, Any], first: InvalidInput) -> dict[str, Any]:

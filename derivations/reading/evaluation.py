@@ -151,7 +151,7 @@ class Evaluation:
             return self.value(node)
         value = self.scalar(node)
         if not value.numerator:
-            fail(node.at, "a division by zero")
+            fail(node.at, "a division by zero: this is 0 whatever the angles and numbers are")
         return value.inverse()
 
     def _symbol(self, node: Symbol) -> Quotient:
@@ -266,7 +266,7 @@ class Evaluation:
             elif value:
                 factor /= value
             else:
-                fail(part.at, "a division by zero")
+                fail(part.at, "a division by zero: this is 0 whatever the angles and numbers are")
         if form is None:
             fail(node.at, "inside cos and sin an angle is needed, as in cos(t1 - t2)")
         return {k: c * factor for k, c in form.items()}

@@ -32,7 +32,7 @@ ENERGIES = ("kinetic", "potential", "lagrangian", "hamiltonian")
 MOST_ROWS = 16
 IN_FONT = re.compile(r"\\math(?:cal|scr)\s*(?:\{\s*L\s*\}|L(?![A-Za-z]))")
 WORDED = re.compile(
-    r"\$|\\[\[(]|```|(?<![^\W\d_])[^\W\d_]{3,40} [^\W\d_]{2,40} [^\W\d_]{2}|[\u3040-\u30ff\u4e00-\u9fff]{3}|\*\*"
+    r"\$|\\[\[(]|```|(?<![^\W\d_])[^\W\d_]{3,40} [^\W\d_]{2,40} [^\W\d_]{2}|[\u3040-\u30ff\u4e00-\u9fff]{3}|(?<![\w)\]'])\*\*"
 )
 
 DIFFERENCE = re.compile(

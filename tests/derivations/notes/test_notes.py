@@ -232,3 +232,24 @@ def test_two_quantities_with_one_letter_are_refused():
     text = DECLARED["damped and driven"].replace("'m'", "'M'").replace("damping = 'b'", "")
     with pytest.raises(InvalidInput, match="two quantities with one letter"):
         grade_text(text + "\n[equations]\n1 = '''M l^2 φ̈ + M g l sin φ = M(t)'''\n")
+
+
+NO_NOTE = """system = "mechanism"
+[[bodies]]
+coordinate = "theta1"
+mass = "m1"
+length = "l1"
+[[bodies]]
+coordinate = "theta2"
+mass = "m2"
+length = "l2"
+[equations]
+1 = "theta1'' = -g/(l1**2*cos(theta1)**2*cos(theta2)**2 + l1**2*sin(theta1)**2*cos(theta2)**2 - l1**2*cos(theta2)**2)"
+2 = "theta2'' = (-theta2'**2*l1**2*l2**2*m2**2*sin(theta1)**2*sin(theta2))/(l1**2*l2**2)"
+"""
+
+
+def test_powers_in_rows_are_no_bold_words_of_a_note():
+    """A row that cannot be read is refused as the row that it is, whatever it lacks as a note."""
+    with pytest.raises(InvalidInput, match="a division by zero"):
+        grade_text(NO_NOTE)
