@@ -25,6 +25,7 @@ from ..dialects.markup.asciimath import without_ticks
 from ..dialects.markup.macros import plain_macros
 from ..dialects.markup.pages import from_pages
 from ..dialects.markup.prose import FormulasInWords
+from ..dialects.markup.wrapped import unwrapped
 from ..dialects.notes.note import as_note, is_worded
 from ..dialects.table import translated
 from ..dialects.times import with_times
@@ -51,7 +52,7 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     Raises InvalidInput, with the place, where it is none.
     """
     known_fields(data)
-    data = plain_macros(without_ticks(without_pointers(data)))
+    data = plain_macros(without_ticks(unwrapped(without_pointers(data))))
     require_no_time(data)
     data = with_phases(data)
     spelled = _spelled(data)

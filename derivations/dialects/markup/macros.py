@@ -30,6 +30,9 @@ FRACTION = re.compile(r"\\(?:nicefrac|sfrac|cfrac|flatfrac)(?=\s*\{)")
 BRACKET = re.compile(
     r"\\(?:qty|quantity|pqty|bqty|Bqty|mleft|mright)(?![A-Za-z])(?!\s*\{[^{}]*\}\s*\{)(?=\s*[(){}\[\]\\])"
 )
+# As an encyclopedia's text has it, {\\frac {\\mathrm {d} }{\\mathrm {d} t}}{\\left(…\\right)}
+_D = r"(?:\\mathrm\s*\{\s*d\s*\}|d)"
+BY_TIME = re.compile(rf"\{{\s*\\[dt]?frac\s*\{{\s*{_D}\s*\}}\s*\{{\s*{_D}\s*t\s*\}}\s*\}}(?=\s*\{{?\s*(?:\\left\s*)?[(\[])")
 PAREN = re.compile(r"\\[lr](?P<of>paren|brack)(?![A-Za-z])")
 BOLD = re.compile(r"\\(?:vb|va|vu)\*?(?=\s*\{)")
 UPRIGHT = re.compile(r"\\mathop\s*\{\s*\}\s*(?:\\!)?\s*")
@@ -50,6 +53,7 @@ def _plain(text: str) -> str:
     if "\\" not in text or is_program(text):
         return text
     text = BEGINS.sub(lambda m: f"\\{m['which']}{{", text)
+    text = BY_TIME.sub(lambda _: r"\frac{d}{dt}", text)
     text = DOTS.sub(lambda m: f"\\{m['dots']}dot", text)
     text = ABOVE.sub(_dotted, text)
     for _ in range(MOST):

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from ..given_names import OF_COORDINATES
 from .displays import Statement
-from .letters import Names, alone, unfonted, written_alone
+from .letters import Names, alone, unfonted, uses, written_alone
 
 ENTRY = re.compile(r"(?P<letter>[A-Za-z])(?P<index>[1-9]{1,2})")
 MOTION = re.compile(r"\\ddot")
@@ -27,13 +27,15 @@ def with_entries(statements: Sequence[Statement], names: Names) -> list[Statemen
         for rows in ([[f"{i}{j}" for j in figures] for i in figures], [[f"{i}"] for i in figures]):
             if count > 1 and all(letter + index in said for row in rows for index in row):
                 literals[letter] = _literal(letter, rows)
-    return [_put(sides, literals, names) for sides in made] if literals else list(statements)
+    return [_put(sides, literals, names) for sides in made]
 
 
 def _also(sides: Statement, statements: Sequence[Statement]) -> list[Statement]:
     """M_{21} = … of M_{12} = M_{21} = …."""
     first = {alone(other[0]) for other in statements}
-    inner = [side for side in sides[1:-1] if (name := alone(side)) and ENTRY.fullmatch(name) and name not in first]
+    others = [" ".join(other) for other in statements if other is not sides]
+    inner = [side for side in sides[1:-1] if (name := alone(side)) and ENTRY.fullmatch(name) and name not in first
+             and uses(name, others)]  # fmt: skip
     return [(written_alone(side), sides[-1]) for side in inner]
 
 

@@ -23,9 +23,10 @@ from .energies import Energy, energy, evident_rates
 from .entries import with_entries
 from .letters import Names, alone, names_of, with_accents, with_bold_apart
 from .partial import rows_of_partial
-from .points import of_unknown_points
+from .points import of_squared_speeds, of_unknown_points
 from .products import apart, index_first
 from .sorting import ACCELERATION, Sorted, is_abstract, sorted_statements
+from .states import with_states
 from .words import formulas_of
 
 ENERGIES = ("kinetic", "potential", "lagrangian", "hamiltonian")
@@ -75,6 +76,11 @@ def as_note(data: dict[str, Any], usual: list[dict[str, str]] | None = None) -> 
 def is_worded(data: Mapping[str, Any]) -> bool:
     """Whether a text has words, or marks of formulas, as notes have."""
     return any(WORDED.search(text) for text in lines_of(data))
+
+
+def _texts(define: object) -> dict[str, str]:
+    """The definitions that are texts."""
+    return {str(k): v for k, v in define.items() if is_fit(v)} if isinstance(define, dict) else {}
 
 
 def is_fit_table(data: Mapping[str, Any]) -> bool:
@@ -127,7 +133,8 @@ def _with_energy(
             text = with_momenta(text, names)
         if kind == "lagrangian" and "L" in names.all:  # L is a length, and the letter in a font the Lagrangian
             text = IN_FONT.sub("ℒ ", text)
-        found: Energy = energy(kind, by_rule(_statements(text, names)), names)
+        said = of_squared_speeds(by_rule(_statements(text, names)), names)
+        found: Energy = energy(kind, of_unknown_points(said, names), names)
     except InvalidInput as error:
         raise InvalidInput(f"{kind}: {error}") from None
     if kind in ("kinetic", "lagrangian"):
@@ -154,7 +161,8 @@ def _with_equations(data: dict[str, Any], names: Names, new: dict[str, str], ste
         except InvalidInput as error:
             raise InvalidInput(f"equations.{label:.40}: {error}") from None
     try:
-        statements = with_entries(of_unknown_points(by_rule(statements), names), names)
+        statements = with_states(by_rule(statements), names, _texts(data.get("define")))
+        statements = with_entries(of_unknown_points(statements, names), names)
         found: Sorted = sorted_statements(with_columns(statements, names), names)
         more, equal = rows_of_partial(found.partial, names, data)
         found.rows, found.steps = more + found.rows, found.steps + equal
