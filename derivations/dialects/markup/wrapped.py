@@ -11,6 +11,7 @@ from typing import Any
 from ..letters.every_text import everywhere
 from ..statements import is_program
 from .prose import BRACED, is_whole
+from .typst_text import typst_text
 
 # reStructuredText: what is indented below, behind options as :label:
 DIRECTIVE = re.compile(
@@ -28,6 +29,8 @@ DISPLAYED = re.compile(r"\$|\\\[|\\begin\s*\{(?:equation|align|gather|eqnarray|m
 COMMENT = re.compile(r"[ \t]*(?://[/!]?|#)(?=\s|$)")
 BLOCK = re.compile(r"^\s*/\*[*!]?(?P<inner>.*)\*/\s*$", re.DOTALL)
 STARRED = re.compile(r"(?m)^[ \t]*\*(?=\s)")
+FENCED = re.compile(r"(?m)^[ \t]*(?:```|~~~)")
+TICKED = re.compile(r"(?m)^[ \t]*`(?P<inner>[^`\n]{1,400})`[ \t]*[.,;]?[ \t]*$")
 ESCAPED = re.compile(r"(?<!\\)\\_")  # an index of LaTeX that Markdown would take for italics
 
 
@@ -40,10 +43,13 @@ def _unwrapped(text: str) -> str:
     text = _uncommented(text)
     if is_program(text):
         return text
+    text = typst_text(text)
     text = TAGS.sub(lambda m: _display(m["a"] or m["b"] or ""), text)
     if ".. math::" in text:
         text = DIRECTIVE.sub(lambda m: _display(f"{m['first']}\n{OPTION.sub('', m['inner'])}"), text)
     text = ROLE.sub(lambda m: f"${m['inner']}$", text)
+    if FENCED.search(text):  # beside formulas in fences, a line in backticks is one more
+        text = TICKED.sub(lambda m: m["inner"], text)
     lines = [line for line in text.split("\n") if line.strip()]
     braced = [BRACED.match(line) for line in lines]
     if len(lines) > 1 and all(m and is_whole(m["inner"]) for m in braced):

@@ -6,10 +6,12 @@ import re
 from collections.abc import Sequence
 
 from ..given_names import OF_COORDINATES
+from ..names import plain_name, spelling
 from .displays import Statement
 from .letters import Names, alone, unfonted, uses, written_alone
 
 ENTRY = re.compile(r"(?P<letter>[A-Za-z])(?P<index>[1-9]{1,2})")
+LITERAL = re.compile(r"\s*(?:\\left\s*)?(?:\[|\\begin\s*\{[pbB]?(?:small)?matrix\})")
 MOTION = re.compile(r"\\ddot")
 
 
@@ -28,6 +30,28 @@ def with_entries(statements: Sequence[Statement], names: Names) -> list[Statemen
             if count > 1 and all(letter + index in said for row in rows for index in row):
                 literals[letter] = _literal(letter, rows)
     return [_put(sides, literals, names) for sides in made]
+
+
+def without_arguments(statements: Sequence[Statement], names: Names) -> list[Statement]:
+    """The statements with H in place of H(u), where H = [u, 0]ᵀ says that it is a column with u in it: no product."""
+    made = list(statements)
+    for sides in statements:
+        name = alone(sides[0]) if len(sides) > 1 else None
+        if name is None or name in names.all or not LITERAL.match(sides[-1]):
+            continue
+        sides_of_all = [side for other in statements for side in other]
+        for m in {m[0]: m for side in sides_of_all for m in _call(name).finditer(side)}.values():
+            argument = plain_name(m["u"])
+            if argument in names.quantities and uses(argument, [sides[-1]]):
+                call = re.compile(re.escape(m[0]))
+                made = [tuple(call.sub(f" {m['x']} ", side) for side in x) for x in made]
+    return made
+
+
+def _call(name: str) -> re.Pattern[str]:
+    return re.compile(
+        rf"(?<![A-Za-z\\])(?P<x>{spelling(name).pattern})\s*\(\s*(?P<u>\\?[A-Za-zα-ω]\w{{0,8}}(?:_\{{\w+\}})?)\s*\)"
+    )
 
 
 def _also(sides: Statement, statements: Sequence[Statement]) -> list[Statement]:
