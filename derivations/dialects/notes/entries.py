@@ -5,10 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from ....models.errors import InvalidInput
 from ..given_names import OF_COORDINATES
 from ..names import plain_name, spelling
 from .displays import Statement
 from .letters import Names, alone, unfonted, uses, written_alone
+from .states import entries
 
 ENTRY = re.compile(r"(?P<letter>[A-Za-z])(?P<index>[1-9]{1,2})")
 LITERAL = re.compile(r"\s*(?:\\left\s*)?(?:\[|\\begin\s*\{[pbB]?(?:small)?matrix\})")
@@ -20,6 +22,7 @@ def with_entries(statements: Sequence[Statement], names: Names) -> list[Statemen
 
     M_{12} = M_{21} = … says both. A letter that is a quantity as well, as g, is meant only with arguments, g(q).
     """
+    _require_names_once(statements, names)
     count = len(names.coordinates)
     made = [*statements, *(s for sides in statements for s in _also(sides, statements))]
     said = {name for sides in made if (name := alone(sides[0])) and len(sides) > 1}
@@ -30,6 +33,15 @@ def with_entries(statements: Sequence[Statement], names: Names) -> list[Statemen
             if count > 1 and all(letter + index in said for row in rows for index in row):
                 literals[letter] = _literal(letter, rows)
     return [_put(sides, literals, names) for sides in made]
+
+
+def _require_names_once(statements: Sequence[Statement], names: Names) -> None:
+    """Raises InvalidInput where a column that only names what stands behind it has a name twice, (G_1, G_1) = …."""
+    for side in (side for sides in statements for side in sides):
+        listed = [alone(entry) for entry in entries(side)]
+        twice = next((x for x in listed if x and x not in names.all and listed.count(x) > 1), None)
+        if twice and None not in listed:
+            raise InvalidInput(f"{twice} stands twice in one column: which entry is it? Give each a name of its own")
 
 
 def without_arguments(statements: Sequence[Statement], names: Names) -> list[Statement]:

@@ -81,7 +81,7 @@ def _said(sides: Statement, names: Names) -> dict[str, str]:
         return {name: sides[1]}
     columns = [found for side in sides if (found := entries(side))]
     values = next((c for c in columns if all(_motion(x, names) for x in c)), None)
-    whole = alone(sides[0])
+    whole = _letter(alone(sides[0]), sides)
     if values is None or len(columns) + (whole is not None) < len(sides):
         return {}
     others = [c for c in columns if c is not values and len(c) == len(values)]
@@ -115,11 +115,18 @@ def _state(side: str, order: list[str], names: Names) -> list[str]:
     if of:
         return [m[0] if m and m[1] == 1 else "" for m in of]
     is_bold = BOLD.search(side) is not None
-    whole = derived(BOLD_WHOLE.sub(r" \g<x> ", BOLD.sub(" ", side)) if is_bold else side)
+    plain = re.sub(r"\{\s*\{([^{}]*)\}\s*\}", r"{\1}", BOLD.sub(" ", side)) if is_bold else side
+    whole = derived(BOLD_WHOLE.sub(r" \g<x> ", plain) if is_bold else side)
     if whole is None or whole[1] != 1 or not (is_bold or whole[0] not in names.all):
         return []
-    counted = sorted(name for name in order if re.fullmatch(rf"{re.escape(whole[0])}[1-9]", name))
-    return counted if counted == [f"{whole[0]}{k}" for k in range(1, len(counted) + 1)] else []
+    letter = _letter(whole[0], (side,))
+    counted = sorted(name for name in order if re.fullmatch(rf"{re.escape(letter or ' ')}[1-9]", name))
+    return counted if counted == [f"{letter}{k}" for k in range(1, len(counted) + 1)] else []
+
+
+def _letter(name: str | None, sides: Sequence[str]) -> str | None:
+    """x of x_{9}, which stands for a bold x beside a plain one."""
+    return name[:-1] if name and len(name) == 2 and name[1] == "9" and "_{9}" in sides[0] else name
 
 
 def _rate(value: str, names: Names) -> str:

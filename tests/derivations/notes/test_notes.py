@@ -45,7 +45,11 @@ from furiko.derivations.grading.grade import grade_text
 from furiko.models.errors import InvalidInput
 
 HERE = Path(__file__).parent
-NOTES = tomllib.loads((HERE / "notes.toml").read_text(encoding="utf-8"))
+NOTES = {
+    name: note
+    for file in ("notes.toml", "printed.toml")
+    for name, note in tomllib.loads((HERE / file).read_text(encoding="utf-8")).items()
+}
 DECLARED = tomllib.loads((HERE / "mechanisms.toml").read_text(encoding="utf-8"))
 FIELDS = ("kinetic", "potential", "lagrangian", "hamiltonian")
 NOTICED = ("wrong", "refused", "assumed")  # right on a condition that is said, as that the angle is counted otherwise
