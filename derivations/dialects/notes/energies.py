@@ -50,10 +50,9 @@ def energy(kind: str, statements: Sequence[Statement], names: Names) -> Energy:
     """What the statements of one field say. Raises InvalidInput where none says the energy, or more than is needed."""
     said, values = _sorted(kind, [rooted(sides, names) for sides in statements], names)
     wrong = next((side for side in said[:-1] if kind in SUMS and SUMS[kind].match(side)), None)
-    # T + U of a force function U = -V: what L comes to is written out behind it, and that is judged
-    written_out = not used(said[-1]) - names.all and any(uses(c, said[-1:]) for c in names.coordinates)
-    if wrong and not written_out:
-        raise InvalidInput(f"{wrong.strip()[:20]}: the Lagrangian is T - U, and the Hamiltonian T + U; which is meant?")
+    if wrong:
+        raise InvalidInput(f"{wrong.strip()[:20]}: the Lagrangian is T - U, and the Hamiltonian T + U; which is meant? Where U "
+                           "is a force's function, -V, leave this side out")  # fmt: skip
     found = Energy(said[-1])
     needed, texts = dict[str, None](), said
     while texts:
