@@ -24,7 +24,8 @@ def with_entries(statements: Sequence[Statement], names: Names) -> list[Statemen
     """
     _require_names_once(statements, names)
     count = len(names.coordinates)
-    made = [*statements, *(s for sides in statements for s in _also(sides, statements))]
+    also = [s for sides in statements for s in _also(sides, statements)]
+    made = [*statements, *also]
     said = {name for sides in made if (name := alone(sides[0])) and len(sides) > 1}
     literals: dict[str, str] = {}
     figures = range(1, count + 1)
@@ -32,7 +33,9 @@ def with_entries(statements: Sequence[Statement], names: Names) -> list[Statemen
         for rows in ([[f"{i}{j}" for j in figures] for i in figures], [[f"{i}"] for i in figures]):
             if count > 1 and all(letter + index in said for row in rows for index in row):
                 literals[letter] = _literal(letter, rows)
-    return [_put(sides, literals, names) for sides in made]
+    written = [_put(sides, literals, names) for sides in statements]
+    texts = [side for sides in written for side in sides if alone(side) is None]
+    return written + [sides for sides in also if uses(alone(sides[0]) or "", texts)]
 
 
 def _require_names_once(statements: Sequence[Statement], names: Names) -> None:
@@ -49,12 +52,12 @@ def without_arguments(statements: Sequence[Statement], names: Names) -> list[Sta
     made = list(statements)
     for sides in statements:
         name = alone(sides[0]) if len(sides) > 1 else None
-        if name is None or name in names.all or not LITERAL.match(sides[-1]):
+        if name is None or name in names.all or not LITERAL.match(value := sides[len(sides) - 1]):
             continue
         sides_of_all = [side for other in statements for side in other]
         for m in {m[0]: m for side in sides_of_all for m in _call(name).finditer(side)}.values():
             argument = plain_name(m["u"])
-            if argument in names.quantities and uses(argument, [sides[-1]]):
+            if argument in names.quantities and uses(argument, [value]):
                 call = re.compile(re.escape(m[0]))
                 made = [tuple(call.sub(f" {m['x']} ", side) for side in x) for x in made]
     return made
@@ -69,9 +72,7 @@ def _call(name: str) -> re.Pattern[str]:
 def _also(sides: Statement, statements: Sequence[Statement]) -> list[Statement]:
     """M_{21} = … of M_{12} = M_{21} = …."""
     first = {alone(other[0]) for other in statements}
-    others = [" ".join(other) for other in statements if other is not sides]
-    inner = [side for side in sides[1:-1] if (name := alone(side)) and ENTRY.fullmatch(name) and name not in first
-             and uses(name, others)]  # fmt: skip
+    inner = [side for side in sides[1:-1] if (name := alone(side)) and ENTRY.fullmatch(name) and name not in first]
     return [(written_alone(side), sides[-1]) for side in inner]
 
 
