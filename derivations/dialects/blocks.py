@@ -35,8 +35,8 @@ APART = re.compile(rf"(?:[,;.&]|\\q?quad){_GAP}{{0,20}}$")
 ROW_STOPS = re.compile(rf"{_GAP}{{0,20}}[.,;]?{_GAP}{{0,20}}(?:$|\\\\|\\end|\\q?quad)")
 AND = re.compile(r"\s*(?:and|und|et|oraz|och|及び|および|と|,|;|&)\s*")
 SYSTEM = re.compile(
-    r"(?:\\left\s*(?:\\\{|\\lbrace|\.)\s*)?\\begin\s*\{(?P<of>cases|array|aligned|alignedat|gathered|split|matrix)\}"
-    r"(?:\s*\{[clr|@{}\s0-9]{0,20}\})?(?P<inner>.*?)\\end\s*\{(?P=of)\}(?:\s*\\right\s*(?:\.|\\\}|\\rbrace))?",
+    r"(?:\\left\s*(?:\\\{|\\lbrace|\.)\s*)?\\begin\s*\{(?P<of>cases|array|aligned|alignedat|gathered|split|matrix|align|gather)(?P<star>\*?)\}"
+    r"(?:\s*\{[clr|@{}\s0-9]{0,20}\})?(?P<inner>.*?)\\end\s*\{(?P=of)(?P=star)\}(?:\s*\\right\s*(?:\.|\\\}|\\rbrace))?",
     re.DOTALL,
 )
 ROW_ENDS = re.compile(r"\\\\(?:\s*\[[^\[\]]{1,12}\])?")
@@ -68,7 +68,10 @@ LIST = re.compile(r"^\s*\{(?P<inner>[^{}]*==[^{}]*)\}\s*$", re.DOTALL)
 TWO_EQUALS = re.compile(r"(?<![=<>!])==(?!=)")
 BULLET = re.compile(r"(?m)^\s*[•▪‣◦]\s*")
 COUNTED = re.compile(r"(?m)^\s*\(?(?P<k>[0-9]{1,2})\)\s+(?=\S)")
-NUMBER = re.compile(r"(?:(?P<far>\s{2,}|\t|\\q?quad\s*)|\s)\((?:[0-9]{1,3}(?:\.[0-9]{1,3})?[a-z]?)\)\s*$")
+# Behind a display, $$…$$ (1), it is within no formula
+NUMBER = re.compile(
+    r"(?:(?P<far>\s{2,}|\t|\\q?quad\s*|(?<=\$\$)\s*|(?<=\\\])\s*)|\s)\((?:[0-9]{1,3}(?:\.[0-9]{1,3})?[a-z]?)\)\s*$"
+)
 OPERATOR = re.compile(r"(?:[-+*/=^−·×(\[{]|\\(?:cdot|times|left\s*\())\s*$")  # what stands behind it is an operand
 MODEL = re.compile(r"^\s*(?:partial\s+)?model\s+\w+.*?\bequation\b(?P<rows>.*?)\bend\s+\w+\s*;?\s*$", re.DOTALL)
 # A matrix keeps the marks between its entries

@@ -98,6 +98,8 @@ def spelling(name: str, joined: bool = True) -> re.Pattern[str]:
         # A Greek word or more letters than one: the backslash or the figure ends what stands before it
         if joined or word in GREEK or not rest[0].isalpha():
             forms.append(low + end)
+        if rest[0].isalpha() and rest[-1].isdigit():  # den₁
+            forms.append("".join(f"[{c}{LOW[c]}]" if c.isdigit() else c for c in rest) + rf"(?![0-9{LOWS}])")
     if all(c in LOW for c in rest):
         forms.append("".join(LOW[c] for c in rest) + rf"(?![{LOWS}])")
     return re.compile(rf"{base}(?:{'|'.join(forms)})")

@@ -43,7 +43,7 @@ DOT_IN_BRACES = re.compile(rf"\{{\s*(?P<x>\\d?dot\s*\{{\s*(?:\\(?:{_GREEK})|[A-Z
 def pasted(line: str) -> str:
     """The line in the reader's notation."""
     line = DOT_APART.sub(lambda found: found["x"] + found["dots"] + found["blank"], line.translate(INVISIBLE))
-    line = TYPST_DOT.sub(_dotted, line)
+    line = typst_dots(line)
     line = DECIMAL_COMMA.sub(lambda found: padded(f"{found['whole']}.{found['rest']}", found), line)
     line = REMARK.sub(lambda found: " " * len(found[0]), line)
     line = SPACED.sub(lambda found: ("\\\\" if found[0].startswith("\\\\") else "").ljust(len(found[0])), line)
@@ -53,6 +53,11 @@ def pasted(line: str) -> str:
     for pattern in (FONT, LETTERS, UNBRACED):
         line = pattern.sub(lambda found: f" {found['x']} ".rjust(len(found[0])), line)
     return line
+
+
+def typst_dots(line: str) -> str:
+    """dot.double(theta)_1 as theta_1''."""
+    return TYPST_DOT.sub(_dotted, line)
 
 
 def _dotted(found: re.Match[str]) -> str:

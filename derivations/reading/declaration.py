@@ -274,6 +274,7 @@ def _spellings(base: str, used: set[str]) -> tuple[str, ...]:
     shared = [letter] if used & twins == {base} else []
     family = next((words for words in ANGLES.values() if letter in words), ()) if shared else ()
     own = (base, *GREEK.get(base, ()), *((f"\\{base}",) if base in GREEK else ()))
+    own = (*own, "ℓ", "\\ell") if base == "l" else own
     return tuple(dict.fromkeys((*own, *family, *(("th",) if shared == ["theta"] else ()))))
 
 

@@ -22,10 +22,12 @@ from ..dialects.letters.indices import plain_indices
 from ..dialects.letters.left_sides import without_left_sides
 from ..dialects.letters.members import without_low_lines, without_pointers
 from ..dialects.letters.odd_waves import with_odd_waves
+from ..dialects.letters.said_motions import with_said_motions
 from ..dialects.markup.asciimath import without_ticks
 from ..dialects.markup.macros import plain_macros
 from ..dialects.markup.pages import from_pages
 from ..dialects.markup.prose import FormulasInWords
+from ..dialects.markup.wrapped import unwrapped
 from ..dialects.notes.note import as_note, is_worded
 from ..dialects.table import translated
 from ..dialects.times import with_times
@@ -53,7 +55,7 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     """
     known_fields(data)
     data = _of_one_text(data)
-    data = plain_macros(without_ticks(without_pointers(data)))
+    data = with_said_motions(plain_macros(without_ticks(unwrapped(without_pointers(data)))))
     require_no_time(data)
     data = with_phases(data)
     spelled = _spelled(data)
@@ -124,7 +126,8 @@ def _as_note(data: dict[str, Any], first: InvalidInput) -> dict[str, Any]:
     try:
         note = as_note(data, _bodies(data))
     except InvalidInput as error:
-        if is_worded(data) or str(error).startswith("bodies: "):
+        # what the rows lacked in their bodies, a note's quantities may have
+        if is_worded(data) or str(error).startswith("bodies: ") or str(first).startswith("bodies "):
             raise
         raise first from None
     if note is None:

@@ -31,7 +31,7 @@ SQUARED = re.compile(
     rf"(?P<dotted>\\d?dot\s*\{{\s*(?:{GREEK})\s*(?:_\s*(?:\{{\s*\w+\s*\}}|\w))?)\s*(?P<power>\^(?:\{{\s*\d\s*\}}|\d))\s*\}}"
 )
 BLANK_OR_DIVISION = re.compile(r"(?<=[^\s\\])\\(?= \S)")
-TRANSPOSED = re.compile(r"(?P<list>\[[^\[\];]{0,2000}\])\.?'")
+TRANSPOSED = re.compile(r"(?P<list>\[[^\[\];]{0,2000}\])(?:\.?'|ᵀ|⊤|\^\s*T(?![A-Za-z_]))")
 MATLAB = re.compile(r"\[[^\[\]]*;[^\[\]]*\]")
 _ENTRY = r"(?:[A-Za-z]{1,3}_?[1-9]{2}|0)"  # M11, which is an entry and no factor
 NUMBERED = re.compile(rf"\[\s*{_ENTRY}(?:[ \t]+{_ENTRY})+\s*(?:;\s*{_ENTRY}(?:[ \t]+{_ENTRY})+\s*)+\]")

@@ -141,6 +141,8 @@ def read_table(data: dict[str, Any], slashes: int = 0) -> Submission:
 def known_fields(data: dict[str, Any]) -> None:
     """Raises InvalidInput where a field is not known, or definitions are no table."""
     for name in data:
+        if name in ("gravity", "g"):
+            raise InvalidInput(f"{name!r}: no such field; [define] says what g is called or worth, as in g = 'G'")
         if name not in FIELDS:
             raise InvalidInput(f"{name!r:.40}: no such field{nearest(name, FIELDS)}; known are {', '.join(FIELDS)}")
     if not isinstance(data.get("define", {}), dict):

@@ -84,6 +84,7 @@ CENTRE = re.compile(
 )
 PRIME = tuple("'′″")
 PRIMES = re.compile("['′″]{1,2}")
+DOTS = re.compile("[\u0307\u0308]{1,2}")
 COMMAND = re.compile(r"\\[A-Za-z]+")
 WORD = re.compile(r"[A-Za-z]+")
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(?:_[A-Za-z0-9]+)?")
@@ -331,14 +332,18 @@ class _Tokenizer:
     def declared(self, at: int, longer: int = 0) -> tuple[Token, int] | None:
         """The longest of the author's own names that stands here, if it is longer than ``longer``."""
         best, end = "", at + longer
+        dots = DOTS.match(self.line, at + 1)  # ω̇₁, where the author says what ω₁ is
+        over = dots[0] if dots and self.words.kind(self.line[at]) is None else ""
+        line = self.line[: at + 1] + self.line[at + 1 + len(over) :]
         for name, pattern in self.own:
-            found = pattern.match(self.line, at)
-            if found and found.end() > end:
-                best, end = name, found.end()
+            found = pattern.match(line, at)
+            if found and found.end() + len(over) > end:
+                best, end = name, found.end() + len(over)
         if not best:
             return None
         primes = PRIMES.match(self.line, end)
         count = sum(2 if c == "″" else 1 for c in primes[0]) if primes else 0
+        count += sum(1 if c == "\u0307" else 2 for c in over)
         return Token("name", best, at, index=count), end + (len(primes[0]) if primes else 0)
 
     def of_rates(self, at: int) -> tuple[Token, int] | None:

@@ -10,6 +10,7 @@ import prove_fifth_code
 import prove_fifth_notes
 import prove_fresh
 import prove_pasted
+import prove_seventh
 import prove_seventh_programs
 import prove_sixth
 import prove_strange_machines
@@ -28,6 +29,7 @@ PROOFS = {
     "fourth_collection": prove_fresh.PROOFS,
     "fifth_collection": prove_fifth_code.PROOFS | prove_fifth_notes.PROOFS,
     "sixth_collection": prove_sixth.PROOFS,
+    "seventh_collection": prove_seventh.PROOFS,
     "seventh_programs": prove_seventh_programs.PROOFS,
 }
 

@@ -30,6 +30,7 @@ UNIT = re.compile(
 OWN_UNIT = re.compile(
     r"(?:\s|\\(?:meter|metre|second|kilogram|newton|joule|radian|per|squared?|cubed?|cubic|m|s|kg|N|J|rad|tothe\s*\d)(?![A-Za-z])|(?:kg|rad|[msNJ])(?![A-Za-z])|[/^.2~-])*"
 )
+WORD_BEHIND = re.compile(r"(?<=[A-Za-zα-ωℓ])(?P<low>[₀-₉]{1,2})_(?P<x>[A-Za-z]{2,8})(?![A-Za-z0-9_])")  # L₁_rest
 COUNTED = re.compile(r"(?P<x>\\?[A-Za-zα-ωϕϑ]+)\s*\[\s*(?P<k>[0-9])\s*\]")
 PROGRAM = re.compile(r"\b(?:def|function|lambda|return)\b|[;{]\s*\n")
 
@@ -59,6 +60,7 @@ def _plain(text: str) -> str:
     text = FONT_INDEX.sub(lambda m: "_{" + (m["both"] or m["x"] or m["old"] or m["bare"]).strip() + "}", text)
     text = MIXED_INDEX.sub(lambda m: "_{" + (m["a"] or "") + m["b"] + (m["c"] or "") + "}", text)
     text = GREEK_INDEX.sub(lambda m: "_{" + (m["braced"] or m["bare"]) + "}", text)
+    text = WORD_BEHIND.sub(lambda m: "_{" + m["low"].translate(FIGURES) + m["x"] + "}", text)
     text = UNIT.sub(_number, text)
     return SHORT_WAVE.sub(lambda m: m["wave"] + "_{" + m["low"].translate(FIGURES) + "}", text)
 

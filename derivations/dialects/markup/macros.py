@@ -8,10 +8,13 @@ refused where it is read.
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 from typing import Any
 
 from ..letters.every_text import everywhere
+from ..names import plain_name
 from ..statements import is_program
+from ..table import known_of
 
 _ORDINARY = "dv|derivative|odv|od|dod|tod|deriv|der|diff|odd|dodd"
 _PARTIAL = "pdv|partialderivative|pderivative|pd|dpd|tpd|pderiv|diffp|pdd"
@@ -30,6 +33,11 @@ FRACTION = re.compile(r"\\(?:nicefrac|sfrac|cfrac|flatfrac)(?=\s*\{)")
 BRACKET = re.compile(
     r"\\(?:qty|quantity|pqty|bqty|Bqty|mleft|mright)(?![A-Za-z])(?!\s*\{[^{}]*\}\s*\{)(?=\s*[(){}\[\]\\])"
 )
+# As an encyclopedia's text has it, {\\frac {\\mathrm {d} }{\\mathrm {d} t}}{\\left(…\\right)}
+_D = r"(?:\\mathrm\s*\{\s*d\s*\}|d)"
+BY_TIME = re.compile(
+    rf"\{{\s*\\[dt]?frac\s*\{{\s*{_D}\s*\}}\s*\{{\s*{_D}\s*t\s*\}}\s*\}}(?=\s*\{{?\s*(?:\\left\s*)?[(\[])"
+)
 PAREN = re.compile(r"\\[lr](?P<of>paren|brack)(?![A-Za-z])")
 BOLD = re.compile(r"\\(?:vb|va|vu)\*?(?=\s*\{)")
 UPRIGHT = re.compile(r"\\mathop\s*\{\s*\}\s*(?:\\!)?\s*")
@@ -38,18 +46,33 @@ _M = r"(?:\\(?:mathbf|boldsymbol|bm|mathrm)\s*(?:\{\s*(?P<a>[A-Z])\s*\}|(?P<b>[A
 DETERMINANT = re.compile(
     rf"\\(?:det|operatorname\s*\{{\s*det\s*\}})\s*(?P<open>(?:\\left\s*)?\(\s*)?{_M}(?(open)\s*(?:\\right\s*)?\))"
 )
+# Scheme's {D}^{2}\\theta\\left(t\\right): D of a function of time that is a coordinate
+OPERATOR = re.compile(
+    r"(?<!_\{)(?<![A-Za-z\\_])(?:\{\s*D\s*\}|D)\s*(?P<two>\^\s*(?:\{\s*2\s*\}|2))?\s*(?P<x>\\?[A-Za-z]+(?:\s*_\s*(?:\{\s*\w{1,8}\s*\}|\w))?)\s*(?:\\left\s*)?\(\s*t\s*(?:\\right\s*)?\)"
+)
 MOST = 200
 
 
 def plain_macros(data: dict[str, Any]) -> dict[str, Any]:
     """The fields with plain LaTeX in place of these commands; programs, and texts without LaTeX, stay."""
-    return everywhere(data, _plain)
+    made = everywhere(data, _plain)
+    known, define = known_of(made), made.get("define", {})
+    own = {*known.quantities, *known.coordinates, *(map(str, define) if isinstance(define, dict) else ())}
+    if "D" in own or not known.coordinates:
+        return made
+    return everywhere(made, lambda text: OPERATOR.sub(lambda m: _by_operator(m, known.coordinates), text))
+
+
+def _by_operator(found: re.Match[str], coordinates: Collection[str]) -> str:
+    dots = "ddot" if found["two"] else "dot"
+    return f" \\{dots}{{{found['x'].strip()}}} " if plain_name(found["x"]) in coordinates else found[0]
 
 
 def _plain(text: str) -> str:
     if "\\" not in text or is_program(text):
         return text
     text = BEGINS.sub(lambda m: f"\\{m['which']}{{", text)
+    text = BY_TIME.sub(lambda _: r"\frac{d}{dt}", text)
     text = DOTS.sub(lambda m: f"\\{m['dots']}dot", text)
     text = ABOVE.sub(_dotted, text)
     for _ in range(MOST):

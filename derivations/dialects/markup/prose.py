@@ -95,12 +95,13 @@ def from_headed(text: str) -> str:
 def from_arrow(text: str) -> str:
     """Without the arrow that says which way a moment turns, and the {\\displaystyle …} of an alternative text."""
     braced = BRACED.match(text)
-    if braced and _is_whole(braced["inner"]):
+    if braced and is_whole(braced["inner"]):
         text = braced["inner"]
     return ARROW.sub(" ", text, count=1)
 
 
-def _is_whole(inner: str) -> bool:
+def is_whole(inner: str) -> bool:
+    """Whether every brace in a text is closed in it."""
     depth = 0
     for at, c in enumerate(inner):
         if c in "{}" and inner[at - 1 : at] != "\\":

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from unicodedata import normalize
 
 from ....models.errors import InvalidInput
 from ..names import GREEK, plain_name, spelling
@@ -18,6 +19,8 @@ LIST = re.compile(
     rf"(?:{SIGN})?\s*$",
     re.DOTALL,
 )
+DOTTED = re.compile("(?<![A-Za-z\\\\])(?P<x>[qxz])(?P<dots>[\u0307\u0308]{1,2})(?![0-9₀-₉_])")
+DOUBLE = ("\u0308", "\u0307\u0307")
 MATRIX = re.compile(r"\\begin\s*\{[a-zA-Z]*matrix\}")
 
 
@@ -55,6 +58,16 @@ def with_columns(statements: Sequence[Statement], names: Names) -> list[Statemen
     return kept
 
 
+def dotted_columns(statements: Sequence[Statement], names: Names) -> list[Statement]:
+    r"""The statements with \ddot{q} for q̈, where q is no coordinate."""
+
+    def one(found: re.Match[str]) -> str:
+        dots = "ddot" if found["dots"] in DOUBLE else "dot"
+        return found[0] if found["x"] in names.all else f"\\{dots}{{{found['x']}}}"
+
+    return [tuple(DOTTED.sub(one, normalize("NFD", side)) for side in sides) for sides in statements]
+
+
 def _of_others(sides: Statement, letter: str, said: set[str], names: Names) -> bool:
     """Whether an equation has letters besides this one that nobody says, so that nothing can be read of it."""
     return any(x not in names.all and x not in said and x not in (letter, "d", "e", "T") for x in used(" ".join(sides)))
@@ -83,12 +96,17 @@ def _diagonal(statements: Sequence[Statement]) -> list[str]:
     """The diagonal of the matrix that is called M, or B, D or H of robotics."""
     for sides in statements:
         if alone(sides[0]) in ("M", "D", "H", "B", "A"):
-            found = re.search(
+            matrix = re.search(
                 r"\\begin\s*\{[a-zA-Z]*(?:matrix|array)\}(?:\{[clr|]*\})?(.*?)\\end", sides[-1], re.DOTALL
             )
-            rows = [row.split("&") for row in re.split(r"\\\\", found[1]) if row.strip()] if found else []
+            rows = [row.split("&") for row in re.split(r"\\\\", matrix[1]) if row.strip()] if matrix else []
             if rows and all(len(row) == len(rows) for row in rows) and len(rows) > 1:
                 return [row[k] for k, row in enumerate(rows)]
+    said = {name: sides[-1] for sides in statements if (name := alone(sides[0])) and len(sides) > 1}
+    for letter in "MDHBA":  # or entry by entry, M_{11} = …
+        found = [said[f"{letter}{k}{k}"] for k in range(1, 10) if f"{letter}{k}{k}" in said]
+        if len(found) > 1:
+            return found
     return []
 
 

@@ -20,6 +20,9 @@ MOST_USES = 80
 def by_rule(statements: Sequence[Statement]) -> list[Statement]:
     """The statements with what a rule says of each figure that is used, in place of the rule."""
     rules = [(sides, found) for sides in statements if len(sides) == 2 and (found := RULE.match(sides[0]))]
+    others = [sides for sides in statements if all(sides is not rule for rule, _ in rules)]
+    # I_m of which no figure stands anywhere, I_1, is a name
+    rules = [(sides, found) for sides, found in rules if any(_use(found).search(x) for other in others for x in other)]
     kept = [sides for sides in statements if all(sides is not rule for rule, _ in rules)]
     new: dict[str, Statement] = {}
     for sides, found in rules:
@@ -30,9 +33,7 @@ def by_rule(statements: Sequence[Statement]) -> list[Statement]:
             raise InvalidInput(
                 f"{' = '.join(sides).strip()[:50]!r}: a rule with other indices than it counts; write out each"
             )
-        use = re.compile(
-            rf"(?<![A-Za-z\\]){re.escape(found['x'])}\s*(?:_\s*(?:\{{\s*(?P<ij>[1-9](?:\s*,?\s*[1-9])?)\s*\}}|(?P<i>[1-9]))|(?P<low>[₁-₉]{{1,2}}))"
-        )
+        use = _use(found)
         for m in (m for other in kept for side in other for m in use.finditer(side)):
             figures = re.sub(r"\D", "", (m["ij"] or m["i"] or m["low"]).translate(FIGURES))
             if len(figures) == len(letters) and len(new) < MOST_USES:
@@ -40,6 +41,13 @@ def by_rule(statements: Sequence[Statement]) -> list[Statement]:
                 new[name] = (name, _put(sides[1], dict(zip(letters, figures, strict=True))))
     said = {re.sub(r"[\s{}]", "", sides[0]) for sides in kept}
     return [*kept, *(sides for name, sides in new.items() if re.sub(r"[\s{}]", "", name) not in said)]
+
+
+def _use(rule: re.Match[str]) -> re.Pattern[str]:
+    """A rule's name with figures."""
+    return re.compile(
+        rf"(?<![A-Za-z\\]){re.escape(rule['x'])}\s*(?:_\s*(?:\{{\s*(?P<ij>[1-9](?:\s*,?\s*[1-9])?)\s*\}}|(?P<i>[1-9]))|(?P<low>[₁-₉]{{1,2}}))"
+    )
 
 
 def _put(value: str, figures: dict[str, str]) -> str:

@@ -205,7 +205,7 @@ def _lines(text: str) -> list[str]:
     r"""The lines of a text without \\\\, where each is an equation that says what one letter is; else the text."""
     lines = [line for line in cut(text, re.compile(r"\n")) if line.strip()]
     sides = [_sides(part) for line in lines for part in cut(line, WIDE) if part.strip()]
-    apart = len(lines) > 1 and all(len(x) == 2 and LETTER.match(x[0]) and not LETTER.match(x[1]) for x in sides)
+    apart = len(lines) > 1 and all(len(x) > 1 and LETTER.match(x[0]) and not LETTER.match(x[-1]) for x in sides)
     return lines if apart and not any(GOES_ON.search(line) for line in lines) else [text]
 
 

@@ -51,7 +51,8 @@ def energy(kind: str, statements: Sequence[Statement], names: Names) -> Energy:
     said, values = _sorted(kind, [rooted(sides, names) for sides in statements], names)
     wrong = next((side for side in said[:-1] if kind in SUMS and SUMS[kind].match(side)), None)
     if wrong:
-        raise InvalidInput(f"{wrong.strip()[:20]}: the Lagrangian is T - U, and the Hamiltonian T + U; which is meant?")
+        raise InvalidInput(f"{wrong.strip()[:20]}: the Lagrangian is T - U, and the Hamiltonian T + U; which is meant? Where U "
+                           "is a force's function, -V, leave this side out")  # fmt: skip
     found = Energy(said[-1])
     needed, texts = dict[str, None](), said
     while texts:

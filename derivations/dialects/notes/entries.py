@@ -5,11 +5,15 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from ....models.errors import InvalidInput
 from ..given_names import OF_COORDINATES
+from ..names import plain_name, spelling
 from .displays import Statement
-from .letters import Names, alone, unfonted, written_alone
+from .letters import Names, alone, unfonted, uses, written_alone
+from .states import entries
 
 ENTRY = re.compile(r"(?P<letter>[A-Za-z])(?P<index>[1-9]{1,2})")
+LITERAL = re.compile(r"\s*(?:\\left\s*)?(?:\[|\\begin\s*\{[pbB]?(?:small)?matrix\})")
 MOTION = re.compile(r"\\ddot")
 
 
@@ -18,8 +22,10 @@ def with_entries(statements: Sequence[Statement], names: Names) -> list[Statemen
 
     M_{12} = M_{21} = … says both. A letter that is a quantity as well, as g, is meant only with arguments, g(q).
     """
+    _require_names_once(statements, names)
     count = len(names.coordinates)
-    made = [*statements, *(s for sides in statements for s in _also(sides, statements))]
+    also = [s for sides in statements for s in _also(sides, statements)]
+    made = [*statements, *also]
     said = {name for sides in made if (name := alone(sides[0])) and len(sides) > 1}
     literals: dict[str, str] = {}
     figures = range(1, count + 1)
@@ -27,7 +33,40 @@ def with_entries(statements: Sequence[Statement], names: Names) -> list[Statemen
         for rows in ([[f"{i}{j}" for j in figures] for i in figures], [[f"{i}"] for i in figures]):
             if count > 1 and all(letter + index in said for row in rows for index in row):
                 literals[letter] = _literal(letter, rows)
-    return [_put(sides, literals, names) for sides in made] if literals else list(statements)
+    written = [_put(sides, literals, names) for sides in statements]
+    texts = [side for sides in written for side in sides if alone(side) is None]
+    return written + [sides for sides in also if uses(alone(sides[0]) or "", texts)]
+
+
+def _require_names_once(statements: Sequence[Statement], names: Names) -> None:
+    """Raises InvalidInput where a column that only names what stands behind it has a name twice, (G_1, G_1) = …."""
+    for side in (side for sides in statements for side in sides):
+        listed = [alone(entry) for entry in entries(side)]
+        twice = next((x for x in listed if x and x not in names.all and listed.count(x) > 1), None)
+        if twice and None not in listed:
+            raise InvalidInput(f"{twice} stands twice in one column: which entry is it? Give each a name of its own")
+
+
+def without_arguments(statements: Sequence[Statement], names: Names) -> list[Statement]:
+    """The statements with H in place of H(u), where H = [u, 0]ᵀ says that it is a column with u in it: no product."""
+    made = list(statements)
+    for sides in statements:
+        name = alone(sides[0]) if len(sides) > 1 else None
+        if name is None or name in names.all or not LITERAL.match(value := sides[len(sides) - 1]):
+            continue
+        sides_of_all = [side for other in statements for side in other]
+        for m in {m[0]: m for side in sides_of_all for m in _call(name).finditer(side)}.values():
+            argument = plain_name(m["u"])
+            if argument in names.quantities and uses(argument, [value]):
+                call = re.compile(re.escape(m[0]))
+                made = [tuple(call.sub(f" {m['x']} ", side) for side in x) for x in made]
+    return made
+
+
+def _call(name: str) -> re.Pattern[str]:
+    return re.compile(
+        rf"(?<![A-Za-z\\])(?P<x>{spelling(name).pattern})\s*\(\s*(?P<u>\\?[A-Za-zα-ω]\w{{0,8}}(?:_\{{\w+\}})?)\s*\)"
+    )
 
 
 def _also(sides: Statement, statements: Sequence[Statement]) -> list[Statement]:

@@ -25,6 +25,7 @@ FONT = re.compile(
 WORDY = {"sin", "cos", "tan", "sgn", "sign", "abs", "sqrt", "d", "t", "g", "pi", "left", "right", "frac", "tfrac", "dfrac",
          "dot", "ddot", "cdot", "times", "begin", "end", "inv", "T", "top", "e", "partial", "big", "over"}  # fmt: skip
 USED = re.compile(rf"\\(?P<command>[A-Za-z]+)(?P<i>{_INDEX})|(?P<word>[A-Za-z]|[{''.join(GLYPHS)}])(?P<j>{_INDEX})")
+WAVE = re.compile(r"(?<![A-Za-z\\])(?:sin|cos|tan)(?![A-Za-z])")
 ENVIRONMENT = re.compile(r"\\(?:begin|end)\s*\{\w+\*?\}(?:\{[clr|]*\})?")
 
 
@@ -70,7 +71,12 @@ def written_alone(side: str) -> str:
 
 def unfonted(text: str) -> str:
     """Letters without their fonts."""
-    return FONT.sub(lambda m: f" {m['x'] or m['y']} " if not _is_word(m["x"]) else m[0], text)
+
+    def one(found: re.Match[str]) -> str:
+        behind = "" if found.string[found.end() : found.end() + 1] == "_" else " "
+        return found[0] if _is_word(found["x"]) else f" {found['x'] or found['y']}{behind}"
+
+    return FONT.sub(one, text)
 
 
 def _is_word(inner: str | None) -> bool:
@@ -80,7 +86,7 @@ def _is_word(inner: str | None) -> bool:
 def used(text: str) -> set[str]:
     """The plain names that may stand in a text, letter by letter."""
     found: set[str] = set()
-    for m in USED.finditer(ENVIRONMENT.sub(" ", text)):
+    for m in USED.finditer(WAVE.sub(" ", ENVIRONMENT.sub(" ", text))):
         base = m["command"] or m["word"]
         if m["command"] and base not in GREEK and base != "ell":
             continue

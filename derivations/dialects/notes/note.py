@@ -11,25 +11,28 @@ from ....models.errors import InvalidInput
 from ..letters.every_text import is_fit, lines_of, rows_of
 from ..letters.indices import plain_indices
 from ..lines import FULL_WIDTH
+from ..markup.prose import is_whole
 from ..names import plain_name
 from ..statements import is_program
 from ..worksheets.definitions import in_order
-from .columns import with_columns, with_momenta
+from .columns import dotted_columns, with_columns, with_momenta
 from .counted import by_rule
 from .declarations import plain_declarations
 from .derivatives import plain_derivatives
 from .displays import Statement, has_arrow, statements_of
 from .energies import Energy, energy, evident_rates
-from .entries import with_entries
+from .entries import with_entries, without_arguments
 from .letters import Names, alone, names_of, with_accents, with_bold_apart
 from .partial import rows_of_partial
-from .points import of_unknown_points
+from .points import of_squared_speeds, of_unknown_points
 from .products import apart, index_first
 from .sorting import ACCELERATION, Sorted, is_abstract, sorted_statements
+from .states import with_states
 from .words import formulas_of
 
 ENERGIES = ("kinetic", "potential", "lagrangian", "hamiltonian")
 MOST_ROWS = 16
+ROOT = re.compile(r"^\s*\\sqrt\s*\{(?P<inner>.*)\}\s*$", re.DOTALL)
 IN_FONT = re.compile(r"\\math(?:cal|scr)\s*(?:\{\s*L\s*\}|L(?![A-Za-z]))")
 WORDED = re.compile(
     r"\$|\\[\[(]|```|(?<![^\W\d_])[^\W\d_]{3,40} [^\W\d_]{2,40} [^\W\d_]{2}|[\u3040-\u30ff\u4e00-\u9fff]{3}|(?<![\w)\]'])\*\*"
@@ -75,6 +78,19 @@ def as_note(data: dict[str, Any], usual: list[dict[str, str]] | None = None) -> 
 def is_worded(data: Mapping[str, Any]) -> bool:
     """Whether a text has words, or marks of formulas, as notes have."""
     return any(WORDED.search(text) for text in lines_of(data))
+
+
+def _step(one: str, two: str) -> str:
+    """Two sides that must be equal; of two roots, what stands in them, which is the same question."""
+    roots = [ROOT.match(side) for side in (one, two)]
+    if all(m and is_whole(m["inner"]) for m in roots):
+        one, two = (m["inner"] for m in roots if m)
+    return f"{one} = {two}"
+
+
+def _texts(define: object) -> dict[str, str]:
+    """The definitions that are texts."""
+    return {str(k): v for k, v in define.items() if is_fit(v)} if isinstance(define, dict) else {}
 
 
 def is_fit_table(data: Mapping[str, Any]) -> bool:
@@ -127,7 +143,8 @@ def _with_energy(
             text = with_momenta(text, names)
         if kind == "lagrangian" and "L" in names.all:  # L is a length, and the letter in a font the Lagrangian
             text = IN_FONT.sub("ℒ ", text)
-        found: Energy = energy(kind, by_rule(_statements(text, names)), names)
+        said = of_squared_speeds(by_rule(_statements(text, names)), names)
+        found: Energy = energy(kind, of_unknown_points(said, names), names)
     except InvalidInput as error:
         raise InvalidInput(f"{kind}: {error}") from None
     if kind in ("kinetic", "lagrangian"):
@@ -138,7 +155,7 @@ def _with_energy(
             raise InvalidInput(f"{kind}: {name} is said to be two things")
         new[name] = value
     for k, (one, two) in enumerate(found.steps, 1):
-        steps[f"{kind}, step {k}"] = f"{one} = {two}"
+        steps[f"{kind}, step {k}"] = _step(one, two)
     made = data | {kind: found.value}
     if found.positions and "positions" not in data:
         made["positions"] = found.positions
@@ -154,7 +171,8 @@ def _with_equations(data: dict[str, Any], names: Names, new: dict[str, str], ste
         except InvalidInput as error:
             raise InvalidInput(f"equations.{label:.40}: {error}") from None
     try:
-        statements = with_entries(of_unknown_points(by_rule(statements), names), names)
+        statements = with_states(without_arguments(by_rule(statements), names), names, _texts(data.get("define")))
+        statements = with_entries(of_unknown_points(dotted_columns(statements, names), names), names)
         found: Sorted = sorted_statements(with_columns(statements, names), names)
         more, equal = rows_of_partial(found.partial, names, data)
         found.rows, found.steps = more + found.rows, found.steps + equal
@@ -175,7 +193,7 @@ def _with_equations(data: dict[str, Any], names: Names, new: dict[str, str], ste
     elif re.search(r"\\omega|ω", " ".join(found.rows)):
         new |= evident_rates(found.rows, names)
     for k, (one, two) in enumerate(found.steps, 1):
-        steps[f"equations, step {k}"] = f"{one} = {two}"
+        steps[f"equations, step {k}"] = _step(one, two)
     labels = (
         [label for label, _ in rows]
         if len(rows) == len(found.rows)

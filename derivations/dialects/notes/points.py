@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from ....models.errors import InvalidInput
 from ..names import GREEK, plain_name, spelling
 from .displays import Statement
-from .letters import NAME, Names, alone, written_alone
+from .letters import NAME, Names, alone, used, written_alone
 
 _DOT = rf"\\(?P<dots>d?dot)\s*(?:\{{\s*(?P<a>{NAME})\s*\}}|(?P<b>\\[A-Za-z]+|[A-Za-z]))\s*(?P<i>_\s*(?:\{{\s*\w{{1,6}}\s*\}}|\w))?"
 DERIVED = re.compile(rf"^\s*(?:{_DOT}|(?P<c>{NAME})(?P<primes>'{{1,2}}|\u0307|\u0308))\s*(?:[(\[]\s*t\s*[)\]])?\s*$")
@@ -54,6 +54,29 @@ def of_unknown_points(statements: Sequence[Statement], names: Names) -> list[Sta
         taken.add(letter + of[0])
         changes[pattern.pattern] = pattern, f" {letter}_{{{of[0]}}} "
     return [tuple(_replaced(side, changes.values()) for side in sides) for sides in statements]
+
+
+_SQUARED = r"[^=()+−*/-]{1,40}(?:\^\s*(?:\{\s*2\s*\}|2)|²)"
+SQUARES = re.compile(rf"\s*{_SQUARED}\s*(?:\+\s*{_SQUARED}\s*){{1,2}}")
+
+
+def of_squared_speeds(statements: Sequence[Statement], names: Names) -> list[Statement]:
+    r"""The statements with a name for \dot x_1^2 + \dot y_1^2 in brackets, where that sum alone is said what it is."""
+    made = list(statements)
+    taken = set(names.all) | {name for sides in statements if (name := alone(sides[0]))}
+    for k, sides in enumerate(made):
+        if len(sides) < 2 or not SQUARES.fullmatch(sides[0]) or used(sides[0]) & names.all:
+            continue
+        inner = r"\s*".join(re.escape(c) for c in re.sub(r"\s", "", sides[0]))
+        pattern = re.compile(rf"(?:\\left\s*)?\(\s*{inner}\s*(?:\\right\s*)?\)")
+        others = [*made[:k], *made[k + 1 :]]
+        name = next((f"{x}_{{{i}}}" for x in "SBZ" for i in range(1, 9) if f"{x}{i}" not in taken), "")
+        if not name or not any(pattern.search(side) for other in others for side in other):
+            continue
+        taken.add(plain_name(name) or "")
+        made = [tuple(pattern.sub(f" {name} ", side) for side in other) for other in made]
+        made[k] = (name, *sides[1:])
+    return made
 
 
 def _replaced(text: str, changes: Iterable[tuple[re.Pattern[str], str]]) -> str:

@@ -69,7 +69,7 @@ def _is_a_rate(value: str) -> bool:
 
 def in_order(said: Mapping[str, str]) -> Definitions | None:
     """The definitions, each behind those that it needs, else as they stand; None where they go in a circle."""
-    plain = {plain_name(name) or name: name for name in said}
+    plain = {plain_name(name) or plain_name(name.partition("(")[0]) or name: name for name in said}
     needs = {key: {p for m in WRITTEN.finditer(said[name]) if (p := plain_name(m[0])) in plain} - {None}
              for key, name in plain.items()}  # fmt: skip
     made: Definitions = {}

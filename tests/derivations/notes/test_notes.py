@@ -45,7 +45,11 @@ from furiko.derivations.grading.grade import grade_text
 from furiko.models.errors import InvalidInput
 
 HERE = Path(__file__).parent
-NOTES = tomllib.loads((HERE / "notes.toml").read_text(encoding="utf-8"))
+NOTES = {
+    name: note
+    for file in ("notes.toml", "printed.toml")
+    for name, note in tomllib.loads((HERE / file).read_text(encoding="utf-8")).items()
+}
 DECLARED = tomllib.loads((HERE / "mechanisms.toml").read_text(encoding="utf-8"))
 FIELDS = ("kinetic", "potential", "lagrangian", "hamiltonian")
 NOTICED = ("wrong", "refused", "assumed")  # right on a condition that is said, as that the angle is counted otherwise
@@ -226,6 +230,44 @@ PENDULUM = DECLARED["pendulum"] + "\n[equations]\n1 = '''{}'''\n"
 def test_what_may_be_meant_otherwise_is_refused(text, why):
     with pytest.raises(InvalidInput, match=why):
         grade_text(PENDULUM.format(text))
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("#strike[$ dot.double(theta) = -frac(g, l) sin(theta) $]", "not known here|words or code"),
+        (
+            r"$y_1 = \theta$, $y_2 = \dot\theta$ and $y_1 = \dot\theta$. "
+            r"$$\dot{\mathbf{y}} = \begin{bmatrix} y_2 \\ -g/l \sin y_1 \end{bmatrix}$$",
+            "y1 of the state is said to be two things",
+        ),
+        (
+            r"$$\mathbf{y} = \begin{bmatrix} \theta \\ \dot\theta \end{bmatrix}$$ "
+            r"$$\dot{\mathbf{y}} = \begin{bmatrix} y_1 \\ -g/l \sin y_1 \end{bmatrix}$$",
+            "contradicts",
+        ),
+        (
+            r"$$\begin{bmatrix} Q \\ Q \end{bmatrix} = \begin{bmatrix} m \\ l \end{bmatrix}$$",
+            "stands twice in one column",
+        ),
+    ],
+)
+def test_what_a_state_or_code_leaves_open_is_refused(text, why):
+    with pytest.raises(InvalidInput, match=why):
+        grade_text(PENDULUM.format(text))
+
+
+def test_a_force_function_is_refused_and_said_how_to_write():
+    text = DECLARED["pendulum"].replace(
+        "'down'", "'down'\nlagrangian = '$L = T + U = \\frac{1}{2} m l^2 \\dot\\theta^2 + m g l \\cos\\theta$'"
+    )
+    with pytest.raises(InvalidInput, match="Where U is a force's function, -V, leave this side out"):
+        grade_text(text)
+
+
+def test_gravity_is_no_field_and_what_to_write_is_said():
+    with pytest.raises(InvalidInput, match=r"'gravity': no such field; \[define\] says what g is called"):
+        grade_text("gravity = 'G'\n" + PENDULUM.format(r"\ddot\theta = -\frac{G}{l}\sin\theta"))
 
 
 def test_two_quantities_with_one_letter_are_refused():

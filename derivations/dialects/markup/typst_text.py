@@ -1,0 +1,54 @@
+"""Several displays of a Typst text, $ … $ <label> each, and what its code has around one: #box($ … $), #text(20pt)[$ … $]."""
+# ruff: noqa: E501 -- patterns stand on one line
+
+from __future__ import annotations
+
+import re
+
+from ..pasted import typst_dots
+from .typst import BLOCK, LATEX, MARKS, from_typst
+
+# What leaves a formula as it is; what hides or strikes it out is none of these
+_SHOWN = r"(?:box|boxed|rect|block|text|align|pad|highlight|emph|strong|figure|math\.equation|grid|stack)"
+CODE = re.compile(
+    rf"#{_SHOWN}(?:\(\s*(?:[^()$#]{{0,120}},)?\s*|(?:\([^()$#]{{0,120}}\))?\s*\[\s*)(?P<inner>\$[^$]*\$)\s*,?\s*[)\]]"
+)
+DELIMITER = re.compile(r",?\s*delim:\s*(?:#none|none|\"[^\"]{0,2}\"|\([^()]{0,12}\))")
+INDEX = re.compile(
+    r"(?<![A-Za-z])(?P<x>(?:[A-Za-z]|theta|phi|psi|alpha|beta|tau|omega|ell|rho|mu))_\(\s*(?P<i>\w{1,4}(?:[ ,]+\w{1,4}){0,2})\s*\)"
+)
+FIGURES = re.compile(r"(?<![A-Za-z])(?P<x>[A-Za-z]|ell|tau|theta)_(?P<i>[1-9]{2})(?![0-9A-Za-z])")
+BETWEEN = re.compile(r",?\s*\bq?quad\b\s*")
+MOST = 60
+
+
+def typst_text(text: str) -> str:
+    """The equations of such a text, a row a line; any other text, and one display, as it is."""
+    text = _without_code(text)
+    if LATEX.search(text):
+        return text
+    text = INDEX.sub(lambda m: f"{m['x']}_{{{re.sub(r'[ ,]', '', m['i'])}}}", text)
+    lines = [line for line in text.split("\n") if line.strip()]
+    if len(lines) < 2 or not all(BLOCK.match(line) for line in lines) or not MARKS.search(text) or "\\" in text:
+        return text
+    pieces = [piece for line in lines for piece in _equations(BLOCK.sub(lambda m: m["inner"], line))]
+    return "\n".join(typst_dots(FIGURES.sub(r"\g<x>_{\g<i>}", piece)) for piece in pieces)
+
+
+def _equations(inner: str) -> list[str]:
+    """Equations side by side, each with its equals sign, as rows."""
+    parts = BETWEEN.split(inner)
+    apart = parts if all(part.count("=") == 1 for part in parts) else [inner]
+    # a display without a mark of Typst is read as the others are
+    return [from_typst(f"$ {part.strip().rstrip(' ,.')} $").strip(" $") for part in apart]
+
+
+def _without_code(text: str) -> str:
+    for _ in range(MOST):
+        found = CODE.search(text)
+        if found is None:
+            break
+        within = text[: found.start()].count("$") % 2 == 1
+        inner = found["inner"][1:-1] if within else found["inner"]
+        text = text[: found.start()] + inner + text[found.end() :]
+    return DELIMITER.sub("", text) if re.search(r"\bcases\s*\(", text) else text

@@ -1,0 +1,72 @@
+r"""Formulas as the tools of pages wrap them: math directives, template tags, comments of programs, {\displaystyle …}.
+
+What is taken away says nothing of mechanics; what it holds stands as a display, $$…$$.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from ..letters.every_text import everywhere
+from ..statements import is_program
+from .prose import BRACED, is_whole
+from .typst_text import typst_text
+
+# reStructuredText: what is indented below, behind options as :label:
+DIRECTIVE = re.compile(
+    r"(?m)^(?P<in>[ \t]*)\.\. math::[ \t]*(?P<first>[^\n]*)\n(?P<inner>(?:[ \t]*\n|(?P=in)[ \t]+[^\n]*(?:\n|\Z))*)"
+)
+OPTION = re.compile(r"(?m)^[ \t]*:(?:label|name|nowrap|class)s?:[^\n]*$")
+ROLE = re.compile(r":math:`(?P<inner>[^`$]{1,300})`")
+_TAG = r"(?:math|katex|latex|mathjax|equation|raw|mathblock)"
+TAGS = re.compile(
+    rf"\{{%-?\s*(?P<of>{_TAG})\b[^%{{}}]{{0,40}}%\}}(?P<a>.*?)\{{%-?\s*(?:end(?:(?P=of))?|/(?P=of))\s*-?%\}}"
+    rf"|\{{\{{[<%]\s*(?P<to>{_TAG})\b[^<>{{}}]{{0,40}}[>%]\}}\}}(?P<b>.*?)\{{\{{[<%]\s*/\s*(?P=to)\s*[>%]\}}\}}",
+    re.DOTALL,
+)
+DISPLAYED = re.compile(r"\$|\\\[|\\begin\s*\{(?:equation|align|gather|eqnarray|multline|displaymath)")
+COMMENT = re.compile(r"[ \t]*(?://[/!]?|#)(?=\s|$)")
+BLOCK = re.compile(r"^\s*/\*[*!]?(?P<inner>.*)\*/\s*$", re.DOTALL)
+STARRED = re.compile(r"(?m)^[ \t]*\*(?=\s)")
+FENCED = re.compile(r"(?m)^[ \t]*(?:```|~~~)")
+TICKED = re.compile(r"(?m)^[ \t]*`(?P<inner>[^`\n]{1,400})`[ \t]*[.,;]?[ \t]*$")
+ESCAPED = re.compile(r"(?<!\\)\\_")  # an index of LaTeX that Markdown would take for italics
+
+
+def unwrapped(data: dict[str, Any]) -> dict[str, Any]:
+    """The fields without what such tools put around formulas; programs stay."""
+    return everywhere(data, _unwrapped)
+
+
+def _unwrapped(text: str) -> str:
+    text = _uncommented(text)
+    if is_program(text):
+        return text
+    text = typst_text(text)
+    text = TAGS.sub(lambda m: _display(m["a"] or m["b"] or ""), text)
+    if ".. math::" in text:
+        text = DIRECTIVE.sub(lambda m: _display(f"{m['first']}\n{OPTION.sub('', m['inner'])}"), text)
+    text = ROLE.sub(lambda m: f"${m['inner']}$", text)
+    if FENCED.search(text):  # beside formulas in fences, a line in backticks is one more
+        text = TICKED.sub(lambda m: m["inner"], text)
+    lines = [line for line in text.split("\n") if line.strip()]
+    braced = [BRACED.match(line) for line in lines]
+    if len(lines) > 1 and all(m and is_whole(m["inner"]) for m in braced):
+        text = "\n".join(_display(m["inner"]) for m in braced if m)
+    return ESCAPED.sub("_", text)
+
+
+def _uncommented(text: str) -> str:
+    """Without the marks of a comment in front of every line."""
+    block = BLOCK.match(text)
+    if block and "*/" not in block["inner"]:
+        return STARRED.sub("", block["inner"])
+    lines = text.split("\n")
+    if any(line.strip() for line in lines) and all(COMMENT.match(line) for line in lines if line.strip()):
+        return "\n".join(COMMENT.sub("", line, count=1) for line in lines)
+    return text
+
+
+def _display(inner: str) -> str:
+    return f"\n{inner}\n" if DISPLAYED.search(inner) else f"\n$${inner.strip()}$$\n"
