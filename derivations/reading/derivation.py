@@ -126,8 +126,8 @@ def _as_note(data: dict[str, Any], first: InvalidInput) -> dict[str, Any]:
     try:
         note = as_note(data, _bodies(data))
     except InvalidInput as error:
-        # what the rows lacked in their bodies, a note's quantities may have
-        if is_worded(data) or str(error).startswith("bodies: ") or str(first).startswith("bodies "):
+        # of a sum below the line in a quantity, a note's reading can make a name
+        if is_worded(data) or str(error).startswith("bodies: ") or str(first).endswith("a sum in a denominator"):
             raise
         raise first from None
     if note is None:
