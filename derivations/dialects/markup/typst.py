@@ -10,10 +10,6 @@ from .calls import called
 BLOCK = re.compile(r"^\s*\$(?P<inner>[^$]*)\$\s*(?:<[\w:.-]{1,40}>)?\s*[.,]?\s*$", re.DOTALL)
 MARKS = re.compile(r"\b(?:dot(?:\.double)?|diaer|frac|mat|vec|cases|lr|upright|op)\s*\(|\\\s*\n|\\\s*$")
 LATEX = re.compile(r"\\[A-Za-z{(\[]")
-# Code around one equation: #boxed[$ … $], #box(stroke: 1pt, $ … $), #text(20pt)[$ … $]
-AROUND = re.compile(
-    r"^\s*#\w[\w.-]{0,30}\s*(?:\((?P<open>[^()$]{0,200})(?:\))?)?\s*\[?\s*(?P<inner>\$[^$]*\$)\s*[)\]]\s*$", re.DOTALL
-)
 ROW_ENDS = re.compile(r"\\\s+|\\$")
 VARIANT = re.compile(r"\b(?P<x>phi|theta|epsilon|rho|sigma)\.alt\b")
 DOT = re.compile(r"\bdot\.op\b|\btimes\b|\bast\b")
@@ -23,8 +19,6 @@ PRIME = re.compile(r"\s*\bprime(?P<two>\.double)?\b")
 
 def from_typst(text: str) -> str:
     """The equations of a block, a row a line; any other text as it is."""
-    around = AROUND.match(text)
-    text = around["inner"] if around else text
     found = BLOCK.match(text)
     if found is None or LATEX.search(text) or not MARKS.search(text):
         return text
