@@ -9,14 +9,13 @@ from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
 from ....models.errors import InvalidInput
-from ..letters.every_text import rows_of
 from ..statements import DOWNWARDS
 from ..traced import nodes
 from ..traced.forms import Rows
-from ..traced.known import Known, known
+from ..traced.known import Known
 from ..traced.meaning import Meaning, Path, path_of
 from ..traced.names import MARK, Scope
-from ..traced.rows import Reader
+from ..traced.rows import TOO_DEEP, Reader, one_text, prefix_for
 from ..traced.values import (
     Array,
     Broken,
@@ -45,11 +44,10 @@ def from_grammars(data: dict[str, Any]) -> tuple[dict[str, Any], dict[str, str]]
 
     Raises InvalidInput where it is a program and cannot be taken as it is meant.
     """
-    rows = rows_of(data)
-    found = known(data)
-    if len(rows) != 1 or not 1 <= len(found.coordinates) <= 8 or not all(found.coordinates):
+    one = one_text(data)
+    if one is None:
         return None
-    label, text = rows[0]
+    label, text, found = one
     tree = parsed(text)
     if tree is None:
         return None
@@ -61,16 +59,13 @@ def from_grammars(data: dict[str, Any]) -> tuple[dict[str, Any], dict[str, str]]
             return None
         if DOWNWARDS.search(text):
             raise NotFollowed(DOWN)
-        prefix = next((word for word in ("val", "line", "part", "piece") if word not in text), "quantity")
-        made = GrammarReader(data, found, statements, language, prefix)
+        made = GrammarReader(data, found, statements, language, prefix_for(text))
         made.follower.changed = frozenset(reader.changed)
         return made.read()
     except NotFollowed as error:
         raise InvalidInput(f"equations.{label:.40}: {error}") from None
     except RecursionError:
-        raise InvalidInput(
-            f"equations.{label:.40}: expressions within expressions, too deep; give parts names"
-        ) from None
+        raise InvalidInput(f"equations.{label:.40}: {TOO_DEEP}") from None
 
 
 def _is_program(tree: Sequence[nodes.Statement]) -> bool:

@@ -27,21 +27,37 @@ STATE_RATES = re.compile(
 )
 
 
+TOO_DEEP = "expressions within expressions, too deep; give parts names"
+
+
+def one_text(data: dict[str, Any]) -> tuple[str, str, Known] | None:
+    """The label of a derivation's only text, the text, and what is declared; None for what can be no program."""
+    rows = rows_of(data)
+    found = known(data)
+    if len(rows) != 1 or not 1 <= len(found.coordinates) <= 8 or not all(found.coordinates):
+        return None
+    return *rows[0], found
+
+
+def prefix_for(text: str) -> str:
+    """What names of ours begin with: a word that the text does not have."""
+    return next((word for word in ("val", "line", "part", "piece") if word not in text), "quantity")
+
+
 def traced(data: dict[str, Any]) -> tuple[dict[str, Any], dict[str, str]] | None:
     """The fields with rows in place of a program, and the line that each definition is from; None for other texts.
 
     Raises InvalidInput where it is a program and cannot be taken as it is meant.
     """
-    rows = rows_of(data)
-    found = known(data)
-    if len(rows) != 1 or not 1 <= len(found.coordinates) <= 8 or not all(found.coordinates):
+    one = one_text(data)
+    if one is None:
         return None
-    label, text = rows[0]
+    label, text, found = one
     if DOWNWARDS.search(text):
         return None  # refused where functions are read
     if len(text) > LONGEST_TEXT or "Symbol(" in text:
         return None
-    prefix = next((word for word in ("val", "line", "part", "piece") if word not in text), "quantity")
+    prefix = prefix_for(text)
     refused: list[str] = []
     for tree, matlab in ((python_tree(text), False), (matlab_tree(text), True)):
         if tree is None or not _is_program(tree):
@@ -52,7 +68,7 @@ def traced(data: dict[str, Any]) -> tuple[dict[str, Any], dict[str, str]] | None
             if any(isinstance(s, nodes.Define) for s in tree) or len(tree) >= LONG_SCRIPT:
                 refused.append(str(error))  # fewer are formulas, which other readers know
         except RecursionError:
-            refused.append("expressions within expressions, too deep; give parts names")
+            refused.append(TOO_DEEP)
     if refused:
         raise InvalidInput(f"equations.{label:.40}: {refused[0]}")
     return None
