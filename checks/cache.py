@@ -87,14 +87,14 @@ class Cache:
             entry = _Entry(len(results), results, list(diagnoses))
             self._save("results", _results_key(task), msgspec.json.encode(entry))
 
-    def facts(self, scene: AnyScene, random_states: int, slopes: bool = True) -> bytes | None:
+    def facts(self, scene: AnyScene, random_states: int, *asked: bool) -> bytes | None:
         """A scene's truth as its worker sent it; None where it has to be computed."""
-        return self._load("truths", _facts_key(scene, random_states, slopes) if self.folder else None)
+        return self._load("truths", _facts_key(scene, random_states, asked) if self.folder else None)
 
-    def keep_facts(self, scene: AnyScene, random_states: int, content: bytes, slopes: bool = True) -> None:
+    def keep_facts(self, scene: AnyScene, random_states: int, content: bytes, *asked: bool) -> None:
         """Keep a scene's truth."""
         if self.folder:
-            self._save("truths", _facts_key(scene, random_states, slopes), content)
+            self._save("truths", _facts_key(scene, random_states, asked), content)
 
     def _path(self, kind: str, key: str | None) -> Path | None:
         return self.folder / kind / key[:2] / key[2:] if self.folder and key else None
@@ -183,8 +183,8 @@ def _foundation_elsewhere(engine: str) -> bytes:
     return b"" if found is None else place_foundation(*found)
 
 
-def _facts_key(scene: AnyScene, random_states: int, slopes: bool) -> str:
-    return _digest("facts", _scene(scene), str(random_states), str(slopes))
+def _facts_key(scene: AnyScene, random_states: int, asked: tuple[bool, ...]) -> str:
+    return _digest("facts", _scene(scene), str(random_states), str(asked))
 
 
 def _scene(scene: AnyScene) -> str:

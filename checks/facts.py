@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import io
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..engines import Offer
-from ..models import Scene
+from ..models import LibraryMissing, Scene
 from ..models.states import States
 from ..reference import literal_accelerations
 from ..reference.rounding.bounds import EPSILON, SMALLEST, amplitudes, condition
 from ..reference.truth import enclosures, newton_euler
 from ..reference.truth.derivatives import Derivatives, enclosed_derivatives
+from .true_path import true_path
 
 Array = NDArray[np.float64]
 
@@ -38,7 +39,8 @@ class SceneFacts:
     uncertainty. ``literal``: the document's own formula in double precision, (B, n). ``forces``: the true joint forces
     in the last states, (min(B, 20), n, 2) [N]. ``cond_absolute``, ``cond_relative``: what a backward error of one ε in
     those coordinates does to the accelerations, in ε, (B,). ``slopes``, ``slopes_low``: ∂θ̈/∂θ, ∂θ̈/∂θ̇ and M⁻¹ in the
-    last states, (K, 3, n, n) each, K = 0 where no engine is asked for them.
+    last states, (K, 3, n, n) each, K = 0 where no engine is asked for them. ``path + path_low``: the true motion,
+    (P, 2n), as :func:`.true_path.true_path` has it, P = 0 where it is not followed.
     """
 
     high: Array
@@ -50,6 +52,8 @@ class SceneFacts:
     cond_relative: Array
     slopes: Array
     slopes_low: Array
+    path: Array
+    path_low: Array
 
     def to_bytes(self) -> bytes:
         """The arrays as one npz file, which is read without running anything."""
@@ -65,23 +69,26 @@ class SceneFacts:
 
     def only(self, chosen: NDArray[np.bool_]) -> SceneFacts:
         """Those of some of the states."""
-        rows = {field.name: getattr(self, field.name) for field in fields(self)}
-        return SceneFacts(**{name: row[chosen[len(chosen) - len(row) :]] for name, row in rows.items()})
+        names = [field.name for field in fields(self) if field.name not in ("path", "path_low")]
+        rows = {name: getattr(self, name) for name in names}
+        return replace(self, **{name: row[chosen[len(chosen) - len(row) :]] for name, row in rows.items()})
 
     def error(self, accelerations: Array) -> Array:
         """``accelerations`` less the true ones, to double precision's relative accuracy."""
         return (accelerations - self.high) - self.low
 
 
-def scene_facts(scene: Scene, states: States, *, slopes: bool = True) -> SceneFacts:
+def scene_facts(scene: Scene, states: States, *, slopes: bool = True, followed: bool = False) -> SceneFacts:
     """Compute them in ball arithmetic: of short mechanisms from the document's last equation, solved as it stands.
 
     Long ones take Newton's and Euler's, from which the document derives it: the same numbers, proved as well (the tests
-    hold both against each other), at a tenth of the time for a hundred rods. ``slopes``: the derivatives too.
+    hold both against each other), at a tenth of the time for a hundred rods. ``slopes``: the derivatives too;
+    ``followed``: the true motion.
     """
     system, theta, omega = scene.system, states.theta, states.omega
     proofs = enclosures if system.n <= LITERAL else newton_euler
     truth = proofs.enclosed_accelerations(system, theta, omega)
+    path, path_low = _path(scene) if followed else _no_path(scene)
     last = len(theta) - (slope_states(system.n) if slopes else 0)
     high, low = stacked(enclosed_derivatives(system, theta[max(last, 0) :], omega[max(last, 0) :]))
     return SceneFacts(
@@ -94,7 +101,22 @@ def scene_facts(scene: Scene, states: States, *, slopes: bool = True) -> SceneFa
         cond_relative=condition(system, theta, amplitudes(system, "relative"), truth.high, omega),
         slopes=high,
         slopes_low=low,
+        path=path,
+        path_low=path_low,
     )
+
+
+def _path(scene: Scene) -> tuple[Array, Array]:
+    """The true motion; no rows where it cannot be had, which the check that needs it finds out, and says."""
+    try:
+        return true_path(scene)
+    except (LibraryMissing, ArithmeticError):
+        return _no_path(scene)
+
+
+def _no_path(scene: Scene) -> tuple[Array, Array]:
+    nothing = np.zeros((0, 2 * scene.system.n))
+    return nothing, nothing
 
 
 def slope_states(n: int) -> int:

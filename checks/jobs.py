@@ -43,11 +43,15 @@ class Compared:
 
 @dataclass(frozen=True)
 class TruthJob:
-    """Compute a scene's truth in the states that its cells look at; ``slopes``: derivatives are compared, too."""
+    """Compute a scene's truth in the states that its cells look at.
+
+    ``slopes``: derivatives are compared, too; ``followed``: and when trajectories part.
+    """
 
     scene: AnyScene
     random_states: int
     slopes: bool = True
+    followed: bool = False
 
     def run(self, send: Send) -> None:
         send(Step("truth"))
@@ -62,7 +66,8 @@ class TruthJob:
         from ..models.states import states
         from .facts import scene_facts
 
-        return scene_facts(self.scene, states(self.scene, self.random_states), slopes=self.slopes).to_bytes()
+        looked_at = states(self.scene, self.random_states)
+        return scene_facts(self.scene, looked_at, slopes=self.slopes, followed=self.followed).to_bytes()
 
 
 @dataclass(frozen=True)

@@ -129,12 +129,16 @@ class _Run:
         most_hangs: int | None = HANGS,
     ) -> None:
         self.cache, self.source, self.timeout, self.ledger = cache, source, timeout, ledger
-        sloping = {task.scene.name for task in tasks if "derivatives" in task.checks}
+        sloping, followed = (
+            {task.scene.name for task in tasks if check in task.checks} for check in ("derivatives", "horizon")
+        )
         scenes = {
-            task.scene.name: TruthJob(task.scene, task.random_states, task.scene.name in sloping) for task in tasks
+            name: TruthJob(task.scene, task.random_states, name in sloping, name in followed)
+            for task in tasks
+            for name in [task.scene.name]
         }
-        # The largest truths first: they take longest, and cells wait for them.
-        self.truths = deque(sorted(scenes.values(), key=lambda job: -job.scene.system.n))
+        # The longest first, motions in quadruple precision and then large mechanisms: cells wait for them.
+        self.truths = deque(sorted(scenes.values(), key=lambda job: (not job.followed, -job.scene.system.n)))
         self.waiting: dict[str, list[Task]] = {name: [] for name in scenes}
         for task in tasks:
             self.waiting[task.scene.name].append(task)
@@ -150,7 +154,7 @@ class _Run:
 
     def begin(self) -> None:
         for job in list(self.truths):
-            content = self.cache.facts(job.scene, job.random_states, job.slopes)
+            content = self.cache.facts(job.scene, job.random_states, job.slopes, job.followed)
             if content is not None:
                 self.truths.remove(job)
                 self._release(job, content)
@@ -204,7 +208,7 @@ class _Run:
             progress.compared.add(event.message.check)
             self.ledger.promise(job.task.scene.name, job.task.engine, event.message.check, event.message.results)
         elif isinstance(event.message, Facts) and isinstance(job, TruthJob):
-            self.cache.keep_facts(job.scene, job.random_states, event.message.content, job.slopes)
+            self.cache.keep_facts(job.scene, job.random_states, event.message.content, job.slopes, job.followed)
             self._release(job, event.message.content)
         elif isinstance(event.message, Failed):
             yield from self._failed(job, event.message.reason, {"traceback": event.message.trace}, progress)

@@ -26,29 +26,25 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Iterator, Sequence
-from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...engines import Integrator, engine_info, engine_names, load_engine
-from ...models import InvalidInput, Scene, document_catalogue, find_document_scene
+from ...models import Scene, document_catalogue, find_document_scene
 from ...models.states import natural_rate, states
 from ...models.systems import DocumentSystem
 from ...records.check import Result
 from ...reference import literal_accelerations
-from ...reference.integration.variation import growth, lyapunov_time, tangent_flow
+from ...reference.integration.variation import growth, tangent_flow
 from ...reference.proved.kept import proof
-from ...reference.truth.quadruple import quadruple_trajectory
+from .. import true_path
 from ..cell import Cell
 from ..facts import scene_facts
 from ..motions import divergence
 from ..motions.divergence import (
     APART,
-    FOLDS,
-    LONGEST,
-    STEPS,
     Horizon,
     TrueMotion,
     divides,
@@ -57,6 +53,7 @@ from ..motions.divergence import (
     predicted,
     result,
 )
+from ..true_path import LONGEST, STEPS, followed, path
 
 Array = NDArray[np.float64]
 
@@ -65,54 +62,41 @@ NAME = divergence.NAME
 
 def compare(cell: Cell) -> Iterator[Result]:
     """One result for each of the engine's integrators and each step."""
+    motion = cell.facts.path, cell.facts.path_low
+    if len(motion[0]):
+        truths = [in_steps(cell.scene.system, *motion, true_path.STEPS[-1] / 2, step) for step in STEPS]
+    else:
+        truths = [true_motion(cell.scene, step, followed(cell.scene)) for step in STEPS]
     for integrator in cell.info.integrators:
-        found = [horizon(cell, integrator, step, followed(cell.scene)) for step in STEPS]
+        found = [horizon(cell, integrator, truth) for truth in truths]
         orders = [None, *(local_order(a, b) for a, b in pairwise(found))]
         for one, order in zip(found, orders, strict=True):
             yield result(cell, one, order)
 
 
-@lru_cache(maxsize=1)  # a worker looks at one scene with several integrators and engines
-def followed(scene: Scene) -> float:
-    """How long a scene's motion is followed [s]: a whole number of the longest steps."""
-    assert scene.theta is not None
-    assert scene.omega is not None
-    folding = lyapunov_time(scene.system, np.array(scene.theta), np.array(scene.omega), scene.duration)
-    return STEPS[0] * round(min(LONGEST, FOLDS * folding) / STEPS[0])
+def horizon(cell: Cell, integrator: Integrator, truth: TrueMotion) -> Horizon:
+    """Predict and measure the error of one integrator along the scene's true motion in steps."""
+    scene, system = cell.scene, cell.scene.system
+    kept = proof(system, scene.theta, scene.omega, scene.duration) if scene.theta and scene.omega else None
+    return predicted(cell, integrator, truth, lambda *state: literal_accelerations(system, *state), held(truth, kept))
 
 
-def horizon(cell: Cell, integrator: Integrator, step: float, duration: float) -> Horizon:
-    """Predict and measure the error of one integrator at one step."""
-    scene = cell.scene
-    if scene.theta is None or scene.omega is None:
-        raise InvalidInput(f"scene {scene.name!r} has no state for a trajectory to start from")
-    system = scene.system
-    truth = true_motion(system, scene.theta, scene.omega, step, duration)
-    proved = held(truth, proof(system, scene.theta, scene.omega, scene.duration))
-    return predicted(cell, integrator, truth, lambda *state: literal_accelerations(system, *state), proved)
-
-
-def true_motion(
-    system: DocumentSystem, theta: tuple[float, ...], omega: tuple[float, ...], step: float, duration: float
-) -> TrueMotion:
+def true_motion(scene: Scene, step: float, duration: float) -> TrueMotion:
     """The true motion in steps; the quadruple precision behind it is shared among all steps that divide."""
     finest = STEPS[-1] if divides(STEPS[-1], step) else step
-    stride = round(step / finest)
-    steps = int(duration / step + 0.5)
-    high, low = _integrated(system, theta, omega, finest / 2, 2 * steps * stride)
-    half = slice(0, 2 * steps * stride + 1, stride)
-    n = system.n
-    flow = tangent_flow(system, high[half, :n], high[half, n:], step)
-    whole = slice(0, 2 * steps * stride + 1, 2 * stride)
-    return TrueMotion(step, high[whole], low[whole], flow, growth(flow, step, natural_rate(system)))
+    steps = int(duration / step + 0.5) * round(step / finest)
+    return in_steps(scene.system, *path(scene, finest / 2, 2 * steps + 1), finest / 2, step)
 
 
-@lru_cache(maxsize=4)
-def _integrated(
-    system: DocumentSystem, theta: tuple[float, ...], omega: tuple[float, ...], spacing: float, points: int
-) -> tuple[Array, Array]:
-    found = quadruple_trajectory(system, theta, omega, spacing * np.arange(points + 1, dtype=np.float64))
-    return np.hstack([found.theta, found.omega]), np.hstack([found.theta_low, found.omega_low])
+def in_steps(system: DocumentSystem, high: Array, low: Array, spacing: float, step: float) -> TrueMotion:
+    """A motion, (P, 2n), known at times ``spacing`` seconds apart, in steps of a multiple of twice that."""
+    stride = round(step / spacing)
+    last, n = (len(high) - 1) // stride * stride, system.n
+    half = high[: last + 1 : stride // 2]
+    flow = tangent_flow(system, half[:, :n], half[:, n:], step)
+    return TrueMotion(
+        step, high[: last + 1 : stride], low[: last + 1 : stride], flow, growth(flow, step, natural_rate(system))
+    )
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -137,9 +121,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def _table(scene: Scene, engine: str, steps: Sequence[float], duration: float) -> Iterator[str]:
     looked_at = states(scene, random=1)
     cell = Cell(scene, engine_info(engine), load_engine(engine, scene.system), looked_at, scene_facts(scene, looked_at))
+    truths = [true_motion(scene, step, duration) for step in steps]
     for integrator in cell.info.integrators:
-        for step in steps:
-            found = horizon(cell, integrator, step, duration)
+        for step, truth in zip(steps, truths, strict=True):
+            found = horizon(cell, integrator, truth)
             predicted, measured = (
                 f"{time:8.3f} s" if math.isfinite(time) else "   later  " for time in found.crossing(APART)
             )

@@ -27,7 +27,8 @@ from ...models import Scene
 from ...models.systems import DocumentSystem
 from ...records.check import Result
 from ...reference import energies, literal_accelerations, mass_matrix
-from ...reference.integration.variation import fastest_rate, lyapunov_time
+from ...reference.integration.tangents import lyapunov_time
+from ...reference.integration.variation import fastest_rate
 from ...reference.rounding.bounds import EPSILON, Amplitudes, allowed
 from ..cell import Cell
 from ..motions.invariance import ENERGY, LARGEST_N, NAME, RUNS, SHORT, STEPS, WAY_BACK, Kept, result, too_large

@@ -31,15 +31,13 @@ from ...reference.integration.variation import Growth
 from ...reference.proved.kept import Proof, distance
 from ...reference.rounding.bounds import EPSILON
 from ..cell import EngineFault
+from ..true_path import STEPS
 
 Array = NDArray[np.float64]
 Acceleration = Callable[[Any, Any], Any]
 
 NAME = "horizon"
 
-STEPS = (1e-2, 5e-3, 1e-3)  # [s]; every one a multiple of the last
-LONGEST = 10.0  # [s]
-FOLDS = 20.0  # Lyapunov times; a local error of a few roundings has grown past every threshold here by then
 APART = 1e-3  # [rad]; two trajectories that differ by more have parted
 NEAR = 1e-2  # [rad]; up to here an error is small: what it neglects of itself is a hundredth part
 GONE = 1.0  # [rad]; beyond, a carried error means nothing
@@ -49,6 +47,8 @@ FRAMES = 150  # of a motion that is shown: the coarsest step's, which parts firs
 MOST_SHOWN = 10  # links of one
 MOST_OFF = 0.1 * EPSILON  # [rad, rad/s]; a true state that is off by more shows in a scheme's local errors
 WINDOW = 16  # steps whose local errors one such run gives
+MOST_TOGETHER = 64  # the same of schemes that remember nothing, at most
+NEGLECTED = 1e-4  # a part of a local error; as is the square of what is between a run and the true motion
 
 # The prediction neglects what an error does to its own growth: at NEAR a hundredth part for each time that the rates
 # of the motion change by as much as themselves, and a few of these add up. So an error is predicted to within a
@@ -159,9 +159,7 @@ def predicted(
 ) -> Horizon:
     """Predict and measure along a true motion; ``accelerations``: its own, of states (…, n)."""
     start = memory(cell, integrator, truth, accelerations) if integrator.remembers else 0
-    errors = (
-        _remembering(cell, integrator, truth, accelerations, start) if start else _step_by_step(cell, integrator, truth)
-    )
+    errors = _remembering(cell, integrator, truth, accelerations, start) if start else _plain(cell, integrator, truth)
     carried, local = carry(truth, errors)
     n, steps = truth.high.shape[-1] // 2, len(truth.flow)
     # Where the prediction has come to its end the run need not go on for long.
@@ -188,14 +186,32 @@ def divides(small: float, large: float) -> bool:
     return abs(large / small - round(large / small)) < 1e-9
 
 
-def _step_by_step(cell: Runs, integrator: Integrator, truth: TrueMotion) -> Iterator[Array]:
-    """Local errors (2n,), one after the other: a step from each true state, less the true state after it."""
-    n = truth.high.shape[-1] // 2
-    for k, flow in enumerate(truth.flow):
-        state = truth.high[k]
-        end = cell.trajectory(state[:n], state[n:], integrator, truth.step, 1).ravel()
-        # The engine started from the true state rounded to double precision: that part of its error is not its own.
-        yield end - truth.high[k + 1] - truth.low[k + 1] + flow @ truth.low[k]
+def _plain(cell: Runs, integrator: Integrator, truth: TrueMotion) -> Iterator[Array]:
+    """Local errors (2n,), one after the other, of a scheme that knows nothing but its state.
+
+    By short runs from true states: what is between a run and the true motion travels with that, Φ y, and what comes
+    besides in a step is the local error. What Φ neglects of y has to be nothing beside it: else the next run begins.
+    """
+    first, steps = 0, len(truth.flow)
+    fewest = most_together(first)
+    while first < steps:
+        count = min(fewest, most_together(first), steps - first)
+        run = path(cell, integrator, truth.high[first], truth.step, count)
+        # The run started from the true state rounded to double precision: that part of its error is not its own.
+        off = run - truth.high[first : first + count + 1] - truth.low[first : first + count + 1]
+        errors = off[1:] - (truth.flow[first : first + count] @ off[:-1, :, None])[..., 0]
+        large = np.abs(off[1:-1]).max(axis=-1) ** 2 > NEGLECTED * np.abs(errors[1:]).max(axis=-1)
+        used = 1 + int(np.argmax(large)) if large.any() else count
+        yield from errors[:used]
+        first, fewest = first + used, 2 * used
+
+
+def most_together(first: int) -> int:
+    """Steps of one run, from so many steps after the start, that give local errors at most.
+
+    A fourth of all that came before: a prediction made of the errors of the run that it predicts would be none.
+    """
+    return max(1, min(first // 4, MOST_TOGETHER))
 
 
 def _remembering(

@@ -21,17 +21,8 @@ from ...reference.integration.variation import growth
 from ...reference.proved.kept_trees import proof
 from ...reference.rounding.bounds import EPSILON
 from ...reference.truth.quadruple_tree import LARGEST, quadruple_tree_motion
-from ..motions.divergence import (
-    FOLDS,
-    LONGEST,
-    NAME,
-    STEPS,
-    TrueMotion,
-    held,
-    local_order,
-    predicted,
-    result,
-)
+from ..motions.divergence import NAME, TrueMotion, held, local_order, predicted, result
+from ..true_path import FOLDS, LONGEST, STEPS
 from .cell import TreeCell
 
 Array = NDArray[np.float64]

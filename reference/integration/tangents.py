@@ -162,6 +162,17 @@ def stretching(
     )
 
 
+def lyapunov_time(system: System, theta: Array, omega: Array, duration: float) -> float:
+    """The time [s] in which the most sensitive small difference grows e-fold, on average over ``duration`` [s].
+
+    Of the motion from one state (n,). Where that is chaotic for so long that doubles lose it, it is of a motion from a
+    state beside it; the growth is as typical. Infinite where nothing grows. A motion that is not chaotic has one too,
+    about its duration: differences then grow in proportion to time.
+    """
+    grown = float(stretching(system, theta, omega, [0.0, duration]).logarithm[-1])
+    return duration / grown if grown > 0 else float("inf")
+
+
 def general_directions(size: int) -> Array:
     """Orthonormal directions, rows, that no symmetry of a mechanism makes special; the same ones always."""
     return np.linalg.qr(np.random.Generator(np.random.PCG64(17)).normal(size=(size, size)))[0]

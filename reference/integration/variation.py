@@ -19,15 +19,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...models import DocumentSystem
-from ...models.states import natural_rate
 from ..arithmetic import arithmetic_of
 from ..documents import equations_of_motion as motion
 from . import schemes
 
 Floats = NDArray[np.float64]
-
-LOGARITHM_SETTLED = 0.05  # growth is known to a factor of e^0.05
-MOST_STEPS = 50_000
 
 
 @dataclass(frozen=True)
@@ -120,60 +116,17 @@ def growth(flow: Floats, step: float, rate: float) -> Growth:
     """
     n = flow.shape[-1] // 2
     unit = np.concatenate([np.ones(n), np.full(n, rate)])
-    scaled = flow * (unit / unit[:, None])
-    product, taken_out = np.eye(2 * n), 0.0
-    logarithm = np.zeros(len(flow) + 1)
-    for k, phi in enumerate(scaled):
+    products, sizes = flow * (unit / unit[:, None]), []  # the Φ of each step first, then of all up to it
+    product = np.eye(2 * n)
+    for phi in products:
         product = phi @ product
         size = float(np.abs(product).max())
         if not np.isfinite(size):  # the path has blown up
-            logarithm[k + 1 :] = np.inf
             break
         product /= size
-        taken_out += np.log(size)
-        logarithm[k + 1] = taken_out + np.log(np.linalg.norm(product, 2))
+        phi[:] = product
+        sizes.append(size)
+    logarithm = np.concatenate([[0.0], np.full(len(flow), np.inf)])
+    grown = np.linalg.norm(products[: len(sizes)], 2, axis=(-2, -1))
+    logarithm[1 : len(sizes) + 1] = np.cumsum(np.log(sizes)) + np.log(grown)
     return Growth(step * np.arange(len(flow) + 1, dtype=np.float64), logarithm)
-
-
-def growth_along(system: DocumentSystem, theta: Floats, omega: Floats, duration: float) -> Growth:
-    """Growth of small differences along the motion from a state (n,), over ``duration`` [s].
-
-    The motion is integrated in double precision by Butcher's sixth order scheme, twice as finely until the growth no
-    longer changes by a twentieth of a factor e. Where the motion is chaotic that is not the motion from this state,
-    after some time, but one from a state beside it; the growth is as typical.
-    """
-    rate = natural_rate(system)
-    steps = max(8, int(np.ceil(4 * duration * float(fastest_rate(system, theta, omega)))))
-    before = _growth_in(system, theta, omega, duration, steps, rate)
-    while True:
-        steps *= 2
-        found = _growth_in(system, theta, omega, duration, steps, rate)
-        if abs(found.logarithm[-1] - before.logarithm[-1]) < LOGARITHM_SETTLED or steps > MOST_STEPS:
-            return found
-        before = found
-
-
-def lyapunov_time(system: DocumentSystem, theta: Floats, omega: Floats, duration: float) -> float:
-    """The time [s] in which the most sensitive small difference grows e-fold, on average over ``duration`` [s].
-
-    Infinite where nothing grows. A motion that is not chaotic has one too, about its duration: differences then grow
-    in proportion to time.
-    """
-    return growth_along(system, theta, omega, duration).lyapunov_time
-
-
-def _growth_in(
-    system: DocumentSystem, theta: Floats, omega: Floats, duration: float, steps: int, rate: float
-) -> Growth:
-    step = duration / steps
-    states = np.empty((2 * steps + 1, 2, system.n))
-    states[0] = theta, omega
-
-    def accelerations(angles: Floats, rates: Floats) -> Floats:
-        return motion.literal_accelerations(system, angles, rates)
-
-    with np.errstate(over="ignore", invalid="ignore"):  # steps too long for what comes on the way are halved
-        for k in range(2 * steps):  # half steps, which the tangent flow needs
-            angles, rates = states[k]
-            states[k + 1] = schemes.BUTCHER_6.step(accelerations, angles, rates, step / 2)
-        return growth(tangent_flow(system, states[:, 0], states[:, 1], step), step, rate)

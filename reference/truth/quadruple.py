@@ -55,8 +55,16 @@ def quadruple_trajectory(
 
     Its error is estimated by a second run. Raises LibraryMissing without heyoka.
     """
-    digits, error = decimal_states(system, [*map(float, theta)], [*map(float, omega)], [*map(float, times)])
-    return from_decimals(digits, error, system.n)
+    states, error = quadruple_states(system, [*map(float, theta)], [*map(float, omega)], [*map(float, times)])
+    high, low = split(states)
+    n = system.n
+    return QuadrupleTrajectory(high[:, :n], high[:, n:], low[:, :n], low[:, n:], error)
+
+
+def split(states: Array) -> tuple[Floats, Floats]:
+    """Numbers of more digits as sums of two doubles, the nearest one first."""
+    high = states.astype(np.float64)
+    return high, (states - high.astype(states.dtype)).astype(np.float64)
 
 
 def from_decimals(digits: Sequence[Sequence[str]], error: Sequence[float], n: int) -> QuadrupleTrajectory:
@@ -72,14 +80,22 @@ def decimal_states(
     system: DocumentSystem, theta: Sequence[float], omega: Sequence[float], times: Sequence[float]
 ) -> tuple[list[list[str]], list[float]]:
     """Rows of θ and ω as decimals of quadruple precision, and the error estimate of each row."""
+    states, error = quadruple_states(system, theta, omega, times)
+    return [[str(number) for number in row] for row in states], error.tolist()
+
+
+def quadruple_states(
+    system: DocumentSystem, theta: Sequence[float], omega: Sequence[float], times: Sequence[float]
+) -> tuple[Array, Floats]:
+    """θ and ω side by side, (times, 2n), in quadruple precision, and the error estimate of each row."""
     extended = system.n > LARGEST_QUADRUPLE_N and np.finfo(np.longdouble).nmant >= 63
     return integrated(_equations(system), [*theta, *omega], times, extended=extended)
 
 
 def integrated(
     equations: list[tuple[Any, Any]], state: Sequence[float], times: Sequence[float], *, extended: bool = False
-) -> tuple[list[list[str]], list[float]]:
-    """States at ``times`` as rows of decimals, from ``state`` at the first, and the error estimate of each row.
+) -> tuple[Array, Floats]:
+    """States at ``times``, (times, variables), from ``state`` at the first, and the error estimate of each row.
 
     ``equations``: heyoka's variables, each with the expression of its derivative; ``extended``: in long doubles.
     """
@@ -88,8 +104,7 @@ def integrated(
     )
     finer, coarser = (_run(equations, state, times, tolerance, number) for tolerance in tolerances)
     difference = np.abs(finer - coarser).max(-1).astype(np.float64)
-    error = np.maximum(difference, 2.0**-bits * np.abs(finer).max(-1).astype(np.float64))
-    return [[str(number) for number in row] for row in finer], error.tolist()
+    return finer, np.maximum(difference, 2.0**-bits * np.abs(finer).max(-1).astype(np.float64))
 
 
 def _run(

@@ -16,7 +16,7 @@ from ...models.errors import library
 from ...models.spatial_mechanism import SpatialMechanism
 from ..kernels.trees.plain import Numbers, follow
 from ..kernels.trees.table import Table, table
-from .quadruple import from_decimals, integrated
+from .quadruple import integrated, split
 
 Floats = NDArray[np.float64]
 
@@ -60,9 +60,8 @@ def quadruple_tree_motion(
     where the motion does not come to its end.
     """
     known = table(mechanism)
-    digits, error = integrated(_equations(known), [*map(float, q), *map(float, v)], [*map(float, times)])
-    found = from_decimals(digits, error, mechanism.nv)
-    return np.hstack([found.theta, found.omega]), np.hstack([found.theta_low, found.omega_low])
+    states, _ = integrated(_equations(known), [*map(float, q), *map(float, v)], [*map(float, times)])
+    return split(states)
 
 
 def _equations(known: Table) -> list[tuple[Any, Any]]:

@@ -163,10 +163,10 @@ def test_a_truth_is_looked_for_and_kept_in_as_many_states_as_the_run_has(monkeyp
     asked, kept = [], []
 
     class Spy(Cache):
-        def facts(self, scene, random_states, slopes):
+        def facts(self, scene, random_states, *_asked):
             asked.append((scene.name, random_states))
 
-        def keep_facts(self, scene, random_states, content, slopes):
+        def keep_facts(self, scene, random_states, content, *_asked):
             kept.append((scene.name, random_states, content))
 
     monkeypatch.setattr(runner, "Pool", lambda *_: SimpleNamespace(idle=list, busy=[]))

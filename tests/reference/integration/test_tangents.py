@@ -4,13 +4,13 @@ import math
 
 import numpy as np
 import pytest
+from literal_growth import growth_along
 
 import furiko
 from furiko.models import InvalidInput, NLegPendulum, RodChain
 from furiko.models.states import natural_rate
 from furiko.reference import mass_matrix
 from furiko.reference.integration.tangents import general_directions
-from furiko.reference.integration.variation import growth_along
 
 ROD = RodChain((0.7,), density=3.0)
 RODS = RodChain((1.0, 0.4, 1.3), density=0.5)

@@ -4,17 +4,17 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from literal_growth import growth_along
 
 from furiko.models import NLegPendulum, RodChain
 from furiko.models.states import natural_rate
 from furiko.reference import literal_accelerations, mass_matrix
 from furiko.reference.integration.schemes import BUTCHER_6
+from furiko.reference.integration.tangents import lyapunov_time
 from furiko.reference.integration.taylor import simulate
 from furiko.reference.integration.variation import (
     fastest_rate,
     growth,
-    growth_along,
-    lyapunov_time,
     tangent_flow,
     variation,
 )
