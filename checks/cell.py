@@ -98,10 +98,14 @@ class Cell:
         )
 
     @cached_property
+    def mass(self) -> Array:
+        """The true mass matrix in all states, (B, n, n) [kg m²]: hundreds of megaflops for long chains."""
+        return mass_matrix(self.scene.system, self.states.theta)
+
+    @cached_property
     def regular(self) -> Cell:
         """This cell in those states in which a solution for accelerations has digits that are sure."""
-        theta = self.states.theta
-        kept = self.amplitude.regular(mass_matrix(self.scene.system, theta), self.info.accuracy)
+        kept = self.amplitude.regular(self.mass, self.info.accuracy)
         return self if kept.all() else replace(self, states=self.states.only(kept), facts=self.facts.only(kept))
 
     @cached_property

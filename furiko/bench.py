@@ -33,8 +33,9 @@ NOTES = (
     "MuJoCo's Python package makes the C library read a clock several times in every step; 'timer off' is without it.",
     "Engines' accelerations are timed by their most direct calls, with the input in place, without furiko's adapters; "
     "those of trees through them.",
-    "Errors of motions: the largest of θ [rad] and ω [rad/s] at the end, against a run in quadruple precision. Errors "
-    "of accelerations: relative to a state's largest, against enclosures in ball arithmetic.",
+    "Errors of motions: the largest of θ [rad] and ω [rad/s] at the end, against a run in quadruple precision, which "
+    "is held against a proof where one is kept. Errors of accelerations: relative to a state's largest, against "
+    "enclosures in ball arithmetic.",
     "'not reached': no run of the method had so small an error. Nothing is extrapolated.",
 )
 

@@ -46,11 +46,12 @@ class Motion(msgspec.Struct, frozen=True, kw_only=True):
     system: str
     n: int
     duration: float
-    truth: float  # estimated error of the reference solution
+    truth: float  # error of the reference solution
     points: list[Point]
     reaches: list[Reach]
     left_out: list[str]  # engines without a method, and why
     causes: list[Difference] = []  # why an engine's accelerations or steps are not those of the scene
+    proved: bool = False  # ``truth`` is a bound, by a kept proof, not an estimate
 
 
 class Speed(msgspec.Struct, frozen=True, kw_only=True):

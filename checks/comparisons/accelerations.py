@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...records.check import Result
-from ...reference import mass_matrix
 from ...reference.rounding import spread
 from ...reference.rounding.bounds import EPSILON, Amplitudes, allowed, turns
 from ...reference.rounding.maximal_elimination import furthest_off
@@ -95,7 +94,7 @@ def backward_error(cell: Cell, accelerations: Array, amplitude: Amplitudes) -> t
     """
     judged = np.ones(len(accelerations), dtype=np.bool_)
     system, theta, omega = cell.scene.system, cell.states.theta, cell.states.omega
-    mass, turned = mass_matrix(system, theta), turns(theta)[:, None]
+    mass, turned = cell.mass, turns(theta)[:, None]
     error = cell.facts.error(accelerations)
     residual = amplitude.residual((mass @ error[..., None])[..., 0])
     rows = amplitude.rows(accelerations, omega) * turned

@@ -24,6 +24,7 @@ from ..truth.quadruple import QuadrupleTrajectory
 from .enclose import Balls, Enclosed, Floats, above, enclose
 
 PATH = Path(__file__).parent.parent / "data" / "proved_endpoints.json"
+BENCHMARKS_PATH = PATH.with_name("proved_benchmarks.json")  # of the motions that are timed, in the same form
 DIGITS = 30  # as many as the end points in quadruple precision promise
 KEPT_DIGITS = 40  # of a midpoint's decimals
 READ_BITS = 192  # of the balls that are read: more than KEPT_DIGITS hold
@@ -127,7 +128,11 @@ def radii(states: Sequence[Sequence[str]]) -> list[float]:
 
 @cache
 def _kept() -> dict[str, dict[str, Any]]:
-    found: dict[str, dict[str, Any]] = json.loads(PATH.read_text(encoding="utf-8")) if PATH.exists() else {}
+    return _read(PATH) | _read(BENCHMARKS_PATH)
+
+
+def _read(path: Path) -> dict[str, dict[str, Any]]:
+    found: dict[str, dict[str, Any]] = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
     return found
 
 
@@ -151,22 +156,32 @@ def table() -> str:
     return "\n".join(lines)
 
 
+def write(scene: Scene, path: Path = PATH) -> None:
+    """Prove the end points of a scene anew, keep them, and say how far that went."""
+    assert scene.theta is not None
+    assert scene.omega is not None
+    found = proved(scene)
+    kept = _read(path) | {key(scene.system, scene.theta, scene.omega, scene.duration): entry(scene, found)}
+    write_whole(path, json.dumps(kept, indent=1, sort_keys=True, ensure_ascii=False) + "\n")
+    print(
+        f"{scene.name}: {'proved' if found.complete else f'proved until {found.proved_until:g} s, {found.why}'}, "
+        f"radius {found.radius[-1]:.1e}, {found.bits} bits, {found.steps} steps, {found.seconds:.1f} s",
+        flush=True,
+    )
+
+
 def main(names: Sequence[str]) -> None:
     """Prove the end points of these scenes, or of all that have a duration, and write them."""
     from ...models import document_scenes
 
     for scene in document_scenes():
-        if scene.theta is None or scene.omega is None or not scene.duration or (names and scene.name not in names):
-            continue
-        found = proved(scene)
-        kept = json.loads(PATH.read_text(encoding="utf-8")) if PATH.exists() else {}
-        kept[key(scene.system, scene.theta, scene.omega, scene.duration)] = entry(scene, found)
-        write_whole(PATH, json.dumps(kept, indent=1, sort_keys=True, ensure_ascii=False) + "\n")
-        print(
-            f"{scene.name}: {'proved' if found.complete else f'proved until {found.proved_until:g} s, {found.why}'}, "
-            f"radius {found.radius[-1]:.1e}, {found.bits} bits, {found.steps} steps, {found.seconds:.1f} s",
-            flush=True,
-        )
+        if (
+            scene.theta is not None
+            and scene.omega is not None
+            and scene.duration
+            and (not names or scene.name in names)
+        ):
+            write(scene)
 
 
 if __name__ == "__main__":

@@ -58,6 +58,8 @@ def _motion(motion: Motion, console: PlainConsole) -> None:
     ]
     console.table(("  engine", "scheme", *(f"{error:g}" for error in errors), "smallest error"), rows)
     console.line("* on the Pareto front; in brackets: the time as a multiple of furiko's", "dim")
+    truth = "the motion's end is proved, to within" if motion.proved else "the reference's estimated error:"
+    console.line(f"{truth} {motion.truth:.0e}", "dim")
     for reason, found in _reasons(motion).items():
         console.line(f"not reached by {'; '.join(found)}: {reason}", "dim")
     for sentence in zigzags(motion):

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ...engines import AnyShape, EngineInfo, Integrator, Native, cannot, engine_info, load_engine, why_missing
 from ...models import InvalidInput, Scene
 from ...models.errors import library
+from ...reference.proved.kept import proof, sure
 from ...reference.truth.end_points import lookup
 from ...reference.truth.quadruple import QuadrupleTrajectory
 
@@ -86,6 +87,15 @@ def truth(scene: Scene) -> QuadrupleTrajectory:
     if scene.theta is None or scene.omega is None or not scene.duration:
         raise InvalidInput(f"{scene.name}: a [state] with a duration is needed, or there is no motion to time")
     return lookup(scene.system, scene.theta, scene.omega, scene.duration)
+
+
+def reference_error(scene: Scene) -> tuple[float, bool]:
+    """How far :func:`truth` is from the motion at its end [rad, rad/s], and whether that is proved, not estimated."""
+    true = truth(scene)
+    assert scene.theta is not None
+    assert scene.omega is not None
+    off, proved = sure(true, proof(scene.system, scene.theta, scene.omega, scene.duration))
+    return float(off[-1]), proved[-1]
 
 
 def end_error(scene: Scene, end: End) -> float:

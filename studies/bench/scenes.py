@@ -1,9 +1,12 @@
 """The scenes that ``furiko bench`` times by default: rods that start at rest with rising angles.
 
-``python -m furiko.studies.bench.scenes`` computes their end points anew.
+``python -m furiko.studies.bench.scenes`` computes their end points anew, and proves those that it names (minutes).
 """
 
 from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -26,12 +29,15 @@ BENCHMARKS: dict[str, Scene] = {
 }
 
 
-def main() -> None:
-    """Compute the end points of these motions anew."""
+def main(proved: Sequence[str]) -> None:
+    """Compute the end points of these motions anew, and prove those of the named ones."""
+    from ...reference.proved import kept
     from ...reference.truth.end_points import BENCHMARKS_PATH, write
 
     print(f"{write([*BENCHMARKS.values()], BENCHMARKS_PATH)} end points written to {BENCHMARKS_PATH}")
+    for name in proved:
+        kept.write(BENCHMARKS[name], kept.BENCHMARKS_PATH)
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1:])

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...models import Scene
 from ...records.bench import Motion, Point, Reach
-from .methods import FURIKO, End, Method, end_error, methods, truth
+from .methods import FURIKO, End, Method, end_error, methods, reference_error
 from .motion_causes import motion_causes
 from .timing import FEWEST, Subject, Times, interleaved, once
 
@@ -56,12 +56,14 @@ def work_precision(
         stopped |= dict.fromkeys(((method.engine, method.named(context)) for context in method.contexts), why)
     watch(f"{scene.name}: in turn")
     points = _timed(runs, (1 - EXPLORING) * budget)
+    off, proved = reference_error(scene)
     return Motion(
         scene=scene.name,
         system=scene.system.kind,
         n=scene.system.n,
         duration=scene.duration,
-        truth=float(truth(scene).error[-1]),
+        truth=off,
+        proved=proved,
         points=points,
         reaches=reaches(points, stopped),
         left_out=left_out,

@@ -12,6 +12,8 @@ from furiko.models import document_scenes, find_scene
 from furiko.reference.proved import kept
 from furiko.reference.truth import end_points
 from furiko.reference.truth.enclosures import precision
+from furiko.studies.bench.methods import reference_error
+from furiko.studies.bench.scenes import BENCHMARKS
 
 MOVING = [scene.name for scene in document_scenes() if scene.theta is not None and scene.duration]
 NAMES = sorted(entry["scene"] for entry in json.loads(kept.PATH.read_text(encoding="utf-8")).values())
@@ -78,6 +80,30 @@ def test_a_new_proof_meets_the_kept_one(name):
             for a, b in zip(new[1:].flat, old.flat, strict=True):
                 assert (a + arb(0, 2 * b.rad())).contains(b)
                 assert a.overlaps(b)
+
+
+def test_the_motion_of_two_rods_that_is_timed_is_proved_to_its_end():
+    """Quadruple precision's end is within the proof; the proof anew, of its first quarter, holds the kept one."""
+    scene = BENCHMARKS["bench-rods-2"]
+    found = kept.proof(scene.system, scene.theta, scene.omega, scene.duration)
+    assert found.times == (1.25, 2.5, 5.0, 10.0)
+    off, proved = reference_error(scene)
+    assert proved
+    assert off <= 1e-20  # quadruple precision, whose rounding the motion multiplies by 1e6 and more
+    assert kept.proof(find_scene("rods-100").system, (0.0,) * 100, (0.0,) * 100, 1.0) is None
+
+
+@pytest.mark.slow
+def test_a_new_proof_of_the_start_of_the_motion_that_is_timed_meets_the_kept_one():
+    scene = BENCHMARKS["bench-rods-2"]
+    old = kept.proof(scene.system, scene.theta, scene.omega, scene.duration)
+    new = furiko.enclose(scene.system, scene.theta, scene.omega, [0.0, *old.times[:2]], digits=12)
+    assert new.complete
+    with precision(kept.READ_BITS):
+        for found, known in ((new.theta, old.theta), (new.omega, old.omega)):
+            for a, b in zip(found[1:].flat, known[:2].flat, strict=True):
+                assert a.overlaps(b)
+                assert (a + arb(0, 2 * b.rad())).contains(b)
 
 
 def test_the_table_in_the_documentation_is_that_of_what_is_kept():
