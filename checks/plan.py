@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from ..engines import OWN_EQUATIONS, EngineInfo, all_of, cannot, engine_info, engine_names, why_missing
-from ..models import AnyScene, InvalidInput, TreeScene, find_scenes
+from ..models import AnyScene, InvalidInput, TreeScene, find_scenes, tagged_scenes
 from ..models.errors import nearest
 from ..records.check import Outcome, Result
 from .registry import CHECKS
@@ -64,9 +64,7 @@ def make_plan(scenes: Sequence[str] | None, engines: Sequence[str] | None, profi
     if profile not in PROFILES:
         raise InvalidInput(f"profile {profile!r}: one of {', '.join(PROFILES)} is needed{nearest(profile, PROFILES)}")
     chosen = PROFILES[profile]
-    found = find_scenes(scenes)
-    if scenes is None and chosen.tag:
-        found = tuple(scene for scene in found if chosen.tag in scene.tags)
+    found = tagged_scenes(chosen.tag) if scenes is None and chosen.tag else find_scenes(scenes)
     # An engine from elsewhere goes by the path that finds it again, in a worker and on the next command line.
     infos = tuple(
         replace(engine_info(name), name=name) for name in all_of(engine_names() if engines is None else engines)

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
         find_document_scene,
         find_scene,
         find_scenes,
+        tagged_scenes,
     )
     from .systems import DocumentSystem, NLegPendulum, RodChain, System
     from .tree import Link, PlanarTree
@@ -50,6 +51,7 @@ _HOMES = {
     "find_document_scene": "scene",
     "find_scene": "scene",
     "find_scenes": "scene",
+    "tagged_scenes": "scene",
     "to_mjcf": "writers.mjcf",
     "to_urdf": "writers.urdf",
 }
@@ -74,6 +76,7 @@ __all__ = [
     "find_document_scene",
     "find_scene",
     "find_scenes",
+    "tagged_scenes",
     "to_mjcf",
     "to_urdf",
 ]

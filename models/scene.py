@@ -10,6 +10,7 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any, Literal
 
@@ -89,11 +90,13 @@ class _File(msgspec.Struct, forbid_unknown_fields=True):
     description: str = ""
 
 
+@cache
 def catalogue() -> tuple[str, ...]:
     """Names of the catalogue's scenes: those of the documents, smaller systems first, then those of trees."""
     return document_catalogue() + tuple(sorted((path.stem for path in TREES.glob("*.toml")), key=_natural))
 
 
+@cache
 def document_catalogue() -> tuple[str, ...]:
     """Names of the catalogue's scenes of the documents' mechanisms."""
     return tuple(sorted((path.stem for path in CATALOGUE.glob("*.toml")), key=_natural))
@@ -102,10 +105,21 @@ def document_catalogue() -> tuple[str, ...]:
 def find_scene(name: str) -> AnyScene:
     """The catalogue's scene of this name, or the scene in this TOML file. Raises :class:`InvalidInput`."""
     if name in catalogue():
-        return read_scene((CATALOGUE if name in document_catalogue() else TREES) / f"{name}.toml")
+        return read_scene(_file_of(name))
     if name.endswith(".toml") or "/" in name:
         return read_scene(Path(name))
     raise InvalidInput(f"scene {name!r}: not in the catalogue{nearest(name, catalogue())}; 'furiko scenes' lists all")
+
+
+def _file_of(name: str) -> Path:
+    """The file of a scene of the catalogue."""
+    return (CATALOGUE if name in document_catalogue() else TREES) / f"{name}.toml"
+
+
+def tagged_scenes(tag: str) -> tuple[AnyScene, ...]:
+    """The catalogue's scenes with this tag. Others' files are looked into, not read: that takes most of the time."""
+    names = [name for name in catalogue() if f'"{tag}"' in read_text(_file_of(name), LARGEST_FILE)]
+    return tuple(scene for scene in find_scenes(names) if tag in scene.tags)
 
 
 def document_scenes() -> tuple[Scene, ...]:

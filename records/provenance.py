@@ -7,7 +7,8 @@ import platform
 import shlex
 import sys
 from datetime import UTC, datetime
-from importlib.metadata import PackageNotFoundError, version
+
+from ..models.installed import installed_version
 
 PACKAGES = ("numpy", "scipy", "mujoco", "pin", "exudyn", "python-flint", "heyoka", "numba")
 
@@ -42,11 +43,7 @@ def _processor() -> str:
 
 def versions() -> dict[str, str]:
     """Versions of Python and of the packages that results depend on; ``not installed`` for a missing package."""
-    return {"python": platform.python_version(), **{name: _version(name) for name in PACKAGES}}
-
-
-def _version(package: str) -> str:
-    try:
-        return version(package)
-    except PackageNotFoundError:
-        return "not installed"
+    return {
+        "python": platform.python_version(),
+        **{name: installed_version(name) or "not installed" for name in PACKAGES},
+    }

@@ -14,6 +14,7 @@ from furiko.models import (
     document_scenes,
     find_scene,
     find_scenes,
+    tagged_scenes,
 )
 from furiko.models.scene import LARGEST_FILE, scene_from_toml
 
@@ -124,3 +125,10 @@ def test_the_catalogue_covers_every_system_of_the_documents():
 
 def test_every_system_has_two_hundred_states():
     assert all(find_scene(name).random >= 200 for name in catalogue())
+
+
+def test_scenes_with_a_tag_are_those_of_the_whole_catalogue_that_have_it():
+    whole = find_scenes(None)
+    for tag in ("smoke", "chaotic", "shiki", "no such tag"):
+        assert tagged_scenes(tag) == tuple(scene for scene in whole if tag in scene.tags)
+    assert len(tagged_scenes("smoke")) == 4

@@ -22,8 +22,8 @@ def swept(scenes):
 
 def test_the_main_process_does_little_for_a_cell_and_reads_no_metadata_for_it(monkeypatch):
     reads = []
-    real = importlib.metadata.version
-    monkeypatch.setattr(importlib.metadata, "version", lambda name: reads.append(name) or real(name))
+    real = importlib.metadata.distribution
+    monkeypatch.setattr(importlib.metadata, "distribution", lambda name: reads.append(name) or real(name))
 
     def cost(scenes, lane):
         profile, before = cProfile.Profile(), len(reads)
