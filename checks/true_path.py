@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ..models import InvalidInput, Scene
+from ..models import InvalidInput, LibraryMissing, Scene
 from ..reference.integration.tangents import lyapunov_time
 from ..reference.truth.quadruple import quadruple_trajectory
 
@@ -21,7 +21,10 @@ FOLDS = 20.0  # Lyapunov times; a local error of a few roundings has grown past 
 def followed(scene: Scene) -> float:
     """How long a scene's motion is followed [s]: a whole number of the longest steps."""
     theta, omega = _start(scene)
-    folding = lyapunov_time(scene.system, np.array(theta), np.array(omega), scene.duration)
+    try:
+        folding = lyapunov_time(scene.system, np.array(theta), np.array(omega), scene.duration)
+    except LibraryMissing:  # without a compiler: as long as can be, which takes longer and shows no less
+        folding = LONGEST
     return STEPS[0] * round(min(LONGEST, FOLDS * folding) / STEPS[0])
 
 

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 
 from ..models import EngineMissing, InvalidInput, System, TreeSystem
 from ..models.errors import installing, nearest
-from ..models.installed import installed_version
 from ..models.trees.own import OWN
 from . import elsewhere
 from .info import EngineInfo, TreeInfo
@@ -185,7 +184,13 @@ def engine_version(name: str) -> str:
         if place.kind == "program":
             return engines.program_version(place)
         return engines.installed_version(place, base_of(place))
-    return installed_version(_KNOWN[name].package if name in _KNOWN else engine_info(name).package)
+    return _installed(_KNOWN[name].package if name in _KNOWN else engine_info(name).package)
+
+
+def _installed(package: str) -> str:
+    from ..records.provenance import installed_version  # takes 5 ms, and workers never ask
+
+    return installed_version(package)
 
 
 def runs_elsewhere(name: str) -> bool:
@@ -308,7 +313,7 @@ def _require(info: EngineInfo) -> None:
     try:
         module = importlib.import_module(info.module)
     except ImportError as error:
-        version = installed_version(info.package)
+        version = _installed(info.package)
         if not version or isinstance(error, ModuleNotFoundError):
             raise EngineMissing(f"{advice} [{error}]") from error
         found = f"{info.name}: {info.package} {version} is installed and cannot be imported: {error}"

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engines import AnyShape, Integrator
-from ...models import Scene
+from ...models import LibraryMissing, Scene
 from ...models.systems import DocumentSystem
 from ...records.check import Result
 from ...reference import energies, literal_accelerations, mass_matrix
@@ -126,10 +126,13 @@ def _compare(cell: Cell, integrator: Integrator, start: Start, invariant: Invari
 
 @lru_cache(maxsize=1)  # a worker looks at one scene with several integrators and engines
 def _lyapunov_time(scene: Scene) -> float | None:
-    """Of the scene's own motion [s]; None where nothing moves in it, or nothing grows."""
+    """Of the scene's own motion [s]; None where nothing moves in it, nothing grows, or there is no compiler."""
     if scene.theta is None or scene.omega is None or not scene.duration:
         return None
-    found = lyapunov_time(scene.system, np.array(scene.theta), np.array(scene.omega), scene.duration)
+    try:
+        found = lyapunov_time(scene.system, np.array(scene.theta), np.array(scene.omega), scene.duration)
+    except LibraryMissing:
+        return None
     return found if math.isfinite(found) else None
 
 

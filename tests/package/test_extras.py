@@ -22,11 +22,11 @@ def bare(code, cwd):
     hidden = f"import sys; sys.modules.update(dict.fromkeys({OPTIONAL!r})); "
     # Versions come from metadata: an engine that cannot be imported must not look installed either.
     absent = (
-        "import importlib.metadata as m; known = m.version\n"
-        "def version(name):\n"
+        "import importlib.metadata as m; known = m.distribution\n"
+        "def distribution(name):\n"
         "    if name in ('mujoco', 'pin', 'exudyn'): raise m.PackageNotFoundError(name)\n"
         "    return known(name)\n"
-        "m.version = version\n"
+        "m.distribution = distribution\n"
     )
     return subprocess.run(
         [sys.executable, "-c", hidden + absent + code], capture_output=True, text=True, cwd=cwd, check=False,

@@ -4,7 +4,7 @@ from importlib.metadata import version
 
 import pytest
 
-from furiko.models.installed import installed_version
+from furiko.records.provenance import installed_version
 
 
 @pytest.mark.parametrize("package", ["numpy", "scipy", "msgspec", "furiko", "python-flint", "pytest"])
