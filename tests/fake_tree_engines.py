@@ -62,6 +62,52 @@ v = { rail = -1.0 }
 duration = 0.5
 """
 
+# A body that floats, with an arm on a ball joint and a flap on a hinge.
+FLOATING = """
+[system]
+kind = "tree"
+gravity = [0.5, 0.0, -9.81]
+[[system.links]]
+name = "trunk"
+mass = 2.5
+centre = [0.05, -0.02, 0.1]
+inertia = [0.3, 0.2, 0.4, 0.02, 0.01, -0.03]
+[[system.links.joints]]
+name = "float"
+kind = "free"
+[[system.links]]
+name = "arm"
+parent = "trunk"
+position = [0.3, 0.1, 0.2]
+mass = 0.8
+centre = [0.0, 0.1, -0.25]
+inertia = [0.03, 0.02, 0.01]
+[[system.links.joints]]
+name = "shoulder"
+kind = "ball"
+anchor = [0.01, 0.02, 0.0]
+armature = 0.02
+damping = 0.05
+stiffness = 0.6
+[[system.links]]
+name = "flap"
+parent = "trunk"
+position = [-0.3, 0.0, 0.1]
+mass = 0.4
+centre = [-0.2, 0.0, 0.05]
+inertia = [0.01, 0.02, 0.02]
+[[system.links.joints]]
+name = "pin"
+axis = [0.1, 1.0, 0.2]
+armature = 0.01
+damping = 0.02
+stiffness = 1.0
+[state]
+q = { float = [0.3, -0.2, 1.0, 0.8, 0.2, -0.5, 0.3], shoulder = [0.9, 0.1, 0.3, -0.2], pin = 0.4 }
+v = { float = [1.0, 0.5, -0.5, 1.5, -2.0, 1.0], shoulder = [0.5, 1.0, -1.0], pin = -0.4 }
+duration = 0.5
+"""
+
 
 def about(name, **tree):
     return EngineInfo(

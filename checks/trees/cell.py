@@ -88,8 +88,13 @@ class TreeCell:
 
     def trajectory(self, q: Array, v: Array, integrator: Integrator, step: float, steps: int) -> Array:
         """q and v at the end of one of the engine's own runs, (2, nv); of mechanisms with as many q as v."""
-        found = np.array(self.engine.trajectory(q, v, integrator.name, step, steps))
-        return self.answer(integrator.name, found, (2, v.size))
+        return np.array(self.run(q, v, integrator, step, steps))
+
+    def run(self, q: Array, v: Array, integrator: Integrator, step: float, steps: int) -> tuple[Array, Array]:
+        """q (nq,) and v (nv,) at the end of one of the engine's own runs."""
+        ends = self.engine.trajectory(q, v, integrator.name, step, steps)
+        at, rates = (self.answer(integrator.name, end, given.shape) for end, given in zip(ends, (q, v), strict=True))
+        return at, rates
 
     def path(self, q: Array, v: Array, integrator: Integrator, step: float, steps: int) -> Array | None:
         """No adapter of trees gives all states of a run."""

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from ...models import DocumentSystem
 from ..integration.schemes import Scheme, run
+from ..integration.tree_schemes import TreeScheme
 from ..kernels.forward_dynamics import plain_accelerations
 from .bounds import EPSILON, Amplitudes
 from .monte_carlo import ONE_ROUNDING
@@ -98,7 +99,7 @@ def stepped(
     return Ends(ends[:, 0], spread, kept)
 
 
-def step_bound(scheme: Scheme, h: float, fastest: float, off: Array, angles: Array, rates: Array) -> Array:
+def step_bound(scheme: Scheme | TreeScheme, h: float, fastest: float, off: Array, angles: Array, rates: Array) -> Array:
     """How far rounding may take angles [rad] and rates [rad/s] from those of one step of ``h`` seconds, (2, …).
 
     ``fastest`` [1/s]: the rate at which nearby states part; ``off``: the accelerations' error [rad/s²]; ``angles``
