@@ -36,12 +36,6 @@ def _no_motion(scene: AnyScene, info: EngineInfo) -> str:
     return _no_duration(scene, info)
 
 
-def _no_runs(scene: AnyScene, _info: EngineInfo) -> str:
-    if isinstance(scene, TreeScene) and {"ball", "free"} & scene.system.features:
-        return "runs are made of trees of hinges and slides alone"
-    return ""
-
-
 def _no_derivatives(scene: AnyScene, info: EngineInfo) -> str:
     if not isinstance(scene, TreeScene):
         return "" if info.offers else "; ".join(dict.fromkeys(info.lacks.values())) or NOT_OFFERED
@@ -157,7 +151,6 @@ CHECKS = {
             meaning="Energy, angular momentum and the way back hold in the limit of small steps.",
             bound="Richardson extrapolation's own uncertainty, and rounding along the run",
             trees=OfTrees("invariants", "trajectory"),
-            why_not=_no_runs,
             long=True,
         ),
         Check(

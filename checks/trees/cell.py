@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -17,6 +17,7 @@ from ...models import TreeScene
 from ...models.spatial_mechanism import SpatialMechanism
 from ...models.trees.states import TreeStates
 from ...records.check import Outcome, Result
+from ...reference.integration.tree_places import quaternions
 from ...reference.rounding.bounds import EPSILON
 from ...reference.rounding.spatial import Magnitudes
 from ..cell import array_of
@@ -65,6 +66,13 @@ class TreeCell:
     def roundings_of(self, units: Magnitudes) -> float:
         """How many ε of these units a number may be off by."""
         return units.roundings * (self.info.accuracy / EPSILON)
+
+    @cached_property
+    def integrators(self) -> tuple[Integrator, ...]:
+        """The engine's, each with the order that it has in this mechanism."""
+        if not quaternions(self.mechanism):
+            return self.info.integrators
+        return tuple(replace(one, order=one.turning or one.order) for one in self.info.integrators)
 
     @property
     def explanation(self) -> Explanation:

@@ -28,10 +28,10 @@ from ...engines import Integrator
 from ...models.spatial_mechanism import SpatialMechanism
 from ...records.check import Result
 from ...reference.integration.tree_places import plain, quaternions
-from ...reference.integration.tree_schemes import TreeScheme, tree_schemes
-from ...reference.integration.tree_variation import slopes
+from ...reference.integration.tree_schemes import TreeScheme, lone_free_bodies, tree_schemes
+from ...reference.integration.tree_variation import fastest_turn, slopes
 from ...reference.rounding.bounds import EPSILON
-from ...reference.rounding.stepped import step_bound
+from ...reference.rounding.stepped import QUATERNION, step_bound
 from ..cell import quotient, worst
 from ..motions.textbook import says_whose_step
 from .cell import TreeCell
@@ -44,9 +44,6 @@ NAME = "step map"
 STATES = 3  # random states in which a step is taken
 SHORT = 1 / 8  # step × fastest rate
 OWN = 2.0  # the engine's accelerations have rounding, and the numbers that these ones are computed from
-# ε of a quaternion's components, of length one: five half ε to make it so, or the 1e-15 by which MuJoCo lets its length
-# be, two for the sines and cosines of half a turn, four for the four products of each component.
-QUATERNION = 12
 
 
 @dataclass(frozen=True)
@@ -93,7 +90,10 @@ def compare(cell: TreeCell) -> Iterator[Result]:
     """One result for each integrator."""
     steps = chosen_steps(cell)
     textbook = Textbook(steps)
-    for integrator in cell.info.integrators:
+    for integrator in cell.integrators:
+        if integrator.lone_body and lone_free_bodies(cell.mechanism):
+            yield cell.result(f"{NAME} {integrator.name}", "skipped", reason=integrator.lone_body)
+            continue
         yield _compare(cell, integrator, steps, textbook)
 
 
@@ -106,13 +106,6 @@ def chosen_steps(cell: TreeCell) -> Steps:
     # A power of two, so that halves and sums of steps are exact.
     h = 2.0 ** math.floor(math.log2(SHORT / fastest)) if fastest > 0 else SHORT
     return Steps(cell, h, q, v, by_q, by_v)
-
-
-def fastest_turn(mechanism: SpatialMechanism, v: Array) -> float:
-    """The largest rate at which a joint turns in states (B, nv) [rad/s]."""
-    hinges = [abs(v[:, one.at_v]).max() for one in mechanism.joints if one.joint.kind == "hinge"]
-    others = [np.linalg.norm(v[:, at], axis=-1).max() for _, at in quaternions(mechanism)]
-    return max(map(float, (*hinges, *others)), default=0.0)
 
 
 class Textbook:
@@ -177,7 +170,7 @@ def _compare(cell: TreeCell, integrator: Integrator, steps: Steps, textbook: Tex
         "agrees" if agrees else "differs",
         measured=best.excess * best.bound,
         allowed=best.bound,
-        unit=_where(cell, best.place)[1],
+        unit=_where(cell, best.place)[1] or None,
         reason=_reason(cell, integrator, best, rest),
         details={
             "integrator": integrator.name,
@@ -225,7 +218,7 @@ def bound(scheme: TreeScheme, first: Array, steps: Steps) -> Array:
 
 
 def _where(cell: TreeCell, place: tuple[int, ...]) -> tuple[str, str]:
-    """What is at a ``place``, the state and the column, is called, and its unit."""
+    """What is at a ``place``, the state and the column, is called, and its unit; a quaternion has none."""
     _, column = place
     mechanism, rate = cell.mechanism, column >= cell.mechanism.nq
     if rate:
@@ -234,7 +227,7 @@ def _where(cell: TreeCell, place: tuple[int, ...]) -> tuple[str, str]:
         of_q, of_v = plain(mechanism)
         if column not in of_q:
             joint = next(one for one in mechanism.joints if column < one.columns_q.stop)
-            return f"the quaternion of {joint.joint.name!r}", "1"
+            return f"the quaternion of {joint.joint.name!r}", ""
         freedom = int(of_v[np.searchsorted(of_q, column)])
     joint = next(one for one in mechanism.joints if freedom < one.columns_v.stop)
     along = joint.joint.kind == "slide" or (joint.joint.kind == "free" and freedom < joint.at_v + 3)
@@ -246,8 +239,9 @@ def _reason(cell: TreeCell, integrator: Integrator, best: Fit, rest: list[Fit]) 
         what, unit = _where(cell, best.place)
         return (
             f"one step of {integrator.name} is no textbook scheme's; the nearest, {best.scheme.name}, misses "
-            f"{what} by {best.excess * best.bound:.3g} {unit}, and rounding explains "
+            f"{what} by {f'{best.excess * best.bound:.3g} {unit}'.strip()}, and rounding explains "
             f"{best.bound:.3g}"
         )
     others = [one.scheme.name for one in rest if one.excess <= 1]
-    return says_whose_step(integrator, best.scheme.name, best.scheme.order, others)
+    slower = f", of order {integrator.turning} where bodies tumble" if integrator.turning == integrator.order else ""
+    return says_whose_step(integrator, best.scheme.name + slower, best.scheme.order, others)

@@ -17,7 +17,7 @@ from ..kernels.trees.plain import in_extended_precision
 from ..kernels.trees.springs import sprung
 from ..kernels.trees.table import kept_table
 from . import schemes
-from .tree_places import moved
+from .tree_places import moved, quaternions
 
 Floats = NDArray[np.float64]
 Wide = NDArray[Any]
@@ -62,6 +62,13 @@ def _differences(mechanism: SpatialMechanism, q: Floats, v: Floats, nudges: Floa
         more, less = ends.reshape(*both.shape[:2], len(q), n)
         columns.append((more - less) / (2 * np.abs(some).max(axis=-1, keepdims=True)))
     return np.moveaxis(np.concatenate(columns), 0, -1)
+
+
+def fastest_turn(mechanism: SpatialMechanism, v: Floats) -> float:
+    """The largest rate at which a joint turns in states (B, nv) [rad/s]."""
+    hinges = [abs(v[:, one.at_v]).max() for one in mechanism.joints if one.joint.kind == "hinge"]
+    others = [np.linalg.norm(v[:, at], axis=-1).max() for _, at in quaternions(mechanism)]
+    return max(map(float, (*hinges, *others)), default=0.0)
 
 
 def tree_flow(mechanism: SpatialMechanism, q: Floats, v: Floats, step: float) -> Floats:

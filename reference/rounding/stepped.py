@@ -33,6 +33,9 @@ SAMPLES = 16  # the spread is then known to a fifth of itself
 SEED = 20261127
 # Far above what rounds in these runs themselves, and so small that errors which grow a million times stay linear.
 MAGNIFIED = 2.0**14
+# ε of a quaternion's components, of length one: five half ε to make it so, or the 1e-15 by which MuJoCo lets its length
+# be, two for the sines and cosines of half a turn, four for the four products of each component.
+QUATERNION = 12
 
 
 @dataclass(frozen=True)
