@@ -28,11 +28,8 @@ def _no_images(_scene: AnyScene, info: EngineInfo) -> str:
 
 
 def _no_motion(scene: AnyScene, info: EngineInfo) -> str:
-    if isinstance(scene, TreeScene):
-        if {"ball", "free"} & scene.system.features:
-            return "motions are followed of trees of hinges and slides alone"
-        if not scene.starts:
-            return "the scene has no state for a trajectory to start from"
+    if isinstance(scene, TreeScene) and not scene.starts:
+        return "the scene has no state for a trajectory to start from"
     return _no_duration(scene, info)
 
 
@@ -57,6 +54,8 @@ def _not_chaotic(scene: AnyScene, info: EngineInfo) -> str:
     if "chaotic" not in scene.tags:
         return "the scene is not tagged 'chaotic': its divergence time is not asked"
     if isinstance(scene, TreeScene):
+        if {"ball", "free"} & scene.system.features:
+            return "motions are followed in quadruple precision of trees of hinges and slides alone"
         return _no_motion(scene, info)
     return "" if scene.starts else "the scene has no state for a trajectory to start from"
 

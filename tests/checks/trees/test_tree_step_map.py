@@ -6,6 +6,7 @@ from dataclasses import replace
 import fake_tree_engines
 import numpy as np
 import pytest
+from fake_tree_engines import Components, Means, product, turned
 from score_trees import cells
 
 from furiko.checks.trees import step_map
@@ -127,19 +128,6 @@ def test_each_integrator_of_an_engine_is_named_where_bodies_turn_in_all_directio
     assert {result.unit for result in found.values()} <= {"rad", "m", "rad/s", "m/s", None}
 
 
-def turned(q, by):
-    """q with its two quaternions as ``by`` makes them: of what they are, and of their number."""
-    q = q.copy()
-    for number, at in enumerate((slice(3, 7), slice(7, 11))):
-        q[at] = by(q[at], number)
-    return q
-
-
-def product(first, second):
-    (a, *r), (b, *s) = first, second
-    return np.array([a * b - np.dot(r, s), *(a * np.array(s) + b * np.array(r) + np.cross(r, s))])
-
-
 def in_the_world(q, v, before, step):
     """Turned about the world's axes by as much as it should be about the body's."""
     found = q.copy()
@@ -192,72 +180,6 @@ def test_a_floating_body_that_is_damped_by_1e_12_a_second_differs():
 def test_the_other_sign_of_a_quaternion_is_the_same_rotation():
     (result,) = compared(FLOATING, wrong(lambda q, v, before, step: (turned(q, lambda one, number: -one), v))).values()
     assert result.outcome == "agrees"
-
-
-class Own(fake_tree_engines.Right):
-    """A scheme of its own: ``stages`` of Runge and Kutta's, in plain numbers."""
-
-    info = fake_tree_engines.about("Own")
-
-    def trajectory(self, q, v, integrator, step, steps):
-        for _ in range(steps):
-            q, v = self.step(q, v, step)
-        return q, v
-
-    def a(self, q, v):
-        return self.accelerations(q[None], v[None])[0]
-
-
-def weighed(parts):
-    return (parts[0] + 2 * parts[1] + 2 * parts[2] + parts[3]) / 6
-
-
-def start_of(q):
-    return turned(q, lambda one, number: one / np.linalg.norm(one))
-
-
-class Components(Own):
-    """Quaternions are four numbers that have rates, and are made of length one at the end of a step."""
-
-    def step(self, q, v, h):
-        q = start_of(q)
-
-        def rates(at, v):
-            found = np.concatenate([v[:3], np.zeros(8), v[9:]])
-            found[3:7], found[7:11] = product(at[3:7], [0, *v[3:6]]) / 2, product(at[7:11], [0, *v[6:9]]) / 2
-            return found
-
-        moving, speeding = [], []
-        for part in (0.0, 0.5, 0.5, 1.0):
-            at = q + part * h * moving[-1] if moving else q
-            speed = v + part * h * speeding[-1] if moving else v
-            moving.append(rates(at, speed))
-            speeding.append(self.a(at, speed))
-        return start_of(q + h * weighed(moving)), v + h * weighed(speeding)
-
-
-class Means(Own):
-    """Rotations are by the mean of the stages' rates, as in releases of MuJoCo before 4."""
-
-    def step(self, q, v, h):
-        q, moving, speeding = start_of(q), [], []
-        for part in (0.0, 0.5, 0.5, 1.0):
-            at = self.moved(q, part * h * moving[-1]) if moving else q
-            speed = v + part * h * speeding[-1] if moving else v
-            moving.append(speed)
-            speeding.append(self.a(at, speed))
-        return self.moved(q, h * weighed(moving)), v + h * weighed(speeding)
-
-    def moved(self, q, x):
-        def turn(one, number):
-            vector = x[3 + 3 * number : 6 + 3 * number]
-            angle = np.linalg.norm(vector)
-            return product(one, [np.cos(angle / 2), *(np.sin(angle / 2) * vector / angle)])
-
-        found = turned(q, turn)
-        found[:3] += x[:3]
-        found[11:] += x[9:]
-        return found
 
 
 def test_quaternions_that_are_moved_like_other_numbers_are_a_textbooks():

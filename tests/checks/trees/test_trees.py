@@ -165,7 +165,7 @@ def test_what_is_skipped_has_its_reason(scene):
     assert "not of its images" in CHECKS["symmetry"].skipped(scene, own)
     assert "joints hold" in CHECKS["joint forces"].skipped(scene, own)
     assert skip("step map", find_scene("humanoid"), engine_info("mujoco")) == ""
-    assert "hinges and slides alone" in skip("trajectory", find_scene("humanoid"), engine_info("mujoco"))
+    assert skip("trajectory", find_scene("humanoid"), engine_info("mujoco")).startswith("the scene has no duration")
     assert "no duration" in skip("trajectory", find_scene("arm-7"), engine_info("mujoco"))
 
 
