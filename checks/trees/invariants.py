@@ -81,17 +81,28 @@ class Start:
 
     def off(self, integrator: Integrator) -> Array:
         """The error of coordinates and rates that rounding and unfinished iterations leave in a run, (2 nv,)."""
-        steps, factorised = STEPS << (RUNS - 1), self.cell.info.algorithm != "aba"
-        a = accelerations(self.mechanism, self.q[None], self.v[None])[0].astype(np.float64)
-        mass = mass_matrix(self.system, self.q.tobytes())
+        steps, rates = STEPS << (RUNS - 1), np.abs(self.v) + self.time * np.abs(self._accelerations)
+        rounded, whole = self._rows
+        rows = rounded + integrator.tolerance * whole
+        sped = EPSILON * steps * rates + self.time * np.abs(inverse(self._mass)) @ rows
+        return np.concatenate([EPSILON * steps * (self._places + self.time * rates), sped])
+
+    @cached_property
+    def _accelerations(self) -> Array:
+        """Where the run starts, (nv,)."""
+        found = accelerations(self.mechanism, self.q[None], self.v[None])
+        return np.asarray(found[0], dtype=np.float64)
+
+    @cached_property
+    def _mass(self) -> Array:
+        return mass_matrix(self.system, self.q.tobytes())
+
+    @cached_property
+    def _rows(self) -> tuple[Array, float]:
+        """The residual of its equations that rounding explains, (nv,), and the norm of their terms."""
         units = self.cell.magnitudes_of(self.mechanism, self.q, self.v)
-        rows = units.residual(a, mass, factorised=factorised)
-        rows = self.cell.roundings_of(units) * EPSILON * rows + integrator.tolerance * np.linalg.norm(rows)
-        rates = np.abs(self.v) + self.time * np.abs(a)
-        places = self._places + self.time * rates
-        return np.concatenate(
-            [EPSILON * steps * places, EPSILON * steps * rates + self.time * np.abs(inverse(mass)) @ rows]
-        )
+        rows = units.residual(self._accelerations, self._mass, factorised=self.cell.info.algorithm != "aba")
+        return self.cell.roundings_of(units) * EPSILON * rows, float(np.linalg.norm(rows))
 
     @cached_property
     def _places(self) -> Array:
@@ -114,8 +125,9 @@ def compare(cell: TreeCell) -> Iterator[Result]:
         return
     q, v = cell.states.q[rows[-1]], cell.states.v[rows[-1]]
     ideal = without_dampers(cell.scene.system)
-    start, weightless = (begin(cell, system, q, v) for system in (ideal, replace(ideal, gravity=(0.0, 0.0, 0.0))))
+    start = begin(cell, ideal, q, v)
     falling, floating = ([one for one in momenta(start.mechanism) if one.falls == falls] for falls in (True, False))
+    weightless = begin(cell, replace(ideal, gravity=(0.0, 0.0, 0.0)), q, v) if floating else start
     for integrator in cell.integrators:
         ends = start.runs(integrator)
         yield _energy(start, integrator, ends)
