@@ -27,10 +27,16 @@ def _no_images(_scene: AnyScene, info: EngineInfo) -> str:
     return "the equations are those of this mechanism, not of its images" if info == OWN_EQUATIONS else ""
 
 
+def _no_runs(scene: AnyScene, _info: EngineInfo) -> str:
+    if isinstance(scene, TreeScene) and "spring of a ball" in scene.system.features:
+        return "the force of a ball's spring jumps at half a turn, which a run may pass: no scheme has its order there"
+    return ""
+
+
 def _no_motion(scene: AnyScene, info: EngineInfo) -> str:
     if isinstance(scene, TreeScene) and not scene.starts:
         return "the scene has no state for a trajectory to start from"
-    return _no_duration(scene, info)
+    return _no_duration(scene, info) or _no_runs(scene, info)
 
 
 def _no_derivatives(scene: AnyScene, info: EngineInfo) -> str:
@@ -150,6 +156,7 @@ CHECKS = {
             meaning="Energy, angular momentum and the way back hold in the limit of small steps.",
             bound="Richardson extrapolation's own uncertainty, and rounding along the run",
             trees=OfTrees("invariants", "trajectory"),
+            why_not=_no_runs,
             long=True,
         ),
         Check(

@@ -72,7 +72,7 @@ FACTS = (
         "mujoco",
         ">=3.7,<3.11",
         {"integrators": (_EULER, replace(_FAST, lone_body=_MIDPOINT), _MEANS)},
-        "implicitfast had a rule of its own for free bodies on which nothing hangs",
+        "implicitfast had a rule of its own for free bodies on which nothing moves",
     ),
     Fact(
         "pinocchio-aba-mjcf",

@@ -88,7 +88,6 @@ kind = "ball"
 anchor = [0.01, 0.02, 0.0]
 armature = 0.02
 damping = 0.05
-stiffness = 0.6
 [[system.links]]
 name = "flap"
 parent = "trunk"

@@ -37,6 +37,7 @@ ON_THE_GROUP = ", rotations after Munthe-Kaas"
 BY_COMPONENTS = ", quaternions by components"
 LATE = "semi-implicit Euler, dampers at the end of the step"
 LATE_FREE = LATE + ", and what turns free bodies"
+LATE_BARE = LATE_FREE + " that carry nothing"
 
 
 @dataclass(frozen=True)
@@ -101,43 +102,46 @@ def _late(mechanism: SpatialMechanism, mass: Floats) -> Iterator[TreeScheme]:
     """Semi-implicit Euler with some forces at the end of the step, where there are any.
 
     Of dampers D, (M + h D)⁻¹ M a is a − (M + h D)⁻¹ h D a, in which the second part, which double precision gives, is
-    small. Of a free body on which nothing hangs, with J = ∂a/∂v, all that depends on its rates: (1 − h J)⁻¹ a, which is
+    small. Of a free body on which nothing moves, with J = ∂a/∂v, all that depends on its rates: (1 − h J)⁻¹ a, which is
     a + (1 − h J)⁻¹ h J a.
     """
-    damping, alone = np.diag(mechanism.per_freedom("damping")), lone_free_bodies(mechanism)
+    damping = np.diag(mechanism.per_freedom("damping"))
+    alone, bare = lone_free_bodies(mechanism), lone_free_bodies(mechanism, bare=True)
 
     def more(a: Floats, h: float) -> Floats:
         late = h * damping
         return np.asarray(-np.linalg.solve(mass + late, late @ a[..., None])[..., 0], dtype=np.float64)
 
-    def more_of_free(q: Wide, v: Wide, a: Floats, h: float) -> Floats:
+    def more_of_free(joints: list[PlacedJoint], q: Wide, v: Wide, a: Floats, h: float) -> Floats:
         found, slopes = more(a, h), rate_slopes(mechanism, q.astype(np.float64), v.astype(np.float64))
-        for joint in alone:
+        for joint in joints:
             own = joint.columns_v
             late = h * slopes[:, own, own].astype(np.float64)
             found[:, own] = np.linalg.solve(np.eye(len(late[0])) - late, late @ a[:, own, None])[..., 0]
         return found
 
-    def step(with_free: bool, q: Wide, v: Wide, h: Any) -> tuple[Wide, Wide]:
+    def step(joints: list[PlacedJoint], q: Wide, v: Wide, h: Any) -> tuple[Wide, Wide]:
         a = accelerations(mechanism, q, v)
         double = a.astype(np.float64)
-        rates = v + h * (a + (more_of_free(q, v, double, float(h)) if with_free else more(double, float(h))))
+        rates = v + h * (a + (more_of_free(joints, q, v, double, float(h)) if joints else more(double, float(h))))
         return moved(mechanism, q, h * rates), rates
 
     if damping.any():
-        yield TreeScheme(LATE, 1, partial(step, False), stages=2)
+        yield TreeScheme(LATE, 1, partial(step, []), stages=2)
     if alone:
-        yield TreeScheme(LATE_FREE, 1, partial(step, True), stages=2)
+        yield TreeScheme(LATE_FREE, 1, partial(step, alone), stages=2)
+    if bare and len(bare) < len(alone):
+        yield TreeScheme(LATE_BARE, 1, partial(step, bare), stages=2)
 
 
-def lone_free_bodies(mechanism: SpatialMechanism) -> list[PlacedJoint]:
-    """The joints of free bodies on which nothing hangs that moves or has mass."""
+def lone_free_bodies(mechanism: SpatialMechanism, *, bare: bool = False) -> list[PlacedJoint]:
+    """The joints of free bodies on which nothing hangs that moves, or, ``bare``, nothing that has mass."""
     carriers: list[int] = []
     for index, body in enumerate(mechanism.bodies):
         carriers.append(index if body.parent == WORLD else carriers[body.parent])
     loaded = {
         carrier
         for carrier, body in zip(carriers, mechanism.bodies, strict=True)
-        if body.parent != WORLD and (body.joints or body.inertial.mass)
+        if body.parent != WORLD and (body.joints or (bare and body.inertial.mass))
     }
     return [one for one in mechanism.joints if one.joint.kind == "free" and one.body not in loaded]
