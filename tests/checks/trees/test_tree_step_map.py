@@ -199,6 +199,11 @@ def test_means_of_rates_are_of_second_order_whatever_the_scheme():
     )
 
 
+def test_the_spring_of_a_ball_acts_in_a_textbooks_step():
+    sprung = FLOATING.replace('kind = "ball"', 'kind = "ball"\nstiffness = 0.5')
+    assert {result.outcome for result in compared(sprung).values()} == {"agrees"}
+
+
 def with_integrators(engine, **fields):
     (usual,) = engine.info.integrators
     return type("Engine", (engine,), {"info": replace(engine.info, integrators=(replace(usual, **fields),))})
