@@ -42,13 +42,16 @@ class Integrator:
 
     ``tolerance``: the residual, relative to that of the first guess, at which an implicit scheme's iterations end; 0
     for an explicit scheme. ``remembers``: the scheme has a state besides angles and rates (accelerations, violated
-    constraints), so that n runs of one step are not one run of n steps.
+    constraints), so that n runs of one step are not one run of n steps. ``turning``: its order where balls or free
+    joints turn, 0 where that is no other; ``lone_body``: why a free body on which nothing moves has no textbook step.
     """
 
     name: str
     order: int
     tolerance: float = 0.0
     remembers: bool = False
+    turning: int = 0
+    lone_body: str = ""
 
 
 @dataclass(frozen=True)

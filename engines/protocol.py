@@ -300,6 +300,6 @@ class TreeEngine(Protocol):
     def trajectory(self, q: Array, v: Array, integrator: str, step: float, steps: int) -> tuple[Array, Array]:
         """q (nq,) and v (nv,) after ``steps`` ≥ 1 steps of ``step`` seconds from the one state (nq,), (nv,).
 
-        As :meth:`Engine.trajectory`.
+        As :meth:`Engine.trajectory`. Quaternions, of any length in the state, are of length one at the end.
         """
         ...

@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from ..models.writers.mjcf import DEEPEST
+from .info import Integrator
 
 _PART = re.compile(r"(<=|>=|<|>|==)\s*([0-9][0-9.]*)$")
 _RELEASE = re.compile(r"[0-9]+(\.[0-9]+)*")
@@ -37,6 +38,8 @@ class Fact:
     why: str = ""
 
 
+_EULER, _FAST, _MEANS = Integrator("Euler", 1), Integrator("implicitfast", 1), Integrator("RK4", 4, turning=2)
+_MIDPOINT = "these releases of MuJoCo solve for the middle of a free body's step by iterations"
 # Each was found by making the environment and importing the engine in it (docs/reference/engine-versions.md).
 NEEDS = (
     Need("mujoco", ">=0", ("numpy",), "the adapters need it"),
@@ -58,6 +61,18 @@ FACTS = (
             "largest_n_reason": "its reader of XML takes no deeper nesting, and before 3.2.5 MjSpec builds no models",
         },
         "without MjSpec a mechanism can be given to it as a file alone",
+    ),
+    Fact(
+        "mujoco",
+        "<4",
+        {"integrators": (_EULER, _FAST, _MEANS)},
+        "RK4 turns bodies by the mean of its stages' rates; from 4.0 on after Munthe-Kaas, with its full order",
+    ),
+    Fact(
+        "mujoco",
+        ">=3.7,<3.11",
+        {"integrators": (_EULER, replace(_FAST, lone_body=_MIDPOINT), _MEANS)},
+        "implicitfast had a rule of its own for free bodies on which nothing moves",
     ),
     Fact(
         "pinocchio-aba-mjcf",

@@ -82,24 +82,40 @@ def energy(mechanism: SpatialMechanism, q: Array, v: Array) -> Array:
     return np.stack([kinetic, potential], axis=-1)
 
 
-def momentum(mechanism: SpatialMechanism, moved: Motion, root: int) -> tuple[Array, Array]:
-    """Linear [kg m/s] and, about the world's origin, angular momentum [kg m²/s] of all that hangs on ``root``, (B, 3).
+def momentum(mechanism: SpatialMechanism, moved: Motion, root: int, about: Array | None = None) -> tuple[Array, Array]:
+    """Linear [kg m/s] and angular momentum [kg m²/s] of all that hangs on ``root``, (B, 3).
 
-    Without what armatures add.
+    ``about`` (B, 3): the point of the angular one, the world's origin if None. Without what armatures add.
     """
-    hangs = [index == root for index in range(len(mechanism.bodies))]
     linear, angular = (np.zeros((len(moved.linear), 3)) for _ in range(2))
+    point = np.zeros(3) if about is None else about
+    for index in _hanging(mechanism, root):
+        inertial = mechanism.bodies[index].inertial
+        turned, spin = moved.rotation[:, index], moved.angular[:, index]
+        arm = np.einsum("bik,k->bi", turned, inertial.centre)
+        push = np.asarray(inertial.mass * (moved.linear[:, index] + np.cross(spin, arm)), dtype=np.float64)
+        linear += push
+        turning = np.einsum("bij,jk,blk,bl->bi", turned, inertial.tensor, turned, spin)
+        angular += np.asarray(np.cross(moved.position[:, index] - point + arm, push) + turning, dtype=np.float64)
+    return linear, angular
+
+
+def centre_of_mass(mechanism: SpatialMechanism, moved: Motion, root: int) -> tuple[Array, float]:
+    """That of all that hangs on ``root``, (B, 3) [m], and its mass [kg]."""
+    mass, moment = 0.0, np.zeros((len(moved.linear), 3))
+    for index in _hanging(mechanism, root):
+        inertial = mechanism.bodies[index].inertial
+        place = moved.position[:, index] + np.einsum("bik,k->bi", moved.rotation[:, index], inertial.centre)
+        mass, moment = mass + inertial.mass, moment + inertial.mass * place
+    return moment / mass, mass
+
+
+def _hanging(mechanism: SpatialMechanism, root: int) -> list[int]:
+    """Numbers of the bodies that hang on ``root``, itself among them."""
+    hangs = [index == root for index in range(len(mechanism.bodies))]
     for index, body in enumerate(mechanism.bodies):
         hangs[index] |= body.parent != WORLD and hangs[body.parent]
-        if not hangs[index]:
-            continue
-        turned, spin = moved.rotation[:, index], moved.angular[:, index]
-        arm = np.einsum("bik,k->bi", turned, body.inertial.centre)
-        push = np.asarray(body.inertial.mass * (moved.linear[:, index] + np.cross(spin, arm)), dtype=np.float64)
-        linear += push
-        turning = np.einsum("bij,jk,blk,bl->bi", turned, body.inertial.tensor, turned, spin)
-        angular += np.asarray(np.cross(moved.position[:, index] + arm, push) + turning, dtype=np.float64)
-    return linear, angular
+    return [index for index, one in enumerate(hangs) if one]
 
 
 def carried(mechanism: SpatialMechanism) -> list[bool]:

@@ -62,6 +62,51 @@ v = { rail = -1.0 }
 duration = 0.5
 """
 
+# A body that floats, with an arm on a ball joint and a flap on a hinge.
+FLOATING = """
+[system]
+kind = "tree"
+gravity = [0.5, 0.0, -9.81]
+[[system.links]]
+name = "trunk"
+mass = 2.5
+centre = [0.05, -0.02, 0.1]
+inertia = [0.3, 0.2, 0.4, 0.02, 0.01, -0.03]
+[[system.links.joints]]
+name = "float"
+kind = "free"
+[[system.links]]
+name = "arm"
+parent = "trunk"
+position = [0.3, 0.1, 0.2]
+mass = 0.8
+centre = [0.0, 0.1, -0.25]
+inertia = [0.03, 0.02, 0.01]
+[[system.links.joints]]
+name = "shoulder"
+kind = "ball"
+anchor = [0.01, 0.02, 0.0]
+armature = 0.02
+damping = 0.05
+[[system.links]]
+name = "flap"
+parent = "trunk"
+position = [-0.3, 0.0, 0.1]
+mass = 0.4
+centre = [-0.2, 0.0, 0.05]
+inertia = [0.01, 0.02, 0.02]
+[[system.links.joints]]
+name = "pin"
+axis = [0.1, 1.0, 0.2]
+armature = 0.01
+damping = 0.02
+stiffness = 1.0
+[state]
+q = { float = [0.3, -0.2, 1.0, 0.8, 0.2, -0.5, 0.3], shoulder = [0.9, 0.1, 0.3, -0.2], pin = 0.4 }
+v = { float = [1.0, 0.5, -0.5, 1.5, -2.0, 1.0], shoulder = [0.5, 1.0, -1.0], pin = -0.4 }
+duration = 0.5
+"""
+
 
 def about(name, **tree):
     return EngineInfo(
@@ -289,4 +334,83 @@ class NotANumber(Right):
     def accelerations(self, q, v):
         found = super().accelerations(q, v)
         found[-1] = np.nan
+        return found
+
+
+def turned(q, by):
+    """q of ``FLOATING`` with its two quaternions as ``by`` makes them: of what they are, and of their number."""
+    q = q.copy()
+    for number, at in enumerate((slice(3, 7), slice(7, 11))):
+        q[at] = by(q[at], number)
+    return q
+
+
+def product(first, second):
+    (a, *r), (b, *s) = first, second
+    return np.array([a * b - np.dot(r, s), *(a * np.array(s) + b * np.array(r) + np.cross(r, s))])
+
+
+class Own(Right):
+    """A scheme of its own, Runge and Kutta's, in plain numbers; of ``FLOATING``."""
+
+    info = about("Own")
+
+    def trajectory(self, q, v, integrator, step, steps):
+        for _ in range(steps):
+            q, v = self.step(q, v, step)
+        return q, v
+
+    def a(self, q, v):
+        return self.accelerations(q[None], v[None])[0]
+
+
+def weighed(parts):
+    return (parts[0] + 2 * parts[1] + 2 * parts[2] + parts[3]) / 6
+
+
+def start_of(q):
+    return turned(q, lambda one, number: one / np.linalg.norm(one))
+
+
+class Components(Own):
+    """Quaternions are four numbers that have rates, and are made of length one at the end of a step."""
+
+    def step(self, q, v, h):
+        q = start_of(q)
+
+        def rates(at, v):
+            found = np.concatenate([v[:3], np.zeros(8), v[9:]])
+            found[3:7], found[7:11] = product(at[3:7], [0, *v[3:6]]) / 2, product(at[7:11], [0, *v[6:9]]) / 2
+            return found
+
+        moving, speeding = [], []
+        for part in (0.0, 0.5, 0.5, 1.0):
+            at = q + part * h * moving[-1] if moving else q
+            speed = v + part * h * speeding[-1] if moving else v
+            moving.append(rates(at, speed))
+            speeding.append(self.a(at, speed))
+        return start_of(q + h * weighed(moving)), v + h * weighed(speeding)
+
+
+class Means(Own):
+    """Rotations are by the mean of the stages' rates, as in releases of MuJoCo before 4."""
+
+    def step(self, q, v, h):
+        q, moving, speeding = start_of(q), [], []
+        for part in (0.0, 0.5, 0.5, 1.0):
+            at = self.moved(q, part * h * moving[-1]) if moving else q
+            speed = v + part * h * speeding[-1] if moving else v
+            moving.append(speed)
+            speeding.append(self.a(at, speed))
+        return self.moved(q, h * weighed(moving)), v + h * weighed(speeding)
+
+    def moved(self, q, x):
+        def turn(one, number):
+            vector = x[3 + 3 * number : 6 + 3 * number]
+            angle = np.linalg.norm(vector)
+            return product(one, [np.cos(angle / 2), *(np.sin(angle / 2) * vector / angle)])
+
+        found = turned(q, turn)
+        found[:3] += x[:3]
+        found[11:] += x[9:]
         return found

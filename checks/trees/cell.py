@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -17,6 +17,7 @@ from ...models import TreeScene
 from ...models.spatial_mechanism import SpatialMechanism
 from ...models.trees.states import TreeStates
 from ...records.check import Outcome, Result
+from ...reference.integration.tree_places import quaternions
 from ...reference.rounding.bounds import EPSILON
 from ...reference.rounding.spatial import Magnitudes
 from ..cell import array_of
@@ -66,6 +67,13 @@ class TreeCell:
         """How many ε of these units a number may be off by."""
         return units.roundings * (self.info.accuracy / EPSILON)
 
+    @cached_property
+    def integrators(self) -> tuple[Integrator, ...]:
+        """The engine's, each with the order that it has in this mechanism."""
+        if not quaternions(self.mechanism):
+            return self.info.integrators
+        return tuple(replace(one, order=one.turning or one.order) for one in self.info.integrators)
+
     @property
     def explanation(self) -> Explanation:
         """What is known of why answers differ: of a user's own equations, and of an engine's reading of a file."""
@@ -88,8 +96,13 @@ class TreeCell:
 
     def trajectory(self, q: Array, v: Array, integrator: Integrator, step: float, steps: int) -> Array:
         """q and v at the end of one of the engine's own runs, (2, nv); of mechanisms with as many q as v."""
-        found = np.array(self.engine.trajectory(q, v, integrator.name, step, steps))
-        return self.answer(integrator.name, found, (2, v.size))
+        return np.array(self.run(q, v, integrator, step, steps))
+
+    def run(self, q: Array, v: Array, integrator: Integrator, step: float, steps: int) -> tuple[Array, Array]:
+        """q (nq,) and v (nv,) at the end of one of the engine's own runs."""
+        ends = self.engine.trajectory(q, v, integrator.name, step, steps)
+        at, rates = (self.answer(integrator.name, end, given.shape) for end, given in zip(ends, (q, v), strict=True))
+        return at, rates
 
     def path(self, q: Array, v: Array, integrator: Integrator, step: float, steps: int) -> Array | None:
         """No adapter of trees gives all states of a run."""

@@ -23,9 +23,9 @@ class TreeFacts:
     """``high + low``: the proven accelerations, (B, nv), to far more than double precision.
 
     The nearest doubles of the proven ``mass_matrix`` (B, nv, nv), ``bias``, ``gravity``, ``passive`` (B, nv) and
-    ``energy`` (B, 2): kinetic and potential. ``times`` (T,) [s], ``end_q`` and ``end_v`` (T, nv), ``end_error`` (T,):
-    the scene's motion and how sure it is, T = 0 where it has none. ``slopes``, ``slopes_low``: ∂a/∂q, ∂a/∂v and M⁻¹ in
-    the last states, (K, 3, nv, nv), K = 0 where no engine is asked, or the mechanism has balls or free joints.
+    ``energy`` (B, 2): kinetic and potential. ``times`` (T,) [s], ``end_q`` (T, nq) and ``end_v`` (T, nv), ``end_error``
+    (T,): the scene's motion and how sure it is, T = 0 where it has none. ``slopes``, ``slopes_low``: ∂a/∂q, ∂a/∂v and
+    M⁻¹ in the last states, (K, 3, nv, nv), K = 0 where no engine is asked, or the mechanism has balls or free joints.
     ``forces``: the true joint forces in the last states, in the accelerations ``high``, (min(B, 20), links, 6).
     """
 

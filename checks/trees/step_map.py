@@ -1,14 +1,16 @@
 """The step map: one step of each of an engine's integrators is, to rounding, one step of a textbook scheme.
 
-As :mod:`furiko.checks.comparisons.step_map` has it, of mechanisms of hinges and slides, whose coordinates are their own
-rates' integrals. Where joints have dampers, an engine may also take their force at the end of the step: with D the
-dampers and a the accelerations of the state before, semi-implicit Euler then is
+As :mod:`furiko.checks.comparisons.step_map` has it; with quaternions there are several ways to take one
+(:mod:`furiko.reference.integration.tree_schemes`). Where joints have dampers, an engine may also take their force at
+the end of the step: with D the dampers and a the accelerations of the state before, semi-implicit Euler then is
 
-    v⁺ = v + h (M + h D)⁻¹ M a,    q⁺ = q + h v⁺.
+    v⁺ = v + h (M + h D)⁻¹ M a,    q⁺ = q ⊕ h v⁺.
 
-How far rounding takes angles, lengths and their rates apart is bounded for each coordinate, since their units differ.
-The accelerations' error of row i is |M⁻¹| times the backward error that rounding explains; later stages start from the
-earlier ones' errors e: these add (h² |∂a/∂q| + h |∂a/∂v|) e to it.
+How far rounding takes coordinates and rates apart is bounded for each, since their units differ. The accelerations'
+error of row i is |M⁻¹| times the backward error that rounding explains; later stages start from the earlier ones'
+errors e: these add (h² |∂a/∂q| + h |∂a/∂v|) e to it. A rotation that is off by x is a quaternion Q that is off by
+½ Q (0, x), by half of |x| in any of its components; an engine's quaternion may have the other sign, which is the same
+rotation, but no other length.
 """
 
 from __future__ import annotations
@@ -23,11 +25,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engines import Integrator
+from ...models.spatial_mechanism import SpatialMechanism
 from ...records.check import Result
-from ...reference.integration.schemes import SCHEMES, Scheme
-from ...reference.integration.tree_variation import accelerations, slopes
+from ...reference.integration.tree_places import plain, quaternions
+from ...reference.integration.tree_schemes import TreeScheme, lone_free_bodies, tree_schemes
+from ...reference.integration.tree_variation import fastest_turn, slopes
 from ...reference.rounding.bounds import EPSILON
-from ...reference.rounding.stepped import step_bound
+from ...reference.rounding.stepped import QUATERNION, step_bound
 from ..cell import quotient, worst
 from ..motions.textbook import says_whose_step
 from .cell import TreeCell
@@ -44,7 +48,7 @@ OWN = 2.0  # the engine's accelerations have rounding, and the numbers that thes
 
 @dataclass(frozen=True)
 class Steps:
-    """The states (B, nv) from which an engine takes a step of ``h`` seconds, and what accelerations are there.
+    """The states (B, nq), (B, nv) from which an engine takes a step of ``h`` seconds, and what accelerations are there.
 
     ``by_q``, ``by_v``: |∂a/∂q| and |∂a/∂v|, (B, nv, nv), to some digits.
     """
@@ -86,7 +90,10 @@ def compare(cell: TreeCell) -> Iterator[Result]:
     """One result for each integrator."""
     steps = chosen_steps(cell)
     textbook = Textbook(steps)
-    for integrator in cell.info.integrators:
+    for integrator in cell.integrators:
+        if integrator.lone_body and lone_free_bodies(cell.mechanism):
+            yield cell.result(f"{NAME} {integrator.name}", "skipped", reason=integrator.lone_body)
+            continue
         yield _compare(cell, integrator, steps, textbook)
 
 
@@ -95,8 +102,7 @@ def chosen_steps(cell: TreeCell) -> Steps:
     q, v = cell.states.q[-STATES:], cell.states.v[-STATES:]
     by_q, by_v = map(np.abs, slopes(cell.mechanism, q, v))
     parting = math.sqrt(float(np.abs(by_q).sum(-1).max())) + float(np.abs(by_v).sum(-1).max())
-    turning = [abs(v[:, one.at_v]).max() for one in cell.mechanism.joints if one.joint.kind == "hinge"]
-    fastest = max(parting, *map(float, turning), 0.0)
+    fastest = max(parting, fastest_turn(cell.mechanism, v))
     # A power of two, so that halves and sums of steps are exact.
     h = 2.0 ** math.floor(math.log2(SHORT / fastest)) if fastest > 0 else SHORT
     return Steps(cell, h, q, v, by_q, by_v)
@@ -108,61 +114,42 @@ class Textbook:
     def __init__(self, steps: Steps) -> None:
         self._steps = steps
         self._ends: dict[str, Wide | None] = {}
-        damping = np.diag(steps.cell.mechanism.per_freedom("damping"))
-        self.schemes = (*SCHEMES, _with_damping_late(steps.mass, damping)) if damping.any() else SCHEMES
+        self.schemes = tree_schemes(steps.cell.mechanism, steps.mass)
 
-    def end(self, scheme: Scheme) -> Wide | None:
-        """q and v after its step, (2, B, nv); None where the step is too long for it."""
+    def end(self, scheme: TreeScheme) -> Wide | None:
+        """q and v after its step side by side, (B, nq + nv); None where the step is too long for it."""
         if scheme.name not in self._ends:
             q, v = self._steps.q.astype(np.longdouble), self._steps.v.astype(np.longdouble)
             try:
-                ends = scheme.step(
-                    lambda *at: accelerations(self._steps.cell.mechanism, *at), q, v, np.longdouble(self._steps.h)
-                )
-                self._ends[scheme.name] = np.stack(ends)
+                self._ends[scheme.name] = np.concatenate(scheme.step(q, v, np.longdouble(self._steps.h)), axis=-1)
             except ArithmeticError:
                 self._ends[scheme.name] = None
         return self._ends[scheme.name]
-
-
-def _with_damping_late(mass: Array, damping: Array) -> Scheme:
-    """Semi-implicit Euler with the dampers' force at the end of the step; ``mass``: M of the states it is taken from.
-
-    (M + h D)⁻¹ M a is a − (M + h D)⁻¹ h D a, in which the second part, which double precision gives, is small.
-    """
-
-    def step(accelerations: Any, q: Wide, v: Wide, h: Any) -> tuple[Wide, Wide]:
-        a = accelerations(q, v)
-        late = float(h) * damping
-        less = np.linalg.solve(mass + late, (late @ a.astype(np.float64)[..., None]))[..., 0]
-        end = v + h * (a - less)
-        return q + h * end, end
-
-    return Scheme("semi-implicit Euler, dampers at the end of the step", 1, step, stages=2)
 
 
 @dataclass(frozen=True)
 class Fit:
     """A scheme, the worst of an engine's coordinates and rates over what rounding explains, and where it is."""
 
-    scheme: Scheme
+    scheme: TreeScheme
     excess: float
     place: tuple[int, ...]
     bound: float
 
 
 def _compare(cell: TreeCell, integrator: Integrator, steps: Steps, textbook: Textbook) -> Result:
-    ends = [cell.trajectory(q, v, integrator, steps.h, 1) for q, v in zip(steps.q, steps.v, strict=True)]
-    got = np.stack(ends, axis=1)
+    ends = [cell.run(q, v, integrator, steps.h, 1) for q, v in zip(steps.q, steps.v, strict=True)]
+    got = np.array([np.concatenate(end) for end in ends])
     off = steps.off(integrator)
     bounds = {scheme.name: bound(scheme, off, steps) for scheme in textbook.schemes}
 
-    def fits(schemes: list[Scheme]) -> list[Fit]:
+    def fits(schemes: list[TreeScheme]) -> list[Fit]:
         found = []
         for scheme in schemes:
             end = textbook.end(scheme)
             if end is not None:
-                excess = worst(quotient(np.abs(got - end).astype(np.float64), bounds[scheme.name]))
+                error = alike(cell.mechanism, got, end) - end
+                excess = worst(quotient(error.astype(np.float64), bounds[scheme.name]))
                 place = tuple(map(int, excess.index))
                 found.append(Fit(scheme, excess.value, place, float(bounds[scheme.name][place])))
         return sorted(found, key=lambda one: one.excess)
@@ -170,7 +157,7 @@ def _compare(cell: TreeCell, integrator: Integrator, steps: Steps, textbook: Tex
     expected = [scheme for scheme in textbook.schemes if scheme.order == integrator.order]
     found = fits(expected)
     if not found or found[0].excess > 1:
-        found = fits(list(textbook.schemes))
+        found = fits(textbook.schemes)
     name = f"{NAME} {integrator.name}"
     unsolved = [scheme.name for scheme in expected if textbook.end(scheme) is None]
     if not found or (unsolved and found[0].excess > 1):
@@ -183,47 +170,78 @@ def _compare(cell: TreeCell, integrator: Integrator, steps: Steps, textbook: Tex
         "agrees" if agrees else "differs",
         measured=best.excess * best.bound,
         allowed=best.bound,
-        unit=_unit(cell, best.place),
+        unit=_where(cell, best.place)[1] or None,
         reason=_reason(cell, integrator, best, rest),
         details={
             "integrator": integrator.name,
             "scheme": best.scheme.name,
             "step": steps.h,
-            "states": got.shape[1],
+            "states": len(got),
             "next best": {"scheme": rest[0].scheme.name, "error": rest[0].excess * rest[0].bound} if rest else None,
         },
     )
 
 
-def bound(scheme: Scheme, first: Array, steps: Steps) -> Array:
-    """How far rounding may take an engine from a scheme's step, in each coordinate and rate, (2, B, nv).
+def alike(mechanism: SpatialMechanism, got: Array, end: Wide) -> Array:
+    """``got`` (B, nq + nv) with each quaternion in the sign that is nearer to that of ``end``."""
+    found = got.copy()
+    for at, _ in quaternions(mechanism):
+        found[:, at] *= np.where((got[:, at] * end[:, at]).sum(axis=-1, keepdims=True) < 0, -1, 1)
+    return found
+
+
+def bound(scheme: TreeScheme, first: Array, steps: Steps) -> Array:
+    """How far rounding may take an engine from a scheme's step, in each coordinate and rate, (B, nq + nv).
 
     ``first``: the accelerations' error in the first stage, (B, nv).
     """
-    h, off = steps.h, first
+    h, mechanism = steps.h, steps.cell.mechanism
+    turned = np.zeros(mechanism.nv)
+    for _, at_v in quaternions(mechanism):
+        turned[at_v] = 2 * QUATERNION * EPSILON  # [rad], of each stage's rotation
+    off = first = first + steps.by_q @ turned
     carried = h * h * steps.by_q + h * steps.by_v
     for _ in range(scheme.stages):
         off = first + (carried @ off[..., None])[..., 0]
     rates = np.abs(steps.v) + h * np.abs(steps.accelerations)
+    places, of_q, of_v = h * rates, *plain(mechanism)
     # An engine may count from each joint's ref: that is taken off before the step, and added after it.
-    counted = np.abs(steps.q) + 2 * np.abs([one.joint.ref for one in steps.cell.mechanism.joints])
-    return step_bound(scheme, h, 0.0, off, counted + h * rates, rates)
+    refs = np.concatenate([np.full(one.joint.freedoms, one.joint.ref) for one in mechanism.joints])
+    places[:, of_v] += np.abs(steps.q[:, of_q]) + 2 * np.abs(refs[of_v])
+    moves, of_rates = step_bound(scheme, h, 0.0, off, places, rates)
+    found = np.empty_like(steps.q)
+    found[:, of_q] = moves[:, of_v]
+    for at_q, at_v in quaternions(mechanism):
+        sums = (QUATERNION + scheme.stages + 2) * EPSILON
+        found[:, at_q] = np.linalg.norm(moves[:, at_v], axis=-1, keepdims=True) / 2 + sums
+    return np.concatenate([found, of_rates], axis=-1)
 
 
-def _unit(cell: TreeCell, place: tuple[int, ...]) -> str:
-    """The unit of a coordinate or rate at ``place``: which of the two, the state, the degree of freedom."""
-    which, _, freedom = place
-    slides = {one.at_v for one in cell.mechanism.joints if one.joint.kind == "slide"}
-    return ("m" if freedom in slides else "rad") + ("/s" if which else "")
+def _where(cell: TreeCell, place: tuple[int, ...]) -> tuple[str, str]:
+    """What is at a ``place``, the state and the column, is called, and its unit; a quaternion has none."""
+    _, column = place
+    mechanism, rate = cell.mechanism, column >= cell.mechanism.nq
+    if rate:
+        freedom = column - mechanism.nq
+    else:
+        of_q, of_v = plain(mechanism)
+        if column not in of_q:
+            joint = next(one for one in mechanism.joints if column < one.columns_q.stop)
+            return f"the quaternion of {joint.joint.name!r}", ""
+        freedom = int(of_v[np.searchsorted(of_q, column)])
+    joint = next(one for one in mechanism.joints if freedom < one.columns_v.stop)
+    along = joint.joint.kind == "slide" or (joint.joint.kind == "free" and freedom < joint.at_v + 3)
+    return repr(cell.freedom(freedom)), ("m" if along else "rad") + ("/s" if rate else "")
 
 
 def _reason(cell: TreeCell, integrator: Integrator, best: Fit, rest: list[Fit]) -> str:
     if best.excess > 1:
-        unit = _unit(cell, best.place)
+        what, unit = _where(cell, best.place)
         return (
             f"one step of {integrator.name} is no textbook scheme's; the nearest, {best.scheme.name}, misses "
-            f"{cell.freedom(best.place[2])!r} by {best.excess * best.bound:.3g} {unit}, and rounding explains "
+            f"{what} by {f'{best.excess * best.bound:.3g} {unit}'.strip()}, and rounding explains "
             f"{best.bound:.3g}"
         )
-    alike = [one.scheme.name for one in rest if one.excess <= 1]
-    return says_whose_step(integrator, best.scheme.name, best.scheme.order, alike)
+    others = [one.scheme.name for one in rest if one.excess <= 1]
+    slower = f", of order {integrator.turning} where bodies tumble" if integrator.turning == integrator.order else ""
+    return says_whose_step(integrator, best.scheme.name + slower, best.scheme.order, others)

@@ -6,7 +6,7 @@ in another way that means the same, or refused.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 
@@ -66,15 +66,17 @@ def _impossible(inertial: Inertial) -> bool:
     return bool(inertial.mass < 0 or moments[0] < -slack or moments[0] + moments[1] < moments[2] - slack)
 
 
-def unique_names(bodies: Sequence[RigidBody], taken: str) -> list[str]:
-    """The bodies' names, none twice and none the one that is ``taken``."""
-    seen = {taken}
+def unique_names(
+    bodies: Sequence[RigidBody], *taken: str, besides: Callable[[RigidBody, str], Iterable[str]] = lambda *_: ()
+) -> list[str]:
+    """The bodies' names, none twice and none that is ``taken``; ``besides``: what else comes with a body called so."""
+    seen = set(taken)
     names = []
     for body in bodies:
         name, count = body.name, 1
-        while name in seen:
+        while not seen.isdisjoint({name, *besides(body, name)}):
             count += 1
             name = f"{body.name}_{count}"
-        seen.add(name)
+        seen |= {name, *besides(body, name)}
         names.append(name)
     return names

@@ -13,6 +13,7 @@ from ..spatial_mechanism import WORLD, Joint, RigidBody, SpatialMechanism
 from .explicit import placed_inertials, positive, row, unique_names
 from .mjcf import DEEPEST, LEAST_INERTIA
 
+SUPPORT = "furiko_support"
 UNTURNED = np.array([1.0, 0.0, 0.0, 0.0])
 
 
@@ -22,10 +23,10 @@ def spatial_mjcf(mechanism: SpatialMechanism, model: str = "mechanism") -> str:
     Radians, no default classes, an explicit inertial for every body that has one, a name for everything, no geoms, so
     that nothing touches. Bodies without joints and with a pose are put in one without a pose where Pinocchio would drop
     it; a body with several joints stands in one that has its pose, which Drake would apply at the last joint, and the
-    first of them has no ref, which Pinocchio would ignore; a joint
-    free body beside others of the world has slides and a ball; a joint
-    with armature has a motor, without which Drake would drop it. Raises :class:`InvalidInput` for inertials on which
-    engines do not agree, and for more than 450 bodies one in the other.
+    first of them has no ref, which Pinocchio would ignore; no body is called as Drake calls those that it makes of such
+    joints; a free body beside others of the world has slides and a ball; a joint with armature has a motor, without
+    which Drake would drop it. Raises :class:`InvalidInput` for inertials on which engines do not agree, and for more
+    than 450 bodies one in the other.
     """
     if any(_free(body) for body in mechanism.bodies):
         mechanism = _free_by_slides(_without_scenery(mechanism))
@@ -36,7 +37,7 @@ def spatial_mjcf(mechanism: SpatialMechanism, model: str = "mechanism") -> str:
     if any(i.mass > 0 and not positive(i) for i in inertials):
         compiler.set("boundinertia", repr(LEAST_INERTIA))  # MuJoCo refuses a point mass
     world = ElementTree.SubElement(root, "worldbody")
-    names = unique_names(mechanism.bodies, "world")
+    names = unique_names(mechanism.bodies, "world", SUPPORT, besides=_names_besides)
     top = _top(world, mechanism)  # of bodies without a free joint, which must be on one of the world itself
     elements: list[ElementTree.Element] = []
     depths: list[int] = []
@@ -112,7 +113,17 @@ def _top(world: ElementTree.Element, mechanism: SpatialMechanism) -> ElementTree
     posed = first_is_fixed and (roots[0].position.any() or not _unturned(roots[0]))
     if not (len(roots) > 1 or posed):
         return world
-    return ElementTree.SubElement(world, "body", name="furiko_support")
+    return ElementTree.SubElement(world, "body", name=SUPPORT)
+
+
+def _names_besides(body: RigidBody, name: str) -> list[str]:
+    """Of a body with several joints what it stands in, and what Drake makes of all joints but the last."""
+    more = len(body.joints) - 1
+    return [_frame(name), *(f"{name}{k}" for k in range(more))] if more > 0 else []
+
+
+def _frame(name: str) -> str:
+    return f"{name}_frame"
 
 
 def _free(body: RigidBody) -> bool:
@@ -152,7 +163,7 @@ def _body(parent: ElementTree.Element, body: RigidBody, name: str, inertial: Ine
     if not _unturned(body):
         pose["quat"] = row(body.quaternion / np.linalg.norm(body.quaternion))
     if len(body.joints) > 1:
-        parent = ElementTree.SubElement(parent, "body", {"name": f"{name}_frame", **pose})
+        parent = ElementTree.SubElement(parent, "body", {"name": _frame(name), **pose})
         pose = {"pos": "0 0 0"}
     element = ElementTree.SubElement(parent, "body", {"name": name, **pose})
     for joint in body.joints:

@@ -34,7 +34,7 @@ class Scheme:
     ``reach``: an error of at most 1 in every acceleration it evaluates, with accelerations that do not depend on the
     state, moves the rates by at most ``reach`` times the step. ``stages``: accelerations that follow on each other.
     ``remembers``: where a step hands on more than angles and rates to the next, what takes several.
-    ``implicit``: a step is solved for, by many evaluations.
+    ``implicit``: a step is solved for, by many evaluations. ``tableau``: what it is an explicit Runge-Kutta scheme by.
     """
 
     name: str
@@ -44,6 +44,7 @@ class Scheme:
     stages: int = 1
     remembers: AlphaScheme | None = None
     implicit: bool = False
+    tableau: Tableau | None = None
 
 
 @dataclass(frozen=True)
@@ -64,17 +65,23 @@ class Tableau:
 
     def step(self, accelerations: Acceleration, theta: Array, omega: Array, h: Any) -> tuple[Array, Array]:
         """One step."""
-        slopes: list[Array] = []
-        start = np.stack([theta, omega])
+        return self.step_along(lambda _angles, rates: rates, accelerations, theta, omega, h)
+
+    def step_along(
+        self, along: Acceleration, accelerations: Acceleration, places: Array, rates: Array, h: Any
+    ) -> tuple[Array, Array]:
+        """One step of places whose rate of change ``along`` gives, and which need not be as many as the rates."""
+        moving: list[Array] = []
+        speeding: list[Array] = []
         for row in self.rows:
-            angles, rates = start + h * _weighed(row, slopes, start)
-            slopes.append(np.stack([rates, accelerations(angles, rates)]))
-        end = start + h * _weighed(self.weights, slopes, start)
-        return end[0], end[1]
+            at = places + h * _weighed(row, moving, places), rates + h * _weighed(row, speeding, rates)
+            moving.append(along(*at))
+            speeding.append(accelerations(*at))
+        return places + h * _weighed(self.weights, moving, places), rates + h * _weighed(self.weights, speeding, rates)
 
     def scheme(self, name: str, order: int) -> Scheme:
         """The tableau as a scheme of this name and order."""
-        return Scheme(name, order, self.step, float(sum(map(abs, self.weights))), len(self.weights))
+        return Scheme(name, order, self.step, float(sum(map(abs, self.weights))), len(self.weights), tableau=self)
 
 
 def _weighed(weights: tuple[Any, ...], slopes: list[Array], like: Array) -> Array:

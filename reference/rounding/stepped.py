@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from ...models import DocumentSystem
 from ..integration.schemes import Scheme, run
+from ..integration.tree_schemes import TreeScheme
 from ..kernels.forward_dynamics import plain_accelerations
 from .bounds import EPSILON, Amplitudes
 from .monte_carlo import ONE_ROUNDING
@@ -32,6 +33,9 @@ SAMPLES = 16  # the spread is then known to a fifth of itself
 SEED = 20261127
 # Far above what rounds in these runs themselves, and so small that errors which grow a million times stay linear.
 MAGNIFIED = 2.0**14
+# ε of a quaternion's components, of length one: five half ε to make it so, or the 1e-15 by which MuJoCo lets its length
+# be, two for the sines and cosines of half a turn, four for the four products of each component.
+QUATERNION = 12
 
 
 @dataclass(frozen=True)
@@ -98,7 +102,7 @@ def stepped(
     return Ends(ends[:, 0], spread, kept)
 
 
-def step_bound(scheme: Scheme, h: float, fastest: float, off: Array, angles: Array, rates: Array) -> Array:
+def step_bound(scheme: Scheme | TreeScheme, h: float, fastest: float, off: Array, angles: Array, rates: Array) -> Array:
     """How far rounding may take angles [rad] and rates [rad/s] from those of one step of ``h`` seconds, (2, …).
 
     ``fastest`` [1/s]: the rate at which nearby states part; ``off``: the accelerations' error [rad/s²]; ``angles``

@@ -27,8 +27,8 @@ def times(scene: TreeScene) -> list[float]:
 
 
 def moves(scene: TreeScene) -> bool:
-    """Whether the scene has a motion that is followed: a state, a duration, and coordinates that are numbers."""
-    return scene.starts and scene.duration > 0 and not {"ball", "free"} & scene.system.features
+    """Whether the scene has a motion that is followed: a state, and a duration."""
+    return scene.starts and scene.duration > 0
 
 
 def end_points(scene: TreeScene) -> TreeMotion:

@@ -12,7 +12,6 @@ import sys
 from functools import cache
 from importlib.util import find_spec
 from typing import Any
-from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,8 +21,8 @@ from ....models.spatial_mechanism import SpatialMechanism
 from ...limits import FLOAT64, LARGEST_ANGLE, numbers
 from ..threads import processors, thread_pool
 from . import plain
-from .springs import stretches
-from .table import Table, table
+from .springs import sprung
+from .table import Table, kept_table
 
 Array = NDArray[np.float64]
 
@@ -33,7 +32,6 @@ FREEDOMS_A_THREAD = 8_000  # about 0.25 ms of work
 SIZES = 1e-100, 1e100  # of quaternions: beyond, squares leave the range of doubles
 
 _COMPILED = f"{__package__}.machine"
-_tables: WeakKeyDictionary[SpatialMechanism, Table] = WeakKeyDictionary()
 _spent = 0.0
 
 
@@ -58,14 +56,14 @@ def tree_accelerations(
     Raises :class:`InvalidInput` for shapes that do not fit, numbers that are not finite or too large, a quaternion or
     axis of length zero, and where a pivot of the mass matrix is not positive: something moves that weighs nothing.
     """
-    known = _table(mechanism)
+    known = kept_table(mechanism)
     q, v, torque, out = _shaped(known, q, v, torque, out)
     if not out.size:
         return out
     rows = q.reshape(-1, known.nq), v.reshape(-1, known.nv), out.reshape(-1, known.nv)
     forces = None if torque is None else torque.reshape(rows[1].shape)
     positions = _sized(mechanism, rows[0])
-    forces = _sprung(mechanism, positions, forces)
+    forces = sprung(mechanism, positions, forces)
     signs = _run(known, positions, rows[1], forces, rows[2], threads)
     _judge(mechanism, signs, q, v, torque)
     return out
@@ -89,13 +87,6 @@ def _shaped(known: Table, q: Any, v: Any, torque: Any, out: Array | None) -> tup
     return q, v, torque, np.empty(v.shape) if out is None else out
 
 
-def _table(mechanism: SpatialMechanism) -> Table:
-    found = _tables.get(mechanism)
-    if found is None:
-        found = _tables[mechanism] = table(mechanism)
-    return found
-
-
 def _sized(mechanism: SpatialMechanism, q: Array) -> Array:
     """q (B, nq) with quaternions that can be squared. Raises InvalidInput where one has length zero."""
     for placed in mechanism.joints:
@@ -110,15 +101,6 @@ def _sized(mechanism: SpatialMechanism, q: Array) -> Array:
             q = q.copy()
             q[odd, columns] /= sizes[odd, None]
     return q
-
-
-def _sprung(mechanism: SpatialMechanism, q: Array, torque: Array | None) -> Array | None:
-    """The torques, and those of springs that the formulas leave out: of balls and free joints."""
-    for placed in mechanism.joints:
-        if placed.joint.kind in ("ball", "free") and placed.joint.stiffness:
-            torque = np.zeros((len(q), mechanism.nv)) if torque is None else torque.copy()
-            torque[:, placed.columns_v] -= placed.joint.stiffness * stretches(mechanism, placed, q)
-    return torque
 
 
 def _run(

@@ -54,13 +54,15 @@ class Numbers:
         return found
 
 
-def in_extended_precision(table: Table, q: NDArray[Any], v: NDArray[Any]) -> NDArray[Any]:
-    """The accelerations of states a row each, (B, nv), in the arithmetic of q and v.
+def in_extended_precision(
+    table: Table, q: NDArray[Any], v: NDArray[Any], torque: NDArray[Any] | None = None
+) -> NDArray[Any]:
+    """The accelerations of states a row each, (B, nv), in the arithmetic of q and v, under ``torque`` (B, nv).
 
     The mechanism's numbers are rounded to double precision. Not finite where they mean nothing.
     """
     out = np.empty_like(v)
-    _block(table, q, v, None, out)
+    _block(table, q, v, torque, out)
     return out
 
 
@@ -75,7 +77,9 @@ def run(table: Table, q: Array, v: Array, torque: Array | None, out: Array) -> t
     return finite, largest, pivot
 
 
-def _block(table: Table, q: NDArray[Any], v: NDArray[Any], torque: Array | None, out: NDArray[Any]) -> NDArray[Any]:
+def _block(
+    table: Table, q: NDArray[Any], v: NDArray[Any], torque: NDArray[Any] | None, out: NDArray[Any]
+) -> NDArray[Any]:
     rows = np.zeros((table.size, len(q)), dtype=q.dtype)
     rows[table.at_q : table.at_v], rows[table.at_v : table.at_torque] = q.T, v.T
     if torque is not None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,6 +86,17 @@ class Table:
     signs: int
     nq: int
     nv: int
+
+
+_kept: WeakKeyDictionary[SpatialMechanism, Table] = WeakKeyDictionary()
+
+
+def kept_table(mechanism: SpatialMechanism) -> Table:
+    """As :func:`table`, made once for each mechanism."""
+    found = _kept.get(mechanism)
+    if found is None:
+        found = _kept[mechanism] = table(mechanism)
+    return found
 
 
 def table(mechanism: SpatialMechanism) -> Table:

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from fake_tree_engines import SMALL, FewQuestions, NoForces
+from fake_tree_engines import FLOATING, SMALL, FewQuestions, NoForces
 
 from furiko.checks.cache import _scene
 from furiko.checks.jobs import CellJob, TruthJob, messages_of
@@ -160,12 +160,16 @@ def test_what_is_skipped_has_its_reason(scene):
     assert "never forms the forces" in skip("joint forces", find_scene("cart-pole"), engine_info("exudyn-tree"))
     assert "does not offer the forces" in skip("joint forces", scene, NoForces.info)
     assert skip("invariant", scene, engine_info("pinocchio-aba")).startswith("Pinocchio computes dynamics")
-    assert "hinges and slides alone" in skip("invariant", find_scene("quadruped"), engine_info("mujoco"))
+    assert skip("invariant", find_scene("quadruped"), engine_info("mujoco")) == ""
     own = OWN_EQUATIONS
     assert "not of its images" in CHECKS["symmetry"].skipped(scene, own)
     assert "joints hold" in CHECKS["joint forces"].skipped(scene, own)
-    for check in ("step map", "trajectory"):
-        assert "hinges and slides alone" in skip(check, find_scene("humanoid"), engine_info("mujoco"))
+    assert skip("step map", find_scene("humanoid"), engine_info("mujoco")) == ""
+    assert skip("trajectory", find_scene("humanoid"), engine_info("mujoco")).startswith("the scene has no duration")
+    sprung = scene_from_toml(FLOATING.replace('kind = "ball"', 'kind = "ball"\nstiffness = 0.5'), "sprung")
+    for check in ("invariant", "trajectory"):
+        assert "jumps at half a turn" in skip(check, sprung, engine_info("mujoco"))
+    assert skip("step map", sprung, engine_info("mujoco")) == ""
     assert "no duration" in skip("trajectory", find_scene("arm-7"), engine_info("mujoco"))
 
 

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -76,6 +77,12 @@ MJCF_ALONE = {
     "a spring": (mechanism(body("a", -1, joint("one", stiffness=2.0, springref=0.3))), "stiffness 2"),
     "a gravity": (mechanism(body("a", -1, joint("one")), gravity=np.array([1.0, 2.0, 3.0])), "gravity 1.0 2.0 3.0"),
     "several joints": (mechanism(body("a", -1, joint("one"), joint("two", "slide"))), "2 joints on one body"),
+    "bodies called as others would be": (
+        mechanism(
+            body("a", -1, joint("one"), joint("two", "slide")), body("a0", 0, joint("three")), body("a_frame", 1)
+        ),
+        "2 joints on one body",
+    ),
     "a moving rod": (mechanism(body("a", -1, joint("one", axis=(1, 0, 1)), inertial=ROD)), "a moment of inertia is 0"),
     "a leaning rod": (
         mechanism(body("a", -1, joint("one", axis=(1, 0, 1)), inertial=LEANING)),
@@ -156,6 +163,18 @@ def test_inertials_on_which_engines_do_not_agree_are_refused(case, write):
     bad, says = NEITHER[case]
     with pytest.raises(InvalidInput, match=says):
         write(mechanism(bad))
+
+
+def test_no_body_is_called_as_drake_calls_those_that_it_makes_of_joints():
+    """Of k joints on a body called b it makes bodies b0, b1, …, and the last moves b."""
+    loose = [body(f"furiko_body_{i}", -1, Joint(f"free {i}", "free")) for i in range(1, 30)]
+    root = ElementTree.fromstring(spatial_mjcf(mechanism(*loose)))
+    names = []
+    for element in root.iter("body"):
+        names.append(element.get("name"))
+        names += [f"{element.get('name')}{k}" for k in range(len(element.findall("joint")) - 1)]
+    assert len(names) == 29 * (2 + 3) + 1
+    assert len(set(names)) == len(names)
 
 
 def test_what_mujoco_has_besides(tmp_path):

@@ -15,6 +15,7 @@ from furiko.models.spatial import Inertial, from_quaternion
 from furiko.models.spatial_mechanism import Joint, RigidBody, SpatialMechanism
 from furiko.reference.kernels.trees import dynamics, plain
 from furiko.reference.kernels.trees.machine import machine
+from furiko.reference.kernels.trees.springs import sprung
 from furiko.reference.kernels.trees.table import table
 from furiko.reference.rounding.spatial import Magnitudes
 from furiko.reference.truth.spatial import spatial_truth
@@ -30,7 +31,7 @@ FORMS = ("plain", "4 lanes", "8 lanes")
 def accelerations(form, mechanism, q, v, torque=None):
     """By one of the forms, whatever furiko would choose. The arrays are those of several states."""
     known, out = table(mechanism), np.empty(v.shape)
-    forces = dynamics._sprung(mechanism, q, torque)
+    forces = sprung(mechanism, q, torque)
     run = plain.run if form == "plain" else machine(int(form[0])).run
     run(known, *(np.ascontiguousarray(part) for part in (q, v)), forces, out)
     return out
