@@ -9,6 +9,7 @@ from typing import Any
 from ...models.errors import InvalidInput
 from ..dialects.blocks import rows_of_blocks
 from ..dialects.code.programs import plain_programs
+from ..dialects.derived.rows import from_scripts
 from ..dialects.followed.chosen import from_languages
 from ..dialects.functions import whole_functions
 from ..dialects.grammars.rows import from_grammars
@@ -58,6 +59,23 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     data = with_said_motions(plain_macros(without_ticks(unwrapped(without_pointers(data)))))
     require_no_time(data)
     data = with_phases(data)
+    unread: InvalidInput | None = None
+    try:
+        script = from_scripts(data)
+        if script is not None:
+            return _as_program(*script, slashes)
+    except InvalidInput as error:
+        unread = error
+    try:
+        return _read_others(data, slashes)
+    except InvalidInput:
+        if unread is not None:
+            raise unread from None
+        raise
+
+
+def _read_others(data: dict[str, Any], slashes: int) -> Submission:
+    """Read what derives nothing by computer algebra."""
     spelled = _spelled(data)
     program = from_grammars(spelled)
     if program is not None:

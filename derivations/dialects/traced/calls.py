@@ -90,7 +90,7 @@ class Calls:
     ) -> Value:
         """np.sin(x), self.f(x), M.dot(v), M.inv()."""
         root = path.split(".")[0] if path else ""
-        if root in library.MODULES and scope.find(root) is None:
+        if root in self.expressions.modules and scope.find(root) is None:
             return self.known(name, self.given(node, scope), node, scope)
         if root in (*TYPES, "cls") and path is not None and path.count(".") == 1 and name in self.functions:
             return self.follow(self.functions[name], self.given(node, scope), self.named(node, scope))

@@ -46,6 +46,7 @@ class Expressions:
         self.names, self.matlab, self.calls, self.free = names, matlab, calls, free
         self.size = 2 * len(names.known.coordinates)
         self.members: dict[str, Value] = {}
+        self.modules = MODULES
         self.entered: set[tuple[str | int, ...]] = set()  # whose entries are read
 
     def value(self, node: nodes.Node, scope: Scope) -> Value:  # noqa: PLR0911, PLR0912 -- one for each kind
@@ -90,7 +91,7 @@ class Expressions:
                 return self.each(node, scope)
             case nodes.Dots():
                 return Reach(None, None)
-        text = node.text if isinstance(node, nodes.Strange) else ""
+        text = node.text if isinstance(node, nodes.Strange | nodes.Pairs) else ""
         raise NotFollowed(f"{text[:40]!r}: this expression is not followed; write out what it comes to")
 
     def holds(self, test: nodes.Node, scope: Scope) -> bool:
@@ -103,6 +104,8 @@ class Expressions:
     def each(self, node: nodes.Each, scope: Scope) -> Value:
         """[l*sin(th[i]) for i in range(n)]"""
         made: list[Value] = []
+        if "," in node.name:
+            raise NotFollowed("a list over several names at once; write it out")
         for k in reach(self.value(node.over, scope)):
             inner = Scope(scope, {node.name: number(k)})
             if all(self.holds(test, inner) for test in node.tests):
@@ -125,7 +128,7 @@ class Expressions:
 
     def member(self, node: nodes.Member, scope: Scope) -> Value:  # noqa: PLR0911 -- one for each kind
         """np.pi, self.m1, p.carro.m."""
-        if isinstance(node.of, nodes.Word) and node.of.name in MODULES and scope.find(node.of.name) is None:
+        if isinstance(node.of, nodes.Word) and node.of.name in self.modules and scope.find(node.of.name) is None:
             if node.name in NUMBERS:
                 return Formula("pi")
             return Outside((node.of.name, node.name))

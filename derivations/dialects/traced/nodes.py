@@ -141,6 +141,23 @@ class Fields:
 
 
 @dataclass(frozen=True)
+class Pairs:
+    """Values by keys, {key: value}."""
+
+    keys: tuple[Node, ...]
+    values: tuple[Node, ...]
+    text: str
+
+
+@dataclass(frozen=True)
+class Primed:
+    """A derivative by time, written with primes behind."""
+
+    of: Node
+    order: int
+
+
+@dataclass(frozen=True)
 class Strange:
     """An expression of a kind that is not followed."""
 
@@ -165,6 +182,8 @@ Node = (
     | Either
     | Each
     | Fields
+    | Pairs
+    | Primed
     | Strange
 )
 

@@ -134,6 +134,12 @@ def number(value: int) -> Formula:
     return Formula(str(value), FACTOR if value >= 0 else SUM)
 
 
+def outside_of(value: Value) -> Value:
+    """A formula that is nothing but a quantity from outside, as that; any other value as it is."""
+    found = re.fullmatch("«([^«»]+)»", value.text) if isinstance(value, Formula) else None
+    return Outside(tuple(int(p) if p.isdigit() else p for p in found[1].split("|"))) if found else value
+
+
 def copied(value: Value) -> Value:
     """An array that changes with no other; any other value as it is."""
     return value.copied() if isinstance(value, Array) else value
