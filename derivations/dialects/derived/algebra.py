@@ -38,6 +38,8 @@ class Algebra:
         self.derivatives = Derivatives(names)
         self.expressions: Expressions | None = None  # set by the follower that has both
         self.moving: set[str] = set()
+        self.integrated: list[Value] = []  # equations that are given to a solver of differential equations
+        self.rates: dict[str, Formula] = {}  # what gradef(th, t, w) says
         self.solved_for: list[tuple[list[Formula], list[str]]] = []
 
     # names
@@ -65,6 +67,8 @@ class Algebra:
         """The rate of what a mark stands for. Raises NotFollowed for a coordinate that was made a constant."""
         if mark in TIMES:
             return ONE
+        if mark in self.rates:
+            return self.rates[mark]
         bare = mark.rstrip("'")
         if bare in self.moving:
             made = Outside((*mark.split("|")[:-1], f"{mark.split('|')[-1]}'"))
@@ -142,8 +146,13 @@ class Algebra:
         return self.entrywise(value, lambda f: self.derivatives.put_in(f, new_values))
 
     def _pairs(self, given: Sequence[Value]) -> list[tuple[str, Formula]]:
-        if len(given) == 1 and isinstance(given[0], Several):
-            made = [entries_of(item) for item in given[0].items]
+        if len(given) == 1 and is_equation(given[0]):
+            made = [self._sides(given[0])]
+        elif len(given) == 1 and isinstance(given[0], Record) and "solution" in given[0].fields:
+            held = {k: v for k, v in given[0].fields.items() if k != "solution"}
+            made = [[Formula(k), formula(v)] for k, v in held.items()]
+        elif len(given) == 1 and isinstance(given[0], Several):
+            made = [self._sides(item) for item in given[0].items]
         elif len(given) == 1 and isinstance(given[0], Array) and given[0].shape[-1] == 2:
             made = given[0].rows
         elif len(given) >= 2:
@@ -152,9 +161,18 @@ class Algebra:
             made = [list(pair) for pair in zip(old, new, strict=False)]
         else:
             raise NotFollowed("what is put in for what? Say it as pairs")
+        if len({mark_of(pair[0]) for pair in made}) < len(made):
+            raise NotFollowed("something is put in for one name twice")
         if any(len(pair) != 2 or mark_of(pair[0]) is None for pair in made):
             raise NotFollowed("something is put in for more than a name; give it a name of its own")
         return [(mark_of(a) or "", b) for a, b in made]
+
+    @staticmethod
+    def _sides(value: Value) -> list[Formula]:
+        """What is put in for what: a pair, or the sides of an equation."""
+        if isinstance(value, Record) and is_equation(value):
+            return [*entries_of(value.fields["lhs"]), *entries_of(value.fields["rhs"])]
+        return entries_of(value)
 
     def _require_last(self, old: str, pairs: Sequence[tuple[str, Formula]], value: Value) -> None:
         """Raises NotFollowed where a coordinate gets another name and its rates do not: those would be 0 then."""
@@ -182,6 +200,10 @@ class Algebra:
             pairs = [p for a, v in zip(of.arguments, given, strict=True) for p in self._matched(a, v)]
         else:
             raise NotFollowed(f"a function of {len(of.arguments)} formulas is called with {len(given)} values")
+        for out in of.outs:
+            left = {m for e in self._entries(out) for m in self.derivatives.marks_in(e)} - {old for old, _ in pairs}
+            if any(m.rstrip("'") in self.moving for m in left):
+                raise NotFollowed("a function of formulas has functions of time that are no arguments of it")
         new = {old: value for old, value in pairs if not self._is_number_of_quantity(old, value)}
         made = [self.entrywise(out, lambda f: self.derivatives.put_in(f, new)) for out in of.outs]
         return made[0] if of.alone else Several(made)

@@ -43,6 +43,7 @@ class ScriptCalls(Calls):
     def __init__(self, expressions: object, functions: dict[str, Local], follow: object, algebra: Algebra) -> None:
         super().__init__(expressions, functions, follow)  # type: ignore[arg-type]
         self.algebra = algebra
+        self.brackets = "("  # of a call
         self.methods: dict[str, Callable[[list[Value], dict[str, Value]], Value]] = {
             "diff": self.diff, "Derivative": self.diff, "derivative": self.diff, "D": self.diff, "fulldiff": self.diff,
             "jacobian": self.jacobian, "Jacobian": self.jacobian, "gradient": self.gradient, "hessian": self.hessian,
@@ -55,6 +56,8 @@ class ScriptCalls(Calls):
             "functionalDerivative": self.functional_derivative,
             "Function": self.function, "symbols": self.quantities, "Symbol": self.quantities, "var": self.quantities,
             "dynamicsymbols": self.moving_quantities, "jtimes": self.jtimes, "rhs": self.right, "lhs": self.left,
+            "gradef": self.gradef, "NDSolve": self.integrated, "NDSolveValue": self.integrated,
+            "ParametricNDSolve": self.integrated, "EulerEquations": self.euler_equations,
             "time_derivative": self.time_derivative, "dt": self.time_derivative,
         }  # fmt: skip
 
@@ -63,6 +66,10 @@ class ScriptCalls(Calls):
         of, path = node.of, dotted(node.of)
         name = path.split(".")[-1] if path else of.name if isinstance(of, nodes.Member) else ""
         root = path.split(".")[0] if path else ""
+        if isinstance(of, nodes.Word) and len(node.arguments) == 1 and scope.find(of.name) is None:
+            counted = self.counted(of.name, node, scope)
+            if counted is not None:
+                return counted
         is_own = name in self.functions or (isinstance(of, nodes.Word) and scope.find(name) is not None)
         if is_own or not name:
             return super().call(node, scope)
@@ -87,6 +94,24 @@ class ScriptCalls(Calls):
         if name == "solve" and self.is_of_matrices(given):
             return self.known(name, given, node, scope)
         return self.methods[name](given, self.named(node, scope))
+
+    def counted(self, name: str, node: nodes.Call, scope: Scope) -> Value | None:
+        """x[1] of Mathematica: what it was set to, or a quantity with a number."""
+        if self.brackets != "[" or name in self.functions:
+            return None
+        try:
+            k = self.expressions.value(node.arguments[0], scope)
+        except NotFollowed:
+            return None
+        if not isinstance(k, Formula) or k.whole is None or k.whole < 0:
+            return None
+        found = scope.find(f"{name}__{k.whole}")
+        if isinstance(found, Broken):
+            raise NotFollowed(found.why)
+        if found is not None:
+            return found
+        said = self.algebra.known.defined.get(f"{name}[{k.whole}]", "")
+        return Outside((said,)) if said.isidentifier() else Outside((f"{name}{k.whole}",))
 
     def is_module(self, root: str, scope: Scope) -> bool:
         """Whether a name in front of a dot is that of a module."""
@@ -244,6 +269,18 @@ class ScriptCalls(Calls):
     def time_derivative(self, given: list[Value], named: dict[str, Value]) -> Value:
         """x.dt()"""
         return self.algebra.by_time(given[0], 1)
+
+    def gradef(self, given: list[Value], named: dict[str, Value]) -> Value:
+        """Maxima's gradef(th, t, w): what th's rate is called."""
+        if len(given) != 3 or mark_of(given[1]) not in TIMES or mark_of(given[0]) is None:
+            raise NotFollowed("gradef of a name, the time, and its rate is followed")
+        self.algebra.rates[mark_of(given[0]) or ""] = formula(given[2])
+        return given[0]
+
+    def integrated(self, given: list[Value], named: dict[str, Value]) -> Value:
+        """NDSolve[{eq1, eq2, th[0] == 1}, …]: the equations of motion among these."""
+        self.algebra.integrated.append(given[0])
+        raise NotFollowed("what a solver gives back")
 
     def jacobian(self, given: list[Value], named: dict[str, Value]) -> Value:
         """Each entry's derivative by each quantity."""

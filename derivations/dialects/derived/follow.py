@@ -28,6 +28,9 @@ from .calls import ScriptCalls
 from .values import Made, equation, is_equation, mark_of
 
 
+EVALUATED = ("form_lagranges_equations", "gradef", "NDSolve", "NDSolveValue", "Solve", "solve")
+
+
 class ScriptExpressions(Expressions):
     """``algebra``: knows what is a function of time."""
 
@@ -40,7 +43,9 @@ class ScriptExpressions(Expressions):
                 made = [from_items([self.value(k, scope), self.value(v, scope)]) for k, v in zip(keys, values, strict=True)]
                 return Several(made)
             case nodes.Primed(of=of, order=order):
-                return self.algebra.by_time(self.value(of, scope), order)
+                found = self.value(of, scope)
+                found = self.algebra.moves(found) if isinstance(found, Outside) else found
+                return self.algebra.by_time(found, order)
         return super().value(node, scope)
 
     def binary(self, node: nodes.Binary, scope: Scope) -> Value:
@@ -192,8 +197,11 @@ class ScriptFollower(Follower):
             except NotFollowed:
                 pass
             return
-        if name in ("form_lagranges_equations",):
-            self.expressions.value(value, scope)
+        if name in EVALUATED:
+            try:
+                self.expressions.value(value, scope)
+            except NotFollowed:
+                pass
             return
         super()._alone(value, line, scope)
 

@@ -20,6 +20,8 @@ from ..traced.python import python_tree
 from ..traced.rows import LONGEST_TEXT, TOO_DEEP, Reader, needed, prefix_for, shortened
 from ..traced.values import Array, Broken, Doubtful, Formula, Local, NotFollowed, Outside, Several, Value, formula
 from .follow import ScriptFollower
+from .mathematica import mathematica_tree, plain_letters
+from .maxima import maxima_tree
 from .values import entries_of, equations_in, is_equation
 
 DERIVES = re.compile(
@@ -38,6 +40,10 @@ def from_scripts(data: dict[str, Any]) -> tuple[dict[str, Any], dict[str, str]] 
     None for other texts. Raises InvalidInput where it is such a script and cannot be followed.
     """
     field, label, text = _only_text(data)
+    if "\\[" in text and mathematica_tree(text) is not None:
+        define = data.get("define")
+        if isinstance(define, dict):
+            data = data | {"define": {plain_letters(str(k)): v for k, v in define.items()}}
     found = known(data)
     if not text or len(text) > LONGEST_TEXT or not 1 <= len(found.coordinates) <= 8 or not all(found.coordinates):
         return None
@@ -62,6 +68,10 @@ def from_scripts(data: dict[str, Any]) -> tuple[dict[str, Any], dict[str, str]] 
 
 def trees_of(text: str) -> list[tuple[tuple[nodes.Statement, ...], bool]]:
     """The statements of a text in each language that it may be of, and whether that is MATLAB's."""
+    for read in (maxima_tree, mathematica_tree):
+        tree = read(text)
+        if tree is not None:
+            return [(tree, False)]
     made = [(python_tree(text), False), (matlab_tree(text), True)]
     return [(tree, matlab) for tree, matlab in made if tree is not None]
 
@@ -97,6 +107,7 @@ class ScriptReader(Reader):
         self.follower = ScriptFollower(found, tree, matlab=matlab, prefix=prefix_for(text))
         self.follower.expressions.modules = modules_of(text)
         self.text = text
+        self.follower.calls.brackets = "[" if mathematica_tree(text) is not None else "("
 
     def read_field(self, field: str) -> tuple[dict[str, Any], dict[str, str]]:
         """Rows where the script comes to equations; else its Lagrangian, where that is what is asked for."""
@@ -105,8 +116,9 @@ class ScriptReader(Reader):
             return self._fields(*self._last_stage())
         rows = self._of_script()
         if rows is not None:
-            self._require_drives(rows[0])
-            return self._fields(*rows)
+            self._require_drives()
+            fields, lines = self._fields(*rows)
+            return {k: v for k, v in fields.items() if k != "lagrangian"}, lines
         return self._lagrangian()
 
     def _last_stage(self) -> tuple[Rows, Meaning]:
@@ -129,6 +141,11 @@ class ScriptReader(Reader):
     def _of_script(self) -> tuple[Rows, Meaning] | None:
         """The equations that are solved, or that have such names."""
         algebra = self.follower.algebra
+        for value in algebra.integrated:
+            zeros = [e for one in equations_in(value) if is_equation(one) for e in self._equations_of(one)]
+            if len(zeros) == self.count:
+                return self._zeros(zeros)
+            raise NotFollowed(f"{len(zeros)} equations of motion are integrated, for {self.count} coordinates; {GIVE}")
         for zeros, marks in reversed(algebra.solved_for):
             if len(zeros) == self.count == len(marks) and all(self._order_of(m) == 2 for m in marks):
                 return self._zeros(zeros)
@@ -174,13 +191,12 @@ class ScriptReader(Reader):
         meaning = self._meaning((), zeros, self.follower.top)
         return self._checked([(e.text, "0") for e in zeros], meaning, needs_second=False)
 
-    def _require_drives(self, rows: Rows) -> None:
+    def _require_drives(self) -> None:
         """Raises NotFollowed where bodies are driven or damped, and the equations behind a Lagrangian do not say so."""
         bodies = [b for b in self.data.get("bodies", ()) if isinstance(b, dict)]
         if any(force in b for b in bodies for force in ("drive", "damping", "friction")):
             raise NotFollowed("equations stand behind the Lagrangian, and bodies are driven or damped; give the "
                               "equations as [equations], or the Lagrangian alone")  # fmt: skip
-        del rows
 
     # a Lagrangian
 

@@ -225,6 +225,8 @@ def power(a: Formula, b: Formula) -> Formula:
     exponent = re.sub(r"\.0*$", "", b.text)
     if not WHOLE.fullmatch(exponent):
         raise NotFollowed(f"a power of {b.text[:20]}; only whole numbers are read, as in x^2")
+    if exponent == "1":
+        return a
     base = a.text if ATOM.fullmatch(a.text) else f"({a.text})"
     return _made(f"{base}^{exponent}" if int(exponent) >= 0 else f"{base}^({exponent})", FACTOR)
 
