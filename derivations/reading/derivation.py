@@ -24,6 +24,7 @@ from ..dialects.letters.left_sides import without_left_sides
 from ..dialects.letters.members import without_low_lines, without_pointers
 from ..dialects.letters.odd_waves import with_odd_waves
 from ..dialects.letters.said_motions import with_said_motions
+from ..dialects.letters.time_names import with_one_time
 from ..dialects.markup.asciimath import without_ticks
 from ..dialects.markup.macros import plain_macros
 from ..dialects.markup.pages import from_pages
@@ -55,7 +56,7 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     Raises InvalidInput, with the place, where it is none.
     """
     known_fields(data)
-    data = _of_one_text(data)
+    data = with_one_time(_of_one_text(data))
     data = with_said_motions(plain_macros(without_ticks(unwrapped(without_pointers(data)))))
     require_no_time(data)
     data = with_phases(data)

@@ -71,7 +71,7 @@ class Algebra:
             return self.rates[mark]
         bare = mark.rstrip("'")
         if bare in self.moving:
-            made = Outside((*mark.split("|")[:-1], f"{mark.split('|')[-1]}'"))
+            made = Outside((*mark.split("|")[:-1], f"{mark.rsplit('|', maxsplit=1)[-1]}'"))
             self._labelled(mark, made)
             return Formula(made.mark)
         last = bare.split("|")[-1]
@@ -190,7 +190,7 @@ class Algebra:
 
     def _is_number_of_quantity(self, old: str, new: Formula) -> bool:
         """m1 = 1.0: what is right for every value is right for it."""
-        last = old.split("|")[-1]
+        last = old.rsplit("|", maxsplit=1)[-1]
         is_one = self.known.is_quantity(last) and self.known.coordinate(last) is None
         return (is_one or last in ("g", "G", "grav", "gravity")) and not self.derivatives.marks_in(new)
 
@@ -280,7 +280,9 @@ class Algebra:
             rate = mark_of(self.rate(mark)) or ""
             momentum = self.names.line(self.derivatives.by(whole, rate), "a momentum")
             change = formula(self.by_time(momentum))
-            made.append(self.names.line(subtracted(change, self.derivatives.by(whole, mark)), "an equation of Lagrange"))
+            made.append(
+                self.names.line(subtracted(change, self.derivatives.by(whole, mark)), "an equation of Lagrange")
+            )
         return Array(made, (len(made), 1))
 
     def lagranges_method(self, lagrangian: Value, coordinates: Value) -> Record:

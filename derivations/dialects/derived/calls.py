@@ -115,7 +115,9 @@ class ScriptCalls(Calls):
 
     def is_module(self, root: str, scope: Scope) -> bool:
         """Whether a name in front of a dot is that of a module."""
-        return (root in self.expressions.modules or root in ("me", "mechanics", "MX", "SX", "S", "physics")) and scope.find(root) is None
+        return (
+            root in self.expressions.modules or root in ("me", "mechanics", "MX", "SX", "S", "physics")
+        ) and scope.find(root) is None
 
     @staticmethod
     def is_of_matrices(given: list[Value]) -> bool:
@@ -171,11 +173,15 @@ class ScriptCalls(Calls):
     def are_vectors(given: list[Value]) -> bool:
         """Whether two values are columns, or rows, of one length."""
         a, b = given
-        return isinstance(a, Array) and isinstance(b, Array) and a.shape == b.shape and a.is_vector and len(a.shape) == 2
+        return (
+            isinstance(a, Array) and isinstance(b, Array) and a.shape == b.shape and a.is_vector and len(a.shape) == 2
+        )
 
     def dot(self, a: Value, b: Value) -> Formula:
         """The sum of the products of the entries."""
-        return library.total(Array([times(x, y) for x, y in zip(entries_of(a), entries_of(b), strict=True)], (len(entries_of(a)),)))
+        return library.total(
+            Array([times(x, y) for x, y in zip(entries_of(a), entries_of(b), strict=True)], (len(entries_of(a)),))
+        )
 
     def known(self, name: str, given: list[Value], node: nodes.Call, scope: Scope) -> Value:
         """th1(t) of MATLAB's syms th1(t), and functions of libraries."""

@@ -172,7 +172,9 @@ def _whole(node: ast.expr) -> int:
     raise NotFollowed("the derivative of a power that is no whole number; write it out")
 
 
-def _combined(op: ast.operator, left: tuple[Formula, Formula], right: tuple[Formula, Formula]) -> tuple[Formula, Formula]:
+def _combined(
+    op: ast.operator, left: tuple[Formula, Formula], right: tuple[Formula, Formula]
+) -> tuple[Formula, Formula]:
     """Two parts with a sign between them, and the derivative of this."""
     (a, da), (b, db) = left, right
     match op:

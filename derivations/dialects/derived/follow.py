@@ -27,7 +27,6 @@ from .algebra import Algebra
 from .calls import ScriptCalls
 from .values import Made, equation, is_equation, mark_of
 
-
 EVALUATED = ("form_lagranges_equations", "gradef", "NDSolve", "NDSolveValue", "Solve", "solve")
 
 
@@ -40,7 +39,9 @@ class ScriptExpressions(Expressions):
         """What an expression stands for."""
         match node:
             case nodes.Pairs(keys=keys, values=values):
-                made = [from_items([self.value(k, scope), self.value(v, scope)]) for k, v in zip(keys, values, strict=True)]
+                made = [
+                    from_items([self.value(k, scope), self.value(v, scope)]) for k, v in zip(keys, values, strict=True)
+                ]
                 return Several(made)
             case nodes.Primed(of=of, order=order):
                 found = self.value(of, scope)
@@ -186,7 +187,9 @@ class ScriptFollower(Follower):
 
     def _alone(self, value: nodes.Node, line: str, scope: Scope) -> None:
         """What stands alone: names that are declared, an equation, a list that grows."""
-        name = value.of.name if isinstance(value, nodes.Call) and isinstance(value.of, nodes.Word | nodes.Member) else ""
+        name = (
+            value.of.name if isinstance(value, nodes.Call) and isinstance(value.of, nodes.Word | nodes.Member) else ""
+        )
         if name in ("syms·", "depends"):
             assert isinstance(value, nodes.Call)
             self._declare(value, scope)

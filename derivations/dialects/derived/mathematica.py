@@ -158,7 +158,9 @@ class _Parser:
                 return nodes.Assign(nodes.Word(f"{name}__{k}"), self.value_of_assignment(), self.line(start))
             case nodes.Call(of=nodes.Word(name=name), arguments=parameters):
                 names = tuple(p.name.rstrip("_") for p in parameters if isinstance(p, nodes.Word))
-                if len(names) == len(parameters) and all(isinstance(p, nodes.Word) and p.name.endswith("_") for p in parameters):
+                if len(names) == len(parameters) and all(
+                    isinstance(p, nodes.Word) and p.name.endswith("_") for p in parameters
+                ):
                     return nodes.Define(name, names, (), self.body(start))
                 if parameters == (nodes.Word("t"),):  # x[t] = …: what it is for this name of time
                     return nodes.Define(name, ("t",), (), self.body(start))
@@ -282,7 +284,9 @@ class _Parser:
                     node = called(node, arguments)
             elif self.is_sign("'"):
                 self.at += 1
-                node = nodes.Primed(node.of, node.order + 1) if isinstance(node, nodes.Primed) else nodes.Primed(node, 1)
+                node = (
+                    nodes.Primed(node.of, node.order + 1) if isinstance(node, nodes.Primed) else nodes.Primed(node, 1)
+                )
             else:
                 return node
 
@@ -349,7 +353,7 @@ def called(of: nodes.Node, arguments: tuple[nodes.Node, ...]) -> nodes.Node:
     """A call; sums and tables over numbers as lists."""
     name = of.name if isinstance(of, nodes.Word) else ""
     match name, arguments:
-        case ("Sum" | "Table"), (value, *ranges) if ranges:
+        case (("Sum" | "Table"), (value, *ranges)) if ranges:
             node = value
             for one in reversed(ranges):
                 node = _each(node, one)
@@ -360,9 +364,9 @@ def called(of: nodes.Node, arguments: tuple[nodes.Node, ...]) -> nodes.Node:
             return nodes.Call(nodes.Word("Derivative·"), (nodes.Number(order),))
         case "Subscript", (nodes.Word(name=base), nodes.Number(text=k)):
             return nodes.Word(f"{base}{k}")
-        case ("First" | "Flatten" | "Evaluate" | "Normal" | "Thread"), (value,):
+        case (("First" | "Flatten" | "Evaluate" | "Normal" | "Thread"), (value,)):
             return nodes.At(value, (nodes.Number("0"),)) if name == "First" else value
-        case ("Simplify" | "FullSimplify" | "Expand"), (value, *_):
+        case (("Simplify" | "FullSimplify" | "Expand"), (value, *_)):
             return value
         case "LinearSolve", (matrix, right):
             return nodes.Call(nodes.Member(nodes.Word("linalg"), "solve"), (matrix, right))

@@ -287,9 +287,9 @@ def called(of: nodes.Node, arguments: tuple[nodes.Node, ...]) -> nodes.Node:
     match name, arguments:
         case "matrix", rows:
             return nodes.Call(nodes.Word("array"), (nodes.Listed(rows),))
-        case ("subst" | "ratsubst"), (new, old, value):
+        case (("subst" | "ratsubst"), (new, old, value)):
             return nodes.Call(nodes.Word("subs"), (value, old, new))
-        case ("subst" | "at"), (pairs, value) if name == "subst":
+        case (("subst" | "at"), (pairs, value)) if name == "subst":
             return nodes.Call(nodes.Word("subs"), (value, pairs))
         case "at", (value, pairs):
             return nodes.Call(nodes.Word("subs"), (value, pairs))
@@ -298,10 +298,10 @@ def called(of: nodes.Node, arguments: tuple[nodes.Node, ...]) -> nodes.Node:
             if len(said) == 0:
                 return value
             return nodes.Call(nodes.Word("subs"), (value, nodes.Listed(said) if len(said) > 1 else said[0]))
-        case ("sum" | "makelist" | "create_list"), (value, nodes.Word(name=index), first, last):
+        case (("sum" | "makelist" | "create_list"), (value, nodes.Word(name=index), first, last)):
             each = nodes.Each(value, index, counted(first, last))
             return nodes.Call(nodes.Word("sum"), (each,)) if name == "sum" else each
-        case ("makelist" | "create_list" | "lsum"), (value, nodes.Word(name=index), over):
+        case (("makelist" | "create_list" | "lsum"), (value, nodes.Word(name=index), over)):
             each = nodes.Each(value, index, over)
             return nodes.Call(nodes.Word("sum"), (each,)) if name == "lsum" else each
         case "apply", (nodes.Text(text="+"), over):

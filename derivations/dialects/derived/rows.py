@@ -29,8 +29,12 @@ DERIVES = re.compile(
     r"|linear_eq_to_matrix|equationsToMatrix|jtimes|depends)\s*\(|\.sym\s*\(|\bFunction\s*\(|\bD\[|\bSolve\["
 )
 LAGRANGIAN = re.compile(r"(?:L|Lag|Lagr|LL|Lg|lag|lagrangian|Lagrangian|LAGRANGIAN|lagrange|L_total|Lagrange)")
-EQUATION = re.compile(r"(?i)(?:eq\w*|e_?l\w*|lm?\w?eq\w*|lagr\w*|le_?\w?|eom\w*|ode\w*|euler\w*|motion\w*|de\w?|system|sys|gl\w*)")
-INTEGRATED = re.compile(r"\b(?:odeint|solve_ivp|ode45|ode23|ode113|ode15s|RK45|solve_bvp|rk4|runge_kutta\w*|lsode)\s*\(\s*@?(?P<name>\w+)")
+EQUATION = re.compile(
+    r"(?i)(?:eq\w*|e_?l\w*|lm?\w?eq\w*|lagr\w*|le_?\w?|eom\w*|ode\w*|euler\w*|motion\w*|de\w?|system|sys|gl\w*)"
+)
+INTEGRATED = re.compile(
+    r"\b(?:odeint|solve_ivp|ode45|ode23|ode113|ode15s|RK45|solve_bvp|rk4|runge_kutta\w*|lsode)\s*\(\s*@?(?P<name>\w+)"
+)
 GIVE = "give the equations of motion alone, or the Lagrangian as L = T - V"
 
 
@@ -54,7 +58,9 @@ def from_scripts(data: dict[str, Any]) -> tuple[dict[str, Any], dict[str, str]] 
         if not _is_script(tree, text, field):
             continue
         if DOWNWARDS.search(text):
-            raise InvalidInput(f"{label}: g is a negative number here; give it without its sign, and the sign in the text")
+            raise InvalidInput(
+                f"{label}: g is a negative number here; give it without its sign, and the sign in the text"
+            )
         try:
             return ScriptReader(data, found, tree, matlab=matlab, text=text).read_field(field)
         except NotFollowed as error:
@@ -130,7 +136,9 @@ class ScriptReader(Reader):
             raise NotFollowed(self.refused[-1] if self.refused else GIVE)
         found = found or self._alone(self._of_text) or self._of_script()
         if found is None:
-            raise NotFollowed(self.refused[-1] if self.refused else f"no equations of motion are found in this script; {GIVE}")
+            raise NotFollowed(
+                self.refused[-1] if self.refused else f"no equations of motion are found in this script; {GIVE}"
+            )
         return found
 
     def _of_functions_alone(self) -> tuple[Rows, Meaning] | None:

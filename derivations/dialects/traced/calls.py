@@ -218,7 +218,9 @@ class Calls:
             return library.total(library.as_array(given[0]))
         if name in ("reshape",) and given:
             return self.reshaped(library.as_array(given[0]), given[1:])
-        if name in ("expand_dims", "unsqueeze") and given:
+        if name == "expand_dims" and given:
+            return expressions.spread(given[0], [*given[1:], *self.named(node, scope).values()])
+        if name == "unsqueeze" and given:
             return given[0]
         if name in ("split", "chunk") and len(given) == 2 and isinstance(given[0], Outside):
             return self.halves(name, given[0], given[1], dotted(node.of) or "")

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from operator import eq, ge, gt, le, lt, ne
 
 from . import nodes
-from .arrays import entrywise, product, turned
+from .arrays import entrywise, product, spread, turned
 from .known import GRAVITY
 from .library import MODULES, as_array, from_items, reach, stacked
 from .names import Names, Scope
@@ -288,6 +288,17 @@ class Expressions:
                 return of.entries[chosen[0]]
             return Array([of.entries[k] for k in chosen], shape, of.kind)
         raise NotFollowed("an entry of something that is no list")
+
+    def spread(self, value: Value, axes: list[Value]) -> Array:
+        """np.expand_dims(x, 1); x from outside has as many entries as [define] says."""
+        if isinstance(value, Outside):
+            said = [k for k in range(LONGEST_STATE) if f"{value.path[-1]}[{k}]" in self.names.known.defined]
+            if not said or said != list(range(len(said))):
+                raise NotFollowed(f"{value.path[-1]}: how many entries it has is not said; write them out")
+            value = Array([Formula(Outside((*value.path, k)).mark) for k in said], (len(said),))
+        if not isinstance(value, Array) or len(axes) != 1:
+            raise NotFollowed("an axis more of something that is no vector; write out its entries")
+        return spread(value, formula(axes[0]).whole or 0)
 
     def outside(self, of: Outside, places: list[Value], first: int) -> Value:
         """An entry of the state or of parameters."""

@@ -13,7 +13,7 @@ from .library import empty as library_empty
 from .library import filling, from_items, reach
 from .names import Names, Scope
 from .nodes import dotted, set_by
-from .values import Array, Broken, Formula, Local, NotFollowed, Outside, Several, Value, copied, formula, outside_of
+from .values import Array, Broken, Formula, Local, NotFollowed, Outside, Several, Value, copied, outside_of
 
 MOST_STEPS, DEEPEST = 3000, 12
 GIVEN_BACK = "return"
@@ -394,6 +394,8 @@ class Follower:
             if array is None:
                 return
         is_new = path in scope.parameters and (path,) not in self.expressions.entered
+        if array is None and path in scope.parameters and not is_new and not first:  # y[0], y[1] = y[1], …; return y
+            array = self._own(path, scope)
         if array is None and is_new and not first:  # out[0] = … of a parameter that is filled
             array = library_empty("zeros", (self.expressions.size,))
             array.is_state = True
@@ -410,6 +412,12 @@ class Follower:
             raise NotFollowed(f"{path}: entries of something that is no array")
         chosen, shape = chosen_of(array, [self.expressions.value(p, scope) for p in places], first)
         self._fill(array, chosen, shape, value, line)
+
+    def _own(self, path: str, scope: Scope) -> Array:
+        """The state from outside, whose entries a function of Python changes."""
+        entries = [Formula(Outside((path, k)).mark) for k in range(self.expressions.size)]
+        scope.names[path] = array = Array(entries, (len(entries),), is_state=True)
+        return array
 
     def _list_entry(
         self, found: Several, places: tuple[nodes.Node, ...], value: Value, scope: Scope, path: str, first: int

@@ -156,7 +156,7 @@ class _Parser:
 
     def moving(self, start: int) -> list[nodes.Statement]:
         """syms th1(t) m1: what is a function of time."""
-        inside = self.tokens[start:self.at]
+        inside = self.tokens[start : self.at]
         names = [a.text for a, b, c in zip(inside, inside[1:], inside[2:], strict=False)
                  if a.kind == "word" and b.text == "(" and c.text in ("t", "time", "tau")]  # fmt: skip
         declared = nodes.Call(nodes.Word("syms·"), tuple(map(nodes.Word, names)))

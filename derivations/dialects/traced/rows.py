@@ -288,7 +288,7 @@ class Reader(Forms):
         return {**body, "coordinate": readable(bare, self.known.quantities)}
 
     def _is_kept(self, name: str, value: Any, used: str) -> bool:
-        if re.search(r"[\[({]", name) and not name.endswith("(t)"):
+        if (re.search(r"[\[({]", name) and not name.endswith("(t)")) or name.endswith("_"):
             return False
         return not (isinstance(value, str) and "[" in value and not re.search(rf"(?<!\w){re.escape(name)}(?!\w)", used))
 
