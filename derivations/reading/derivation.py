@@ -31,6 +31,7 @@ from ..dialects.markup.pages import from_pages
 from ..dialects.markup.prose import FormulasInWords
 from ..dialects.markup.wrapped import unwrapped
 from ..dialects.notes.note import as_note, is_worded
+from ..dialects.parsers.rows import from_parsers
 from ..dialects.table import translated
 from ..dialects.times import with_times
 from ..dialects.traced.known import known
@@ -83,7 +84,9 @@ def _read_others(data: dict[str, Any], slashes: int) -> Submission:
         return _as_program(*program, slashes)
     refused: InvalidInput | None = None
     try:
-        program = traced(spelled)
+        program = from_parsers(spelled)
+        if program is None:
+            program = traced(spelled)
         if program is not None:
             return _as_program(*program, slashes)
     except InvalidInput as error:

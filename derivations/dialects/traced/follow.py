@@ -375,6 +375,9 @@ class Follower:
                 parts = [value]
         if len(parts) != count:
             raise NotFollowed(f"{count} names, and not as many values behind the equals sign")
+        whole = nodes.all_entries(items, self.expressions.size)
+        if whole in scope.parameters:  # y[0], y[1] = y[1], -y[0]; return y
+            items, parts = (nodes.Word(whole),), [from_items(parts)]
         for item, part in zip(items, parts, strict=True):
             self._put(item, part, line, scope)
 
@@ -394,8 +397,6 @@ class Follower:
             if array is None:
                 return
         is_new = path in scope.parameters and (path,) not in self.expressions.entered
-        if array is None and path in scope.parameters and not is_new and not first:  # y[0], y[1] = y[1], …; return y
-            array = self._own(path, scope)
         if array is None and is_new and not first:  # out[0] = … of a parameter that is filled
             array = library_empty("zeros", (self.expressions.size,))
             array.is_state = True
@@ -412,12 +413,6 @@ class Follower:
             raise NotFollowed(f"{path}: entries of something that is no array")
         chosen, shape = chosen_of(array, [self.expressions.value(p, scope) for p in places], first)
         self._fill(array, chosen, shape, value, line)
-
-    def _own(self, path: str, scope: Scope) -> Array:
-        """The state from outside, whose entries a function of Python changes."""
-        entries = [Formula(Outside((path, k)).mark) for k in range(self.expressions.size)]
-        scope.names[path] = array = Array(entries, (len(entries),), is_state=True)
-        return array
 
     def _list_entry(
         self, found: Several, places: tuple[nodes.Node, ...], value: Value, scope: Scope, path: str, first: int

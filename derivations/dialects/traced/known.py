@@ -48,6 +48,7 @@ TURNING_TWICE = (
     "thetadd",
     "ddtheta",
 )
+COUNTED_TWICE = ("acc", "accel", "acceleration")  # with an index, where no coordinate is a length
 SLIDING = ("v", "vel", "velocity", "vx")
 SLIDING_TWICE = ("a", "acc", "accel", "acceleration", "dv", "vdot", "dvdt", "ax")
 
@@ -167,7 +168,7 @@ def _is_derivative_of(name: str, all_known: Known, k: int, order: int, letter: s
     alone = sum(s == slide for s in all_known.slides) == 1
     words = (SLIDING if slide else TURNING) if order == 1 else (SLIDING_TWICE if slide else TURNING_TWICE)
     if not slide and index and not any(all_known.slides):
-        spelled |= {f"{word}{index}" for word in words}
+        spelled |= {f"{word}{index}" for word in (*words, *(COUNTED_TWICE if order == 2 else ()))}
     if alone:
         spelled |= set(words)
     if alone and order == 1 and not slide:

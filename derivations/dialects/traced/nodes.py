@@ -301,3 +301,11 @@ def set_by(target: Node) -> list[str]:
         case At(of=of) | Call(of=of):
             return set_by(of)
     return []
+
+
+def all_entries(targets: tuple[Node, ...], size: int) -> str:
+    """The name whose entries, all of them and in order, are set at once; an empty text where that is not so."""
+    found = {of.name if t.text == str(k) else "" for k, one in enumerate(targets) if isinstance(one, At)
+             for of, t in ((one.of, one.places[0]),) if isinstance(of, Word) and isinstance(t, Number)}  # fmt: skip
+    is_each = all(isinstance(one, At) and len(one.places) == 1 for one in targets)
+    return found.pop() if len(found) == 1 and is_each and len(targets) == size else ""

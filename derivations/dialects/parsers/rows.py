@@ -1,0 +1,56 @@
+"""Rows of equations of motion from a program that a parser of this folder reads."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import Any
+
+from ....models.errors import InvalidInput
+from ..grammars.languages.language import Language
+from ..grammars.rows import DOWN, GrammarReader
+from ..statements import DOWNWARDS
+from ..traced import nodes
+from ..traced.rows import LONGEST_TEXT, TOO_DEEP, one_text, prefix_for
+from ..traced.values import NotFollowed
+from .lua import LUA, lua_tree
+from .r import R, r_tree
+
+READ = ((R, r_tree), (LUA, lua_tree))
+
+
+def from_parsers(data: dict[str, Any]) -> tuple[dict[str, Any], dict[str, str]] | None:
+    """The fields with rows in place of a program, and the line that each definition is from; None for other texts.
+
+    Raises InvalidInput where it is a program and cannot be taken as it is meant.
+    """
+    one = one_text(data)
+    if one is None or len(one[1]) > LONGEST_TEXT or "\\begin" in one[1] or "\\frac" in one[1]:
+        return None
+    label, text, found = one
+    try:
+        language, statements = tree_of(text)
+    except NotFollowed as error:
+        raise InvalidInput(f"equations.{label:.40}: {error}") from None
+    if language is None or not any(isinstance(s, nodes.Define) for s in statements):
+        return None
+    if DOWNWARDS.search(text):
+        raise InvalidInput(f"equations.{label:.40}: {DOWN}")
+    try:
+        return GrammarReader(data, found, statements, language, prefix_for(text)).read()
+    except NotFollowed as error:
+        raise InvalidInput(f"equations.{label:.40}: {error}") from None
+    except RecursionError:
+        raise InvalidInput(f"equations.{label:.40}: {TOO_DEEP}") from None
+
+
+def tree_of(text: str) -> tuple[Language | None, Sequence[nodes.Statement]]:
+    """The language of a text, and its statements."""
+    for language, read in READ:
+        tree = read(text)
+        if tree is not None:
+            return language, tree
+    return None, ()
+
+
+__all__ = ["from_parsers", "re"]
