@@ -14,7 +14,6 @@ from ..languages.equations import stated
 from ..languages.fortran import from_fortran
 from ..languages.haskell import from_haskell
 from ..languages.program import LONGEST_PROGRAM, RETURN, Function, Program
-from ..languages.r import from_r
 from ..letters.every_text import rows_of
 from ..names import plain_name
 from ..statements import DOWNWARDS
@@ -80,7 +79,7 @@ def program_of(text: str, known: Collection[str] = ()) -> Program | None:
     """The program of a text; None where its language is another's to read. ``known``: names that the file has."""
     if "\\begin" in text or "\\frac" in text or "Symbol(" in text:
         return None
-    for read in (from_r, lambda x: from_fortran(x, known), from_words):
+    for read in (lambda x: from_fortran(x, known), from_words):
         program = read(text)
         if program is not None:
             return program
