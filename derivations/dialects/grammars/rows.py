@@ -332,7 +332,9 @@ class GrammarReader(Reader):
         if len(places) != self.count or any(rate not in moved for _, rate in places.values()):
             stepped = [str(p[-1]) for p in moved if self.known.coordinate(str(p[-1])) is not None]
             if stepped:
-                raise Doubtful(f"{stepped[0]} is stepped, and what its rate's step is, is not plain; give the equations alone")
+                raise Doubtful(
+                    f"{stepped[0]} is stepped, and what its rate's step is, is not plain; give the equations alone"
+                )
             return None
         accelerations: list[Formula] = []
         for k in range(self.count):

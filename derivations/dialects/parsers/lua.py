@@ -10,7 +10,9 @@ from .parser import NoProgram, Parser, counted, from_one, tokens_of
 
 CUE = re.compile(r"(?m)^\s*(?:local\s+)?(?:[\w.:]+\s*=\s*)?function\b")
 WORD = re.compile(r"\blocal\s|\bmath\.(?:sin|cos|pow)|\bthen\b|--")
-OTHERS = re.compile(r"\\begin|\\frac|::|=>|(?m:^\s*function\s+(?:\[[^\]]*\]|\w+)\s*=)|\bend(?:function|if|for)\b|%|~(?!=)")
+OTHERS = re.compile(
+    r"\\begin|\\frac|::|=>|(?m:^\s*function\s+(?:\[[^\]]*\]|\w+)\s*=)|\bend(?:function|if|for)\b|%|~(?!=)"
+)
 REMARK = re.compile(r"--\[\[.{0,4000}?\]\]|--[^\n]*", re.DOTALL)
 TOKEN = re.compile(
     r"(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
@@ -188,7 +190,11 @@ class _Lua(Parser):
 
     def combined(self, sign: str, left: nodes.Node, right: nodes.Node) -> nodes.Node:
         """Two parts with a sign between them."""
-        return nodes.Strange(sign) if sign == ".." else nodes.Binary({"and": "&&", "or": "||"}.get(sign, sign), left, right)
+        return (
+            nodes.Strange(sign)
+            if sign == ".."
+            else nodes.Binary({"and": "&&", "or": "||"}.get(sign, sign), left, right)
+        )
 
     def postfix(self) -> nodes.Node:
         node = self.primary()

@@ -363,7 +363,9 @@ def matrix(given: list[tuple[str, nodes.Node]]) -> nodes.Node:
         raise NotFollowed("a matrix of one value; write out its entries")
     if entries is None:
         return nodes.Strange("matrix(…)")
-    numbers = [v.text for v in (*plain[1:], *(said[k] for k in ("nrow", "ncol") if k in said)) if isinstance(v, nodes.Number)]
+    numbers = [
+        v.text for v in (*plain[1:], *(said[k] for k in ("nrow", "ncol") if k in said)) if isinstance(v, nodes.Number)
+    ]
     n = len(entries)
     rows = int(said["nrow"].text) if isinstance(said.get("nrow"), nodes.Number) else 0  # type: ignore[union-attr]
     columns = int(said["ncol"].text) if isinstance(said.get("ncol"), nodes.Number) else 0  # type: ignore[union-attr]

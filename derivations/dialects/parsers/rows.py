@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Any
 
 from ....models.errors import InvalidInput
@@ -13,10 +13,9 @@ from ..statements import DOWNWARDS
 from ..traced import nodes
 from ..traced.rows import LONGEST_TEXT, TOO_DEEP, one_text, prefix_for
 from ..traced.values import NotFollowed
+from .fortran import FORTRAN, fortran_tree
 from .lua import LUA, lua_tree
 from .r import R, r_tree
-
-READ = ((R, r_tree), (LUA, lua_tree))
 
 
 def from_parsers(data: dict[str, Any]) -> tuple[dict[str, Any], dict[str, str]] | None:
@@ -29,11 +28,25 @@ def from_parsers(data: dict[str, Any]) -> tuple[dict[str, Any], dict[str, str]] 
         return None
     label, text, found = one
     try:
-        language, statements = tree_of(text)
+        names = {
+            *found.quantities,
+            *found.coordinates,
+            *found.written,
+            *(re.sub(r"\W.*", "", str(k)) for k in found.defined),
+            *found.free,
+        }
+        language, statements = tree_of(text, {name for name in names if name.isidentifier()})
     except NotFollowed as error:
         raise InvalidInput(f"equations.{label:.40}: {error}") from None
     if language is None or not any(isinstance(s, nodes.Define) for s in statements):
         return None
+    twice = next(
+        (s.name for s in statements if isinstance(s, nodes.Define) and len(set(s.parameters)) < len(s.parameters)), None
+    )
+    if twice is not None:
+        raise InvalidInput(
+            f"equations.{label:.40}: two parameters of {twice} have one name; give each a name of its own"
+        )
     if DOWNWARDS.search(text):
         raise InvalidInput(f"equations.{label:.40}: {DOWN}")
     try:
@@ -44,13 +57,9 @@ def from_parsers(data: dict[str, Any]) -> tuple[dict[str, Any], dict[str, str]] 
         raise InvalidInput(f"equations.{label:.40}: {TOO_DEEP}") from None
 
 
-def tree_of(text: str) -> tuple[Language | None, Sequence[nodes.Statement]]:
-    """The language of a text, and its statements."""
-    for language, read in READ:
-        tree = read(text)
+def tree_of(text: str, names: Collection[str]) -> tuple[Language | None, Sequence[nodes.Statement]]:
+    """The language of a text, and its statements. ``names``: as the file spells them."""
+    for language, tree in ((R, r_tree(text)), (FORTRAN, fortran_tree(text, names)), (LUA, lua_tree(text))):
         if tree is not None:
             return language, tree
     return None, ()
-
-
-__all__ = ["from_parsers", "re"]
