@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from ..traced.expressions import Expressions
 from ..traced.library import from_items
@@ -13,7 +13,6 @@ from ..traced.values import (
     ZERO,
     Array,
     Formula,
-    Local,
     NotFollowed,
     Outside,
     Record,
@@ -40,6 +39,7 @@ class Algebra:
         self.moving: set[str] = set()
         self.integrated: list[Value] = []  # equations that are given to a solver of differential equations
         self.rates: dict[str, Formula] = {}  # what gradef(th, t, w) says
+        self.kind = "array"  # of sympy's matrices: "matrix"
         self.solved_for: list[tuple[list[Formula], list[str]]] = []
 
     # names
@@ -91,21 +91,22 @@ class Algebra:
 
     # derivatives
 
-    def entrywise(self, value: Value, of: object) -> Value:
+    def entrywise(self, value: Value, of: Callable[[Formula], Formula]) -> Value:
         """An operation on each formula of a value."""
-        assert callable(of)
         if isinstance(value, Array):
             return Array([of(e) for e in value.entries], value.shape, value.kind)
         if isinstance(value, Several):
             return from_items([self.entrywise(v, of) for v in value.items])
         if isinstance(value, Record) and is_equation(value):
             return Record({k: self.entrywise(v, of) for k, v in value.fields.items()})
-        return of(formula(value))  # type: ignore[no-any-return]
+        return of(formula(value))
 
     def by_time(self, value: Value, times: int = 1) -> Value:
         """The derivative by time."""
         for _ in range(times):
-            value = self.entrywise(value, lambda f: self.derivatives.along(f, self.rate, f"by time {len(self.moving)}"))
+            value = self.entrywise(
+                value, lambda f: self.derivatives.along(f, self.rate, f"by time {len(self.moving)} {len(self.rates)}")
+            )
         return value
 
     def diff(self, value: Value, by: Value) -> Value:
@@ -250,7 +251,7 @@ class Algebra:
         made = [self.derivatives.linear(row, marks) for row in rows]
         left = [self.names.line(e, "an equation") for coefficients, _ in made for e in coefficients]
         right = [self.names.line(negative(rest), "an equation") for _, rest in made]
-        return Array(left, (len(rows), len(marks))), Array(right, (len(rows), 1))
+        return Array(left, (len(rows), len(marks)), self.kind), Array(right, (len(rows), 1), self.kind)
 
     def solved(self, equations: Value, unknown: Value) -> Value:
         """The solution, by the names of what is solved for and in their order."""
@@ -297,7 +298,7 @@ class Algebra:
         equations = method.fields["equations"]
         rates = [self.rate(m) for m in marks_of(method.fields["coordinates"])]
         seconds = from_items([self.rate(mark_of(r) or "") for r in rates])
-        if name == "form_lagranges_equations" or name == "eom":
+        if name in ("form_lagranges_equations", "eom"):
             self.solved_for.append((entries_of(equations), marks_of(seconds)))
             return equations
         matrix, right = self.matrices(equations, seconds)
@@ -317,6 +318,3 @@ class Algebra:
 
 def _kind(value: Value) -> str:
     return value.kind if isinstance(value, Array) and value.kind == "matrix" else "array"
-
-
-__all__ = ["Algebra", "Local"]

@@ -1,3 +1,4 @@
+# ruff: noqa: E501 -- patterns and tables stand on one line
 """Functions of computer algebra: derivatives, equations and their solutions, functions made of formulas."""
 
 from __future__ import annotations
@@ -61,7 +62,7 @@ class ScriptCalls(Calls):
             "time_derivative": self.time_derivative, "dt": self.time_derivative,
         }  # fmt: skip
 
-    def call(self, node: nodes.Call, scope: Scope) -> Value:
+    def call(self, node: nodes.Call, scope: Scope) -> Value:  # noqa: PLR0911 -- one for each kind
         """What a call comes to."""
         of, path = node.of, dotted(node.of)
         name = path.split(".")[-1] if path else of.name if isinstance(of, nodes.Member) else ""
@@ -254,6 +255,13 @@ class ScriptCalls(Calls):
 
     def diff(self, given: list[Value], named: dict[str, Value]) -> Value:
         """diff(x, t), diff(x, t, 2), diff(L, q, t), diff(x, (t, 2))."""
+        mark = mark_of(given[0]) if given else None
+        if (
+            mark is not None
+            and mark.rstrip("'") in self.algebra.moving
+            and (len(given) == 1 or (isinstance(given[1], Formula) and given[1].whole is not None))
+        ):  # diff(th), diff(th, 2)
+            return self.algebra.by_time(given[0], (formula(given[1]).whole or 0) if len(given) > 1 else 1)
         if len(given) < 2:
             raise NotFollowed("a derivative by what? Say it")
         value, by = given[0], list(given[1:])
@@ -302,7 +310,9 @@ class ScriptCalls(Calls):
 
     def hessian(self, given: list[Value], named: dict[str, Value]) -> Value:
         """Second derivatives."""
-        return self.algebra.jacobian(self.algebra.gradient(given[0], given[1]), given[1])
+        made = self.algebra.jacobian(self.algebra.gradient(given[0], given[1]), given[1])
+        assert isinstance(made, Array)
+        return Array(made.entries, made.shape, self.algebra.kind)
 
     def jtimes(self, given: list[Value], named: dict[str, Value]) -> Value:
         """casadi's derivative of x by q, times v."""

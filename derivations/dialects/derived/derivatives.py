@@ -1,3 +1,4 @@
+# ruff: noqa: E501 -- patterns and tables stand on one line
 """Derivatives of formulas that a program has made: by a quantity, by time; and formulas put in for quantities."""
 
 from __future__ import annotations
@@ -92,7 +93,9 @@ class Derivatives:
             found = self.trees[text] = tree, tuple(marks)
         return found
 
-    def _both(self, node: ast.expr, marks: tuple[str, ...], rate: Rate, kind: str) -> tuple[Formula, Formula]:
+    def _both(  # noqa: PLR0911 -- one for each kind
+        self, node: ast.expr, marks: tuple[str, ...], rate: Rate, kind: str
+    ) -> tuple[Formula, Formula]:
         """A part of a formula, and its derivative."""
         match node:
             case ast.Constant():
@@ -127,7 +130,9 @@ class Derivatives:
             self.kept[key] = self.names.line(made, self.names.said.get(name, ""))
         return self.kept[key]
 
-    def _put(self, node: ast.expr, marks: tuple[str, ...], new: Mapping[str, Formula], kind: str) -> Formula:
+    def _put(  # noqa: PLR0911 -- one for each kind
+        self, node: ast.expr, marks: tuple[str, ...], new: Mapping[str, Formula], kind: str
+    ) -> Formula:
         match node:
             case ast.Constant():
                 return _constant(node)

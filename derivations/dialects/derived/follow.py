@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from contextlib import suppress
 
 from ..traced import nodes
 from ..traced.expressions import COMPARED, Expressions
@@ -156,7 +157,7 @@ class ScriptFollower(Follower):
         self.expressions = ScriptExpressions(self.names, matlab=matlab, calls=self._call, free=self._free)
         self.expressions.algebra = self.algebra
         self.algebra.expressions = self.expressions
-        self.calls = ScriptCalls(self.expressions, self.functions, self.followed, self.algebra)
+        self.calls: ScriptCalls = ScriptCalls(self.expressions, self.functions, self.followed, self.algebra)
         self.shown: list[Value] = []  # what stands alone: equations
 
     def followed(self, local: Local, given: list[Value], named: dict[str, Value]) -> Value:
@@ -195,16 +196,12 @@ class ScriptFollower(Follower):
             self._declare(value, scope)
             return
         if isinstance(value, nodes.Binary) and value.sign in COMPARED:
-            try:
+            with suppress(NotFollowed):
                 self.shown.append(self.expressions.value(value, scope))
-            except NotFollowed:
-                pass
             return
         if name in EVALUATED:
-            try:
+            with suppress(NotFollowed):
                 self.expressions.value(value, scope)
-            except NotFollowed:
-                pass
             return
         super()._alone(value, line, scope)
 

@@ -1,3 +1,4 @@
+# ruff: noqa: E501 -- patterns and tables stand on one line
 """Mathematica's text as a tree. Nothing is run."""
 
 from __future__ import annotations
@@ -331,7 +332,7 @@ def from_one(place: nodes.Node) -> nodes.Node:
     return nodes.Binary("-", place, nodes.Number("1"))
 
 
-def combined(sign: str, left: nodes.Node, right: nodes.Node) -> nodes.Node:
+def combined(sign: str, left: nodes.Node, right: nodes.Node) -> nodes.Node:  # noqa: PLR0911 -- one for each sign
     """Two parts with a sign between them."""
     match sign:
         case "/.":
@@ -349,7 +350,7 @@ def combined(sign: str, left: nodes.Node, right: nodes.Node) -> nodes.Node:
     return nodes.Binary(sign, left, right)
 
 
-def called(of: nodes.Node, arguments: tuple[nodes.Node, ...]) -> nodes.Node:
+def called(of: nodes.Node, arguments: tuple[nodes.Node, ...]) -> nodes.Node:  # noqa: PLR0911 -- one for each function
     """A call; sums and tables over numbers as lists."""
     name = of.name if isinstance(of, nodes.Word) else ""
     match name, arguments:

@@ -281,7 +281,7 @@ def counted(first: nodes.Node, last: nodes.Node) -> nodes.Node:
     return nodes.Call(nodes.Word("range"), (first, nodes.Binary("+", last, nodes.Number("1"))))
 
 
-def called(of: nodes.Node, arguments: tuple[nodes.Node, ...]) -> nodes.Node:
+def called(of: nodes.Node, arguments: tuple[nodes.Node, ...]) -> nodes.Node:  # noqa: PLR0911 -- one for each function
     """A call; those whose arguments stand in another order here than elsewhere as elsewhere."""
     name = of.name if isinstance(of, nodes.Word) else ""
     match name, arguments:

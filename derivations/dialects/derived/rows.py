@@ -15,10 +15,10 @@ from ..traced.known import Known, known
 from ..traced.library import modules_of
 from ..traced.matlab import matlab_tree
 from ..traced.meaning import Meaning
-from ..traced.names import MARK, Scope
+from ..traced.names import Scope
 from ..traced.python import python_tree
-from ..traced.rows import LONGEST_TEXT, TOO_DEEP, Reader, needed, prefix_for, shortened
-from ..traced.values import Array, Broken, Doubtful, Formula, Local, NotFollowed, Outside, Several, Value, formula
+from ..traced.rows import LONGEST_TEXT, TOO_DEEP, Reader, prefix_for, shortened
+from ..traced.values import Broken, Formula, Local, NotFollowed, Outside, Value, formula
 from .follow import ScriptFollower
 from .mathematica import mathematica_tree, plain_letters
 from .maxima import maxima_tree
@@ -29,13 +29,19 @@ DERIVES = re.compile(
     r"|linear_eq_to_matrix|equationsToMatrix|jtimes|depends)\s*\(|\.sym\s*\(|\bFunction\s*\(|\bD\[|\bSolve\["
 )
 LAGRANGIAN = re.compile(r"(?:L|Lag|Lagr|LL|Lg|lag|lagrangian|Lagrangian|LAGRANGIAN|lagrange|L_total|Lagrange)")
+_OF = r"(?:_?(?:[0-9xyqs]|th(?:eta)?_?[0-9]?|phi_?[0-9]?|alpha|beta|eqs?\w*))?"
 EQUATION = re.compile(
-    r"(?i)(?:eq\w*|e_?l\w*|lm?\w?eq\w*|lagr\w*|le_?\w?|eom\w*|ode\w*|euler\w*|motion\w*|de\w?|system|sys|gl\w*)"
+    rf"(?i)eq\w*|e_?l{_OF}|l[em]{_OF}|lagr(?:ange)?{_OF}|euler\w*|eom\w*|odes?\w*|de_?[0-9]?|sys(?:tem)?|gl_?[0-9]?"
 )
+ONE_SIDE = re.compile(r"(?i)lhs|rhs|left|right|side")
 INTEGRATED = re.compile(
     r"\b(?:odeint|solve_ivp|ode45|ode23|ode113|ode15s|RK45|solve_bvp|rk4|runge_kutta\w*|lsode)\s*\(\s*@?(?P<name>\w+)"
 )
 GIVE = "give the equations of motion alone, or the Lagrangian as L = T - V"
+
+
+class NoEquations(NotFollowed):
+    """A script that has none that are known as such: another reader may know better."""
 
 
 def from_scripts(data: dict[str, Any]) -> tuple[dict[str, Any], dict[str, str]] | None:
@@ -63,6 +69,8 @@ def from_scripts(data: dict[str, Any]) -> tuple[dict[str, Any], dict[str, str]] 
             )
         try:
             return ScriptReader(data, found, tree, matlab=matlab, text=text).read_field(field)
+        except NoEquations:
+            continue
         except NotFollowed as error:
             refused.append(str(error))
         except RecursionError:
@@ -113,6 +121,7 @@ class ScriptReader(Reader):
         self.follower = ScriptFollower(found, tree, matlab=matlab, prefix=prefix_for(text))
         self.follower.expressions.modules = modules_of(text)
         self.text = text
+        self.follower.algebra.kind = "matrix" if re.search(r"\bsympy\b|\bMatrix\s*\(", text) else "array"
         self.follower.calls.brackets = "[" if mathematica_tree(text) is not None else "("
 
     def read_field(self, field: str) -> tuple[dict[str, Any], dict[str, str]]:
@@ -135,16 +144,21 @@ class ScriptReader(Reader):
         if found is None and integrated & functions:
             raise NotFollowed(self.refused[-1] if self.refused else GIVE)
         found = found or self._alone(self._of_text) or self._of_script()
+        if found is None and self.refused:
+            raise NotFollowed(self.refused[-1])
         if found is None:
-            raise NotFollowed(
-                self.refused[-1] if self.refused else f"no equations of motion are found in this script; {GIVE}"
-            )
+            raise NoEquations("no equations of motion are found in this script")
         return found
 
     def _of_functions_alone(self) -> tuple[Rows, Meaning] | None:
         return self._of_functions()
 
     # equations
+
+    def _by_names(self, scope: Scope, parameters: Sequence[str] = ()) -> tuple[Rows, Meaning] | None:
+        """Accelerations by their names, where these are more than names for second derivatives."""
+        made = super()._by_names(scope, parameters)
+        return None if made is not None and any(re.fullmatch(r"\(?\w+'+\)?", right) for _, right in made[0]) else made
 
     def _of_script(self) -> tuple[Rows, Meaning] | None:
         """The equations that are solved, or that have such names."""
@@ -157,7 +171,11 @@ class ScriptReader(Reader):
         for zeros, marks in reversed(algebra.solved_for):
             if len(zeros) == self.count == len(marks) and all(self._order_of(m) == 2 for m in marks):
                 return self._zeros(zeros)
-        named = [(name, v) for name, v in self.follower.top.names.items() if EQUATION.fullmatch(name)]
+        named = [
+            (name, v)
+            for name, v in self.follower.top.names.items()
+            if EQUATION.fullmatch(name) and (is_equation(v) or not ONE_SIDE.search(name))
+        ]
         for value in (*self.follower.shown, *(v for name, v in named)):
             zeros = self._equations_of(value)
             if len(zeros) == self.count:
@@ -210,12 +228,12 @@ class ScriptReader(Reader):
 
     def _lagrangian(self) -> tuple[dict[str, Any], dict[str, str]]:
         """The value of the name, or of the function, that is the Lagrangian."""
-        scope, value, name = self._lagrangians_value()
+        scope, value = self._lagrangians_value()
         if isinstance(value, Broken):
             raise NotFollowed(value.why)
         whole = formula(value)
         meaning = self._meaning((), [whole], scope)
-        rows, meaning = [(whole.text, "0")], meaning
+        rows = [(whole.text, "0")]
         meaning.by_names(self._paths([whole]))
         text = self._said(whole.text, meaning)
         fields, lines = self._fields(rows, meaning)
@@ -225,23 +243,33 @@ class ScriptReader(Reader):
         kept = {k: v for k, v in fields["define"].items() if k not in lines}
         return fields | {"lagrangian": text, "define": {**kept, **made}}, lines
 
-    def _lagrangians_value(self) -> tuple[Scope, Value, str]:
+    def _moves(self, value: Value) -> bool:
+        """Whether a value may be a Lagrangian: it has rates, and is no length that is called L."""
+        if isinstance(value, Local | Outside):
+            return False
+        if isinstance(value, Broken):
+            return True
+        try:
+            return any(
+                self._order_of(m) == 1 for e in entries_of(value) for m in self.follower.algebra.derivatives.marks_in(e)
+            )
+        except NotFollowed:
+            return False
+
+    def _lagrangians_value(self) -> tuple[Scope, Value]:
         top = self.follower.top
-        named = [n for n, v in top.names.items() if LAGRANGIAN.fullmatch(n) and not isinstance(v, Local)]
+        named = [n for n, v in top.names.items() if LAGRANGIAN.fullmatch(n) and self._moves(v)]
         if named:
-            return top, _number(top.names[named[-1]]), named[-1]
+            return top, _number(top.names[named[-1]])
         functions = [n for n in self.follower.functions if LAGRANGIAN.fullmatch(n)]
         if len(functions) == 1:
             scope, value, _ = self.follower.of_function(self.follower.functions[functions[0]])
             if value is None:
                 raise NotFollowed(f"{functions[0]} gives nothing back")
-            return scope, _number(value), functions[0]
+            return scope, _number(value)
         raise NotFollowed("which name is the Lagrangian? Write it as L = T - V")
 
 
 def _number(value: Value) -> Value:
     """A matrix of one entry, which has a Lagrangian in it."""
     return value if isinstance(value, Broken) else entries_of(value)[0] if len(entries_of(value)) == 1 else value
-
-
-__all__ = ["MARK", "Array", "Doubtful", "Several", "from_scripts", "needed"]

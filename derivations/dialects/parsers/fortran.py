@@ -7,7 +7,7 @@ from collections.abc import Collection
 
 from ..grammars.languages.language import Language
 from ..traced import nodes
-from .fortran_expressions import FortranExpressions, is_whole
+from .fortran_expressions import FortranExpressions
 from .fortran_lines import lines_of, one_spelling
 from .parser import NoProgram, counted
 
@@ -107,7 +107,7 @@ class _Fortran:
                 made += self.statement()
         return made
 
-    def statement(self) -> list[nodes.Statement]:  # noqa: PLR0911, PLR0912 -- one for each kind
+    def statement(self) -> list[nodes.Statement]:  # noqa: PLR0911 -- one for each kind
         line = self.lines[self.at]
         self.at += 1
         if re.match(r"(?i)return$", line):
@@ -250,6 +250,3 @@ def changed_in(body: list[nodes.Statement]) -> tuple[str, ...]:
             case nodes.Do(value=nodes.Call(arguments=arguments)):
                 found += [a.name for a in arguments if isinstance(a, nodes.Word)]
     return tuple(dict.fromkeys(found))
-
-
-__all__ = ["fortran_tree", "is_whole"]

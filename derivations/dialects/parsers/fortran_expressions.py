@@ -1,8 +1,10 @@
+# ruff: noqa: E501 -- patterns and tables stand on one line
 """Fortran's expressions as a tree: entries and functions, whole numbers, arrays by columns."""
 
 from __future__ import annotations
 
 import re
+from typing import ClassVar
 
 from ..traced import nodes
 from .parser import NoProgram, Parser, from_one, tokens_of
@@ -79,12 +81,12 @@ class FortranExpressions:
 
 
 class _Expression(Parser):
-    binds = {
+    binds: ClassVar = {
         ".or.": 1, ".and.": 2, "==": 4, "/=": 4, "<": 4, ">": 4, "<=": 4, ">=": 4, ".eq.": 4, ".ne.": 4, ".lt.": 4,
         ".le.": 4, ".gt.": 4, ".ge.": 4, "//": 5, "+": 6, "-": 6, "*": 7, "/": 7, "**": 9,
     }  # fmt: skip
     right = frozenset(("**",))
-    unary = {"-": 7, "+": 7, ".not.": 3}
+    unary: ClassVar = {"-": 7, "+": 7, ".not.": 3}
 
     def __init__(self, text: str, around: FortranExpressions, *, of_any: bool = False) -> None:
         lowered = re.sub(r"\.[A-Za-z]{2,5}\.", lambda m: m[0].lower(), text)
@@ -94,7 +96,7 @@ class _Expression(Parser):
     def combined(self, sign: str, left: nodes.Node, right: nodes.Node) -> nodes.Node:
         """Two parts with a sign between them; 1/2 is 0."""
         if sign == "/" and is_whole(left, self.around.whole) and is_whole(right, self.around.whole):
-            return nodes.Binary("//", left, right)
+            return nodes.Binary("div", left, right)
         if sign == "//":
             return nodes.Strange("//")
         return nodes.Binary({"**": "^", **COMPARED}.get(sign, sign), left, right)
@@ -191,7 +193,7 @@ def is_whole(node: nodes.Node, names: frozenset[str]) -> bool:
             return name in names
         case nodes.Unary(of=of):
             return is_whole(of, names)
-        case nodes.Binary(sign="+" | "-" | "*" | "//" | "^", left=left, right=right):
+        case nodes.Binary(sign="+" | "-" | "*" | "div" | "^", left=left, right=right):
             return is_whole(left, names) and is_whole(right, names)
     return False
 

@@ -1,3 +1,4 @@
+# ruff: noqa: E501 -- patterns and tables stand on one line
 """Fortran's statements, in free and in fixed form: without remarks, continued lines as one."""
 
 from __future__ import annotations

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import ClassVar
 
 from ..grammars.languages.language import Language
 from ..traced import nodes
@@ -34,18 +35,18 @@ def lua_tree(text: str) -> tuple[nodes.Statement, ...] | None:
     try:
         parser = _Lua(bare, tokens_of(bare, TOKEN))
         made = parser.body()
-        return made if parser.token.kind == "end" else None
     except (NoProgram, RecursionError):
         return None
+    return made if parser.token.kind == "end" else None
 
 
 class _Lua(Parser):
-    binds = {
+    binds: ClassVar = {
         "or": 1, "and": 2, "<": 3, ">": 3, "<=": 3, ">=": 3, "~=": 3, "==": 3, "..": 4, "+": 5, "-": 5, "*": 6, "/": 6,
         "^": 8,
     }  # fmt: skip
     right = frozenset(("^", ".."))
-    unary = {"-": 7, "not": 7, "#": 7}
+    unary: ClassVar = {"-": 7, "not": 7, "#": 7}
 
     def body(self) -> tuple[nodes.Statement, ...]:
         """Statements up to what ends their block."""
@@ -223,7 +224,7 @@ class _Lua(Parser):
                 raise NoProgram
         return tuple(made)
 
-    def primary(self) -> nodes.Node:
+    def primary(self) -> nodes.Node:  # noqa: PLR0911 -- one for each kind
         token = self.next()
         if token.kind == "number":
             return nodes.Number(token.text)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import ClassVar
 
 from ..traced import nodes
 
@@ -50,9 +51,9 @@ def tokens_of(text: str, pattern: re.Pattern[str], is_blank: Callable[[str, int]
 class Parser:
     """``binds``: how strongly each sign between two parts binds; ``right``: those that bind to the right."""
 
-    binds: Mapping[str, int] = {}
+    binds: ClassVar[Mapping[str, int]] = {}
     right: frozenset[str] = frozenset()
-    unary: Mapping[str, int] = {}  # signs in front, and how strongly what stands behind is bound
+    unary: ClassVar[Mapping[str, int]] = {}  # signs in front, and how strongly what stands behind is bound
 
     def __init__(self, source: str, tokens: list[Token]) -> None:
         self.source, self.tokens = source, tokens

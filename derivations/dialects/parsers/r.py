@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from typing import ClassVar
 
 from ..grammars.languages.language import Language
 from ..traced import nodes
@@ -40,12 +41,12 @@ def r_tree(text: str) -> tuple[nodes.Statement, ...] | None:
 
 
 class _R(Parser):
-    binds = {
+    binds: ClassVar = {
         "~": 1, "||": 2, "|": 2, "&&": 3, "&": 3, "==": 5, "!=": 5, "<": 5, ">": 5, "<=": 5, ">=": 5, "+": 6, "-": 6,
         "*": 7, "/": 7, "%*%": 8, "%o%": 8, "%%": 8, "%/%": 8, ":": 9, "^": 11, "**": 11,
     }  # fmt: skip
     right = frozenset(("^", "**"))
-    unary = {"-": 10, "+": 10, "!": 4}
+    unary: ClassVar = {"-": 10, "+": 10, "!": 4}
 
     def past_line_ends(self) -> None:
         while self.is_sign("\n"):
@@ -99,7 +100,7 @@ class _R(Parser):
             if self.is_word("function"):
                 return [self.function(nodes.dotted(target) or "")]
             value = self.value_of_assignment()
-            return [nodes.Assign(self.target(target), value, self.line(start), outer=outer)]
+            return [nodes.Assign(target, value, self.line(start), outer=outer)]
         if self.took("->"):
             return [nodes.Assign(self.expression(), target, self.line(start))]
         return [nodes.Do(target, self.line(start))]
@@ -110,16 +111,13 @@ class _R(Parser):
             raise NotFollowed("two assignments in one; give each a line of its own")
         return value
 
-    @staticmethod
-    def target(node: nodes.Node) -> nodes.Node:
-        return node
-
     def within(self) -> list[nodes.Statement]:
         """with(as.list(c(state, parms)), {…}): the names are those of the file."""
         self.at += 2
         self.expression()
         self.expect(",")
         self.past_line_ends()
+        made: list[nodes.Statement]
         if self.took("{"):
             made = self.block_to("}")
         else:
@@ -134,13 +132,7 @@ class _R(Parser):
         self.expect("function")
         parameters = [n if n else nodes.dotted(v) or "" for n, v in self.parameters()]
         self.past_line_ends()
-        start = self.at
-        body: list[nodes.Statement]
-        if self.took("{"):
-            body = self.block_to("}")
-        else:
-            body = self.statement()
-        del start
+        body = self.block_to("}") if self.took("{") else self.statement()
         return nodes.Define(name, tuple(p for p in parameters if p), (), tuple(given_back(body)))
 
     def parameters(self) -> list[tuple[str, nodes.Node]]:
@@ -265,7 +257,7 @@ class _R(Parser):
                 raise NoProgram
         return made
 
-    def primary(self) -> nodes.Node:
+    def primary(self) -> nodes.Node:  # noqa: PLR0911 -- one for each kind
         if self.is_word("function"):
             made = self.function("")
             match made.body:
@@ -312,9 +304,11 @@ def given_back(body: Sequence[nodes.Statement]) -> list[nodes.Statement]:
     return list(body)
 
 
-def called(of: nodes.Node, given: list[tuple[str, nodes.Node]]) -> nodes.Node:
+def called(  # noqa: PLR0911 -- one for each function
+    of: nodes.Node, given: list[tuple[str, nodes.Node]]
+) -> nodes.Node:
     """A call; vectors, lists and matrices as such."""
-    name = {"matrix": "matrix"}.get(nodes.dotted(of) or "", nodes.dotted(of) or "").replace("_", ".")
+    name = (nodes.dotted(of) or "").replace("_", ".")
     values = tuple(value for _, value in given)
     match name:
         case "c":

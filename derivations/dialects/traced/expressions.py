@@ -46,7 +46,7 @@ class Expressions:
         self.names, self.matlab, self.calls, self.free = names, matlab, calls, free
         self.size = 2 * len(names.known.coordinates)
         self.members: dict[str, Value] = {}
-        self.modules = MODULES
+        self.modules: frozenset[str] = MODULES
         self.entered: set[tuple[str | int, ...]] = set()  # whose entries are read
 
     def value(self, node: nodes.Node, scope: Scope) -> Value:  # noqa: PLR0911, PLR0912 -- one for each kind

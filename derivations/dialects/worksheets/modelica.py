@@ -47,5 +47,5 @@ def from_modelica(text: str) -> tuple[list[str], Definitions] | None:
     if len(rows) > MOST_ROWS or not all(row.count("=") == 1 for row in rows):
         raise InvalidInput(f"a Modelica model with up to {MOST_ROWS} equations, one equals sign each, is read")
     used = " ".join([*rows, *fixed.values()])
-    return rows, {name: value for name, value in fixed.items() if not NUMBER.fullmatch(value) and not OF_LIBRARY.match(value)
-                  and re.search(rf"(?<!\w){name}(?!\w)", used)}  # fmt: skip
+    said = {n: v for n, v in fixed.items() if not NUMBER.fullmatch(v) and not OF_LIBRARY.match(v)}
+    return rows, {n: v for n, v in said.items() if re.search(rf"(?<!\w){n}(?!\w)", used)}
