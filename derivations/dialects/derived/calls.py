@@ -335,6 +335,8 @@ class ScriptCalls(Calls):
             return given[0].fields["rhs"]
         if isinstance(given[0], Record) and "lagrangian" in given[0].fields:
             return self.algebra.of_method(given[0], "rhs")
+        if isinstance(given[0], Record) and "solution" in given[0].fields and len(given[0].fields) == 2:
+            return given[0].fields["solution"]
         raise NotFollowed("the right side of something that is no equation")
 
     def left(self, given: list[Value], named: dict[str, Value]) -> Value:

@@ -99,7 +99,9 @@ class ScriptExpressions(Expressions):
             if mark is not None and f"«{mark}»" in of.fields:
                 return of.fields[f"«{mark}»"]
             if isinstance(places[0], Formula) and places[0].whole == first:
-                return of  # the first of all solutions, which is the only one
+                alone = super().parts(of.fields["solution"]) or [of.fields["solution"]]
+                is_value = self.algebra.kind == "matrix" and len(alone) == 1
+                return alone[0] if is_value else of  # the first of all solutions, which is the only one
         if isinstance(of, Local) and isinstance(of.of, Made):
             raise NotFollowed("an entry of a function; call it")
         return super().entry(of, places, first)

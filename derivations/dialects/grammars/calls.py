@@ -122,11 +122,6 @@ class GrammarCalls(Calls):
             if after is None or after is before:
                 continue
             place = argument.of if isinstance(argument, nodes.Unary) and argument.sign == "&" else argument
-            if self.expressions.language.fills and isinstance(before, Array) and isinstance(after, Array):
-                if len(before.entries) != len(after.entries):
-                    raise NotFollowed(f"{name}: an array is filled with one of another length")
-                before.entries[:] = after.entries
-                continue
             is_filled = isinstance(after, Array) and after.is_state and isinstance(before, Outside)
             if is_filled or (name in shared and not isinstance(before, Array)):
                 if isinstance(place, nodes.Word):

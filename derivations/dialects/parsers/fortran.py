@@ -9,7 +9,7 @@ from ..grammars.languages.language import Language
 from ..traced import nodes
 from .fortran_expressions import FortranExpressions
 from .fortran_lines import lines_of, one_spelling
-from .parser import NoProgram, counted
+from .parser import NoProgram, changed_in, counted
 
 CUE = re.compile(r"(?im)^\s*(?:\w[\w()=*, ]*\s)?(?:subroutine\s+\w+|function\s+\w+\s*\()")
 MARKS = re.compile(
@@ -230,23 +230,3 @@ class _Fortran:
             depth -= bool(END.match(here))
             self.at += 1
         return nodes.Unfollowed(line[:60], tuple(dict.fromkeys(names)))
-
-
-def changed_in(body: list[nodes.Statement]) -> tuple[str, ...]:
-    """What statements may change; "return" and "continue" where they may leave a function or a loop."""
-    found: list[str] = []
-    for one in body:
-        match one:
-            case nodes.Assign(target=target):
-                found += nodes.set_by(target)
-            case nodes.Choice(names=names) | nodes.Unfollowed(names=names):
-                found += names
-            case nodes.Repeat(body=inner):
-                found += changed_in(list(inner))
-            case nodes.Return():
-                found.append("return")
-            case nodes.Leave():
-                found.append("continue")
-            case nodes.Do(value=nodes.Call(arguments=arguments)):
-                found += [a.name for a in arguments if isinstance(a, nodes.Word)]
-    return tuple(dict.fromkeys(found))

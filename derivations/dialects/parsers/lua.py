@@ -7,7 +7,7 @@ from typing import ClassVar
 
 from ..grammars.languages.language import Language
 from ..traced import nodes
-from .parser import NoProgram, Parser, counted, from_one, tokens_of
+from .parser import NoProgram, Parser, changed_in, counted, from_one, tokens_of
 
 CUE = re.compile(r"(?m)^\s*(?:local\s+)?(?:[\w.:]+\s*=\s*)?function\b")
 WORD = re.compile(r"\blocal\s|\bmath\.(?:sin|cos|pow)|\bthen\b|--")
@@ -166,12 +166,7 @@ class _Lua(Parser):
             self.expect("end")
         else:
             self.expect("end")
-        return nodes.Choice(test, body, otherwise, self.line(start), self.changed(start))
-
-    def changed(self, start: int) -> tuple[str, ...]:
-        """What a part may change; "continue" where it may leave a loop."""
-        names = self.words(start)
-        return (*names, "continue") if {"break", "goto"} & set(names) else names
+        return nodes.Choice(test, body, otherwise, self.line(start), changed_in([*body, *otherwise]))
 
     def unfollowed(self, start: int) -> nodes.Statement:
         """A loop whose turns are not counted: past its end."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -141,3 +141,23 @@ def from_one(place: nodes.Node) -> nodes.Node:
 def counted(first: nodes.Node, last: nodes.Node) -> nodes.Node:
     """first, …, last"""
     return nodes.Call(nodes.Word("range"), (first, nodes.Binary("+", last, nodes.Number("1"))))
+
+
+def changed_in(body: Iterable[nodes.Statement]) -> tuple[str, ...]:
+    """What statements may change; "return" and "continue" where they may leave a function or a loop."""
+    found: list[str] = []
+    for one in body:
+        match one:
+            case nodes.Assign(target=target):
+                found += nodes.set_by(target)
+            case nodes.Choice(names=names) | nodes.Unfollowed(names=names):
+                found += names
+            case nodes.Repeat(body=inner):
+                found += changed_in(inner)
+            case nodes.Return():
+                found.append("return")
+            case nodes.Leave():
+                found.append("continue")
+            case nodes.Do(value=nodes.Call(arguments=arguments)):
+                found += [a.name for a in arguments if isinstance(a, nodes.Word)]
+    return tuple(dict.fromkeys(found))

@@ -9,7 +9,7 @@ from typing import ClassVar
 from ..grammars.languages.language import Language
 from ..traced import nodes
 from ..traced.values import NotFollowed
-from .parser import NoProgram, Parser, Token, counted, from_one, tokens_of
+from .parser import NoProgram, Parser, Token, changed_in, counted, from_one, tokens_of
 
 CUE = re.compile(r"(?:<-|=)\s*function\s*\(|^\s*function\s*\(", re.MULTILINE)
 ARROW = re.compile(r"<-|\blist\s*\(|\bc\s*\(")
@@ -156,7 +156,7 @@ class _R(Parser):
             otherwise = self.statement()
         else:
             self.at = behind
-        return nodes.Choice(test, tuple(body), tuple(otherwise), self.line(start), self.words(start))
+        return nodes.Choice(test, tuple(body), tuple(otherwise), self.line(start), changed_in([*body, *otherwise]))
 
     def loop(self) -> nodes.Statement:
         """for (k in 1:n) {…}"""

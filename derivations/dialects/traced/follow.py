@@ -11,7 +11,7 @@ from .expressions import Expressions, chosen_of
 from .known import Known
 from .library import empty as library_empty
 from .library import filling, from_items, reach
-from .names import Names, Scope
+from .names import Names, Scope, require_followed
 from .nodes import dotted, set_by
 from .values import Array, Broken, Formula, Local, NotFollowed, Outside, Several, Value, copied, outside_of
 
@@ -133,6 +133,7 @@ class Follower:
                 return self.expressions.value(local.of.value, scope)
             assert isinstance(local.of, nodes.Define)
             found = self._body(local.of.body, scope)
+            require_followed(local.parameters, given, scope)
             if isinstance(scope.names.get(GIVEN_BACK), Broken):
                 self.expressions.word(GIVEN_BACK, scope)  # refused: what is given back, a condition decides
             if found is not None and found.value is not None:
