@@ -150,7 +150,11 @@ class ScriptCalls(Calls):
 
     def is_time(self, node: nodes.Node, scope: Scope) -> bool:
         """Whether an argument is the time."""
-        found = scope.find(node.name) if isinstance(node, nodes.Word) else None
+        if isinstance(node, nodes.Member):
+            path = dotted(node)
+            found = self.expressions.members.get(path) if path else None
+        else:
+            found = scope.find(node.name) if isinstance(node, nodes.Word) else None
         name = node.name if isinstance(node, nodes.Word) and found is None else ""
         return name in TIMES or (isinstance(found, Outside) and found.path[-1] in TIMES)
 
@@ -212,7 +216,10 @@ class ScriptCalls(Calls):
         first = given[0] if given else None
         if not isinstance(first, Words):
             raise NotFollowed("symbols without names in quotes")
-        order = (formula(given[1]).whole or 0) if len(given) > 1 else 0
+        level = given[1] if len(given) > 1 else named.get("level")
+        order = formula(level).whole if level is not None else 0
+        if order is None:
+            raise NotFollowed("dynamicsymbols of which order? Write the number")
         made: list[Value] = []
         for name in self.algebra.names_in(first.text):
             value: Value = self.algebra.moves(Outside((name,)))

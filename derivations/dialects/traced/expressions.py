@@ -6,7 +6,7 @@ from collections.abc import Callable
 from operator import eq, ge, gt, le, lt, ne
 
 from . import nodes
-from .arrays import entrywise, product, spread, turned
+from .arrays import entrywise, product, turned
 from .known import GRAVITY
 from .library import MODULES, as_array, from_items, reach, stacked
 from .names import Names, Scope
@@ -20,6 +20,7 @@ from .values import (
     NotFollowed,
     Outside,
     Reach,
+    Record,
     Several,
     Value,
     Words,
@@ -91,8 +92,15 @@ class Expressions:
                 return self.each(node, scope)
             case nodes.Dots():
                 return Reach(None, None)
+            case nodes.Pairs(keys=keys, values=values) if all(isinstance(k, nodes.Text) for k in keys):
+                return self.record_of({k.text: self.value(v, scope) for k, v in zip(keys, values, strict=True)
+                                       if isinstance(k, nodes.Text)})  # fmt: skip
         text = node.text if isinstance(node, nodes.Strange | nodes.Pairs) else ""
         raise NotFollowed(f"{text[:40]!r}: this expression is not followed; write out what it comes to")
+
+    def record_of(self, values: dict[str, Value]) -> Record:
+        """{'m1': 1.0}: a quantity by its name, whatever its number; of another name the number is not taken."""
+        return Record({name: self.names.kept(name, value, f"'{name}': …") for name, value in values.items()})
 
     def holds(self, test: nodes.Node, scope: Scope) -> bool:
         """Whether a test of whole numbers holds. Raises NotFollowed where it is one of anything else."""
@@ -275,6 +283,11 @@ class Expressions:
             raise NotFollowed(of.why)
         if isinstance(of, Outside):
             return self.outside(of, places, first)
+        if isinstance(of, Record) and len(places) == 1 and isinstance(places[0], Words):
+            found = of.fields.get(places[0].text)
+            if found is None or isinstance(found, Formula):
+                raise NotFollowed(f"{places[0].text}: give it the name that a body has for it")
+            return found
         if isinstance(of, Several):
             if len(places) == 1 and isinstance(places[0], Reach):
                 return Several(of.items[places[0].first : places[0].last])
@@ -288,17 +301,6 @@ class Expressions:
                 return of.entries[chosen[0]]
             return Array([of.entries[k] for k in chosen], shape, of.kind)
         raise NotFollowed("an entry of something that is no list")
-
-    def spread(self, value: Value, axes: list[Value]) -> Array:
-        """np.expand_dims(x, 1); x from outside has as many entries as [define] says."""
-        if isinstance(value, Outside):
-            said = [k for k in range(LONGEST_STATE) if f"{value.path[-1]}[{k}]" in self.names.known.defined]
-            if not said or said != list(range(len(said))):
-                raise NotFollowed(f"{value.path[-1]}: how many entries it has is not said; write them out")
-            value = Array([Formula(Outside((*value.path, k)).mark) for k in said], (len(said),))
-        if not isinstance(value, Array) or len(axes) != 1:
-            raise NotFollowed("an axis more of something that is no vector; write out its entries")
-        return spread(value, formula(axes[0]).whole or 0)
 
     def outside(self, of: Outside, places: list[Value], first: int) -> Value:
         """An entry of the state or of parameters."""

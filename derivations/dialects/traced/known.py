@@ -87,7 +87,10 @@ class Known:
         """The coordinate whose rate (order 1) or acceleration (order 2) is called so, by what stands in the name."""
         said = re.fullmatch(r"\(?\s*(?P<of>[^'()\s]+)(?P<primes>'+)\s*\)?", self.defined.get(name, name))
         if said:
-            return self.coordinate(said["of"].replace("\\", "")) if len(said["primes"]) == order else None
+            of, primes = said["of"].replace("\\", ""), len(said["primes"])
+            if self.coordinate(of) is None and primes < order == 2:  # the rate of what is called a rate
+                return self.of_rate(of, 1)
+            return self.coordinate(of) if primes == order else None
         found = {k for k in range(len(self.coordinates)) if _is_derivative(name, self, k, order)}
         return found.pop() if len(found) == 1 else None
 

@@ -108,6 +108,15 @@ def as_array(value: Value, kind: str = "array") -> Value:
     return value
 
 
+def by_sizes(given: Sequence[Value], kind: str) -> Array:
+    """sympy's Matrix(2, 1, [a, b])."""
+    height, width = (v.whole if isinstance(v, Formula) else None for v in given[:2])
+    entries = as_array(given[2])
+    if not height or not width or not isinstance(entries, Array) or len(entries.entries) != height * width:
+        raise NotFollowed("a matrix of this size; write out its rows")
+    return Array(list(entries.entries), (height, width), kind)
+
+
 def columns(value: Value) -> Value:
     """sympy's Matrix of a list is a column."""
     if isinstance(value, Array) and value.shape[0] == 1 and len(value.shape) == 2 and len(value.entries) > 1:

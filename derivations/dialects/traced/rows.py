@@ -226,6 +226,8 @@ class Reader(Forms):
                     return matrix
         if isinstance(value, Broken):
             raise Doubtful(value.why)
+        if isinstance(value, Local) and isinstance(value.of, nodes.Define) and value.of is not define:
+            return self._function(value)  # a function that makes the one that is meant
         found = None if value is None else self._try(lambda: self._from_value(value, scope, define.parameters, names))
         if found is not None:
             return found

@@ -99,7 +99,15 @@ FORTRAN = (
     "subroutine force(y, a)\n real(8) y(2), a(2)\n integer i\n a = 0\n do i = 1, 1\n  a(i) = a(i) - g/l*sin(y(i))\n end do\nend subroutine"
 )
 Y1, Y0 = "'y(1)' = 'theta'", "'y[0]' = 'theta'"
+MADE = "def make(m, l, g=9.81):\n    def sine(x):\n        return np.sin(x)\n    def rhs(t, y):\n        theta, w = y\n        return w, -g/l*sine(theta)\n    return rhs"
+PARAMETERS = "p = {'m': 1.0, 'l': 0.5, 'g': 9.81}\ndef rhs(t, y):\n    theta, w = y\n    m, l, g = p['m'], p['l'], p['g']\n    return [w, -g/l*np.sin(theta)]"
 CASES = {
+    "a function that makes one": ("correct", MADE, "", ""),
+    "a function that makes one, cosine": ("wrong", MADE.replace("np.sin", "np.cos"), "", ""),
+    "parameters by their names": ("correct", PARAMETERS, "", ""),
+    "parameters by their names, another": ("wrong", PARAMETERS.replace("-g/l", "-g/m"), "", ""),
+    "a parameter of another name": ("refuse", PARAMETERS.replace("'l'", "'rod'"), "", ""),
+    "a parameter under another's name": ("refuse", PARAMETERS.replace("= p['m'], p['l']", "= p['l'], p['m']"), "", ""),
     "lua": ("correct", LUA, "", ""),
     "lua, a sign": ("wrong", LUA.replace("-g/l", "g/l"), "", ""),
     "lua, places swapped": ("refuse", LUA.replace("{ w, -g/l*math.sin(theta) }", "{ -g/l*math.sin(theta), w }"), "", ""),

@@ -168,6 +168,25 @@ COMES_TO = {
         "refuse",
         SYMPY + "def rhs(t, y):\n    theta, v = y\n    if theta > 1:\n        v = 0\n    return [v, -g/l*sin(theta)]\nodeint(rhs, y0, ts)\n",
     ),
+    "dynamicsymbols by their order": (
+        "correct", SYMPY.replace("L = m*l**2*theta.diff(t)**2/2", "thd = dynamicsymbols('theta', level=1)\nL = m*l**2*thd**2/2"),
+    ),
+    "dynamicsymbols by another order": (
+        "refuse", SYMPY.replace("L = m*l**2*theta.diff(t)**2/2", "thd = dynamicsymbols('theta', level=0)\nL = m*l**2*thd**2/2"),
+    ),
+    "a matrix by its size": (
+        "correct", SYMPY.replace("L = ", "r = Matrix(2, 1, [l*sin(theta), -l*cos(theta)])\nv = r.diff(t)\nL = ").replace("m*l**2*theta.diff(t)**2/2", "m*v.dot(v)/2"),
+    ),
+    "a matrix by its size, sine for cosine": (
+        "wrong", SYMPY.replace("L = ", "r = Matrix(2, 1, [l*sin(theta), -l*sin(theta)])\nv = r.diff(t)\nL = ").replace("m*l**2*theta.diff(t)**2/2", "m*v.dot(v)/2"),
+    ),
+    "in a class": (
+        "correct",
+        "import sympy as sp\nclass P:\n    def __init__(self):\n        self.t, self.m, self.l, self.g = sp.symbols('t m l g')\n"
+        "        self.theta = sp.Function('theta')(self.t)\n    def energy(self):\n        w = self.theta.diff(self.t)\n"
+        "        return self.m*self.l**2*w**2/2 + self.m*self.g*self.l*sp.cos(self.theta)\n    def equation(self):\n        L = self.energy()\n"
+        "        return L.diff(self.theta.diff(self.t)).diff(self.t) - L.diff(self.theta)\np = P()\neq = p.equation()\n",
+    ),
     "maxima, exponents": (
         "correct",
         "depends(theta, t)$\nL: m*(l*diff(theta,t))^2/2 + m*g*l*cos(theta)$\n"
