@@ -58,7 +58,7 @@ class ScriptCalls(Calls):
             "Function": self.function, "symbols": self.quantities, "Symbol": self.quantities, "var": self.quantities,
             "dynamicsymbols": self.moving_quantities, "jtimes": self.jtimes, "rhs": self.right, "lhs": self.left,
             "gradef": self.gradef, "NDSolve": self.integrated, "NDSolveValue": self.integrated,
-            "ParametricNDSolve": self.integrated, "EulerEquations": self.euler_equations,
+            "ParametricNDSolve": self.integrated, "ParametricNDSolveValue": self.integrated, "EulerEquations": self.euler_equations,
             "time_derivative": self.time_derivative, "dt": self.time_derivative,
         }  # fmt: skip
 

@@ -26,7 +26,7 @@ from .values import entries_of, equations_in, is_equation
 
 DERIVES = re.compile(
     r"\b(?:diff|jacobian|gradient|hessian|dynamicsymbols|LagrangesMethod|lambdify|Derivative|euler_equations|functionalDerivative"
-    r"|linear_eq_to_matrix|equationsToMatrix|jtimes|depends)\s*\(|\.sym\s*\(|\bFunction\s*\(|\bD\[|\bSolve\["
+    r"|linear_eq_to_matrix|equationsToMatrix|jtimes|depends)\s*\(|\.sym\s*\(|\bFunction\s*\(|\bD\[|\b(?:Parametric)?(?:ND)?Solve(?:Value)?\["
 )
 LAGRANGIAN = re.compile(r"(?:L|Lag|Lagr|LL|Lg|lag|lagrangian|Lagrangian|LAGRANGIAN|lagrange|L_total|Lagrange)")
 _OF = r"(?:_?(?:[0-9xyqs]|th(?:eta)?_?[0-9]?|phi_?[0-9]?|alpha|beta|eqs?\w*))?"

@@ -42,8 +42,10 @@ def tokens_of(text: str, pattern: re.Pattern[str], is_blank: Callable[[str, int]
         sign = match[0]
         if sign in ("(", "[", "{", "[["):
             opened.append(sign)
-        elif sign in (")", "]", "}") and opened:
-            opened.pop()
+        elif sign in (")", "]", "}", "]]") and opened:
+            is_two = sign == "]]" and opened.pop() != "[["  # x[y[1]]
+            if opened and (is_two or sign != "]]"):
+                opened.pop()
         found.append(Token(match.lastgroup or "sign", sign, at))
         at = match.end()
 

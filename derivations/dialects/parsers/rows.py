@@ -11,8 +11,11 @@ from ..grammars.languages.language import Language
 from ..grammars.rows import DOWN, GrammarReader
 from ..statements import DOWNWARDS
 from ..traced import nodes
+from ..traced.forms import Rows
+from ..traced.meaning import Meaning
+from ..traced.names import Scope
 from ..traced.rows import LONGEST_TEXT, TOO_DEEP, one_text, prefix_for
-from ..traced.values import NotFollowed
+from ..traced.values import Doubtful, Formula, NotFollowed, Record
 from .fortran import FORTRAN, fortran_tree
 from .lua import LUA, lua_tree
 from .r import R, r_tree
@@ -50,11 +53,36 @@ def from_parsers(data: dict[str, Any]) -> tuple[dict[str, Any], dict[str, str]] 
     if DOWNWARDS.search(text):
         raise InvalidInput(f"equations.{label:.40}: {DOWN}")
     try:
-        return GrammarReader(data, found, statements, language, prefix_for(text)).read()
+        return ProgramReader(data, found, statements, language, prefix_for(text)).read()
     except NotFollowed as error:
         raise InvalidInput(f"equations.{label:.40}: {error}") from None
     except RecursionError:
         raise InvalidInput(f"equations.{label:.40}: {TOO_DEEP}") from None
+
+
+class ProgramReader(GrammarReader):
+    """In R the state has names where it begins, state <- c(theta = 1, w = 0): its derivatives are in their order."""
+
+    def _named_state(self) -> list[str]:
+        """The names of the state, in its order; none where the text does not say them."""
+        for value in self.follower.pristine.values():
+            if isinstance(value, Record) and len(value.fields) == 2 * self.count:
+                places = {self.known.coordinate(name) for name in value.fields} - {None}
+                if len(places) == self.count:
+                    return list(value.fields)
+        return []
+
+    def _from_record(self, value: Record, scope: Scope, parameters: Sequence[str]) -> tuple[Rows, Meaning] | None:
+        names = self._named_state()
+        if names and set(names) == value.fields.keys() and names != list(value.fields):
+            raise Doubtful("the derivatives are given back in another order than the state has; names do not sort them")
+        return super()._from_record(value, scope, parameters)
+
+    def _of_state(self, entries: list[Formula], scope: Scope, parameters: Sequence[str]) -> tuple[Rows, Meaning] | None:
+        names, paths = self._named_state(), self._paths(entries)
+        if self.own_state is None and names and not any(isinstance(p, int) for path in paths for p in path):
+            self.own_state = [next((path for path in paths if path[-1] == name), (name,)) for name in names]
+        return super()._of_state(entries, scope, parameters)
 
 
 def tree_of(text: str, names: Collection[str]) -> tuple[Language | None, Sequence[nodes.Statement]]:

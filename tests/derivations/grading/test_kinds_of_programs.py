@@ -93,6 +93,7 @@ def test_a_slip_in_a_program_of_the_collection_is_never_right(name):
 
 LUA = "local function f(t, y)\n local theta, w = y[1], y[2]\n if w > 1e9 then print('fast') end\n return { w, -g/l*math.sin(theta) }\nend"
 R = "f <- function(t, y, p) {\n theta <- y[1]; w <- y[2]\n A <- matrix(c(m*l^2, 0, 0, 1), 2, 2)\n a <- solve(A) %*% c(-m*g*l*sin(theta), 0)\n list(c(w, a[1]))\n}"
+NAMED = "f <- function(t, y, p) {\n with(as.list(c(y, p)), {\n  a <- -g/l*sin(theta)\n  list(c(w, a))\n })\n}"
 FORTRAN = (
     "subroutine f(n, t, y, dy)\n integer n\n real(8) t, y(n), dy(n), a(2)\n if (n /= 2) stop 'no'\n call force(y, a)\n"
     " dy(1) = y(2)\n dy(2) = a(1)\nend subroutine\n"
@@ -118,6 +119,11 @@ CASES = {
     "r, columns first": ("wrong", R.replace("c(m*l^2, 0, 0, 1), 2, 2", "c(0, 1, m*l^2, 0), 2, 2"), "", ""),
     "r, rows first": ("correct", R.replace("c(m*l^2, 0, 0, 1), 2, 2", "c(m*l^2, 3, 0, 1), nrow = 2, byrow = FALSE").replace(
         "0)\n list", "-3*g/l*sin(theta))\n list"), "", ""),
+    "r, a state with names": ("correct", "y0 <- c(theta = 1, w = 0)\n" + NAMED, "", ""),
+    "r, a state with names in another order": ("refuse", "y0 <- c(w = 0, theta = 1)\n" + NAMED, "", ""),
+    "r, derivatives with names in another order": (
+        "refuse", "y0 <- c(w = 0, theta = 1)\n" + NAMED.replace("c(w, a)", "c(theta = w, w = a)"), "", ""),
+    "r, names in brackets": ("correct", NAMED.replace("with(as.list(c(y, p)), {", "theta <- y[['theta']]; w <- y[[ 'w' ]]").replace("})", ""), "", ""),
     "r, a line that begins with a sign": ("refuse", R.replace("c(w, a[1])", "c(w, b)").replace(" list", " b <- a[1]\n  - 0*w\n list"), "", ""),
     "fortran": ("correct", FORTRAN, "", Y1),
     "fortran, a sign": ("wrong", FORTRAN.replace("a(i) - g/l", "a(i) + g/l"), "", Y1),
