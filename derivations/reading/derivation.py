@@ -9,6 +9,7 @@ from typing import Any
 from ...models.errors import InvalidInput
 from ..dialects.blocks import rows_of_blocks
 from ..dialects.code.programs import plain_programs
+from ..dialects.derived.rows import from_scripts
 from ..dialects.followed.chosen import from_languages
 from ..dialects.functions import whole_functions
 from ..dialects.grammars.rows import from_grammars
@@ -23,12 +24,14 @@ from ..dialects.letters.left_sides import without_left_sides
 from ..dialects.letters.members import without_low_lines, without_pointers
 from ..dialects.letters.odd_waves import with_odd_waves
 from ..dialects.letters.said_motions import with_said_motions
+from ..dialects.letters.time_names import with_one_time
 from ..dialects.markup.asciimath import without_ticks
 from ..dialects.markup.macros import plain_macros
 from ..dialects.markup.pages import from_pages
 from ..dialects.markup.prose import FormulasInWords
 from ..dialects.markup.wrapped import unwrapped
 from ..dialects.notes.note import as_note, is_worded
+from ..dialects.parsers.rows import from_parsers
 from ..dialects.table import translated
 from ..dialects.times import with_times
 from ..dialects.traced.known import known
@@ -54,17 +57,36 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     Raises InvalidInput, with the place, where it is none.
     """
     known_fields(data)
-    data = _of_one_text(data)
+    data = with_one_time(_of_one_text(data))
     data = with_said_motions(plain_macros(without_ticks(unwrapped(without_pointers(data)))))
     require_no_time(data)
     data = with_phases(data)
+    unread: InvalidInput | None = None
+    try:
+        script = from_scripts(data)
+        if script is not None:
+            return _as_program(*script, slashes)
+    except InvalidInput as error:
+        unread = error
+    try:
+        return _read_others(data, slashes)
+    except InvalidInput:
+        if unread is not None:
+            raise unread from None
+        raise
+
+
+def _read_others(data: dict[str, Any], slashes: int) -> Submission:
+    """Read what derives nothing by computer algebra."""
     spelled = _spelled(data)
     program = from_grammars(spelled)
     if program is not None:
         return _as_program(*program, slashes)
     refused: InvalidInput | None = None
     try:
-        program = traced(spelled)
+        program = from_parsers(spelled)
+        if program is None:
+            program = traced(spelled)
         if program is not None:
             return _as_program(*program, slashes)
     except InvalidInput as error:

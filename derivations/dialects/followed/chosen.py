@@ -11,10 +11,8 @@ from ....models.errors import InvalidInput
 from ..languages.braces import from_braces, is_braced
 from ..languages.by_words import from_words
 from ..languages.equations import stated
-from ..languages.fortran import from_fortran
 from ..languages.haskell import from_haskell
 from ..languages.program import LONGEST_PROGRAM, RETURN, Function, Program
-from ..languages.r import from_r
 from ..letters.every_text import rows_of
 from ..names import plain_name
 from ..statements import DOWNWARDS
@@ -50,7 +48,7 @@ def from_languages(data: dict[str, Any], count: int) -> dict[str, Any]:
                 "equations": {str(k): row for k, row in enumerate(rows_said[0], 1)},
                 "define": {**define, **rows_said[1]},
             }
-        program = rows_said if isinstance(rows_said, Program) else program_of(text, names)
+        program = rows_said if isinstance(rows_said, Program) else program_of(text)
         if program is None:
             return data
         if DOWNWARDS.search(text):
@@ -76,14 +74,13 @@ def _depth(text: str) -> int:
     return deepest
 
 
-def program_of(text: str, known: Collection[str] = ()) -> Program | None:
-    """The program of a text; None where its language is another's to read. ``known``: names that the file has."""
+def program_of(text: str) -> Program | None:
+    """The program of a text; None where its language is another's to read."""
     if "\\begin" in text or "\\frac" in text or "Symbol(" in text:
         return None
-    for read in (from_r, lambda x: from_fortran(x, known), from_words):
-        program = read(text)
-        if program is not None:
-            return program
+    program = from_words(text)
+    if program is not None:
+        return program
     return from_braces(text) if is_braced(text) or is_lines_of_c(text) else None
 
 

@@ -9,7 +9,7 @@ from ..traced import nodes
 from ..traced.follow import NOT_FOLLOWED
 from ..traced.known import Known
 from ..traced.library import from_items
-from ..traced.names import Scope
+from ..traced.names import Scope, require_followed
 from ..traced.values import (
     Array,
     Broken,
@@ -105,6 +105,7 @@ class GrammarFollower(Steps):
                 return self.expressions.value(local.of.value, scope)
             body = local.of.body if isinstance(local.of, nodes.Nameless | nodes.Define) else ()
             found = self._body(body, scope)
+            require_followed(local.parameters, given, scope)
             self.last_scope = scope
             if isinstance(scope.names.get("return"), Broken):
                 self.expressions.word("return", scope)
@@ -234,6 +235,14 @@ class GrammarFollower(Steps):
                 self._put_name(name, value, statement.line, where, in_place=isinstance(value, Array))
                 return
         self._put_at(target, value, statement.line, scope, where)
+
+    def _put_name(self, name: str, value: Value, line: str, scope: Scope, *, in_place: bool) -> None:
+        """A name gets a value; in Fortran an array that is there is filled."""
+        held = scope.find(name) if self.language.fills else None
+        if isinstance(held, Array):
+            self._fill(held, list(range(len(held.entries))), held.shape, value, line)
+            return
+        super()._put_name(name, value, line, scope, in_place=in_place)
 
     def _is_start(self, target: nodes.Node, scope: Scope) -> bool:
         """Where a motion starts from: a coordinate or a rate that gets a value outside the equations."""

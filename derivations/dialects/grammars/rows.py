@@ -33,6 +33,7 @@ from .follow import GrammarFollower
 from .functions import Functions
 from .languages.language import Language
 from .parsed import parsed
+from .steps import STEP
 
 DOWN = "g is a negative number here; give it without its sign, and the sign in the rows"
 NO_FUNCTION = "no function with the equations of motion is found; give the text of the one that has them"
@@ -321,12 +322,19 @@ class GrammarReader(Reader):
             if k is None or isinstance(values[0], Broken):
                 continue
             mark = MARK.fullmatch(formula(values[0]).text)
-            if mark is None:
+            if mark is None and not MARK.fullmatch(formula(values[0]).text.removeprefix("-")):
                 continue
+            if mark is None or self._is_no_rate(path_of(mark[1]), k):
+                raise Doubtful(f"{path[-1]} is changed by something else than its rate; give the equations alone")
             if len(values) > 1 or k in places:
                 raise Doubtful(f"{path[-1]} is changed more than once; give the equations alone")
             places[k] = path, path_of(mark[1])
         if len(places) != self.count or any(rate not in moved for _, rate in places.values()):
+            stepped = [str(p[-1]) for p in moved if self.known.coordinate(str(p[-1])) is not None]
+            if stepped:
+                raise Doubtful(
+                    f"{stepped[0]} is stepped, and what its rate's step is, is not plain; give the equations alone"
+                )
             return None
         accelerations: list[Formula] = []
         for k in range(self.count):
@@ -334,10 +342,19 @@ class GrammarReader(Reader):
             if len(values) > 1:
                 raise Doubtful(f"{places[k][1][-1]} is changed more than once; give the equations alone")
             accelerations.append(formula(values[0]))
+            mark = MARK.fullmatch(accelerations[-1].text)
+            if mark and STEP.fullmatch(mark[1].split("|")[-1]) and not self.known.is_quantity(mark[1].split("|")[-1]):
+                raise Doubtful(f"{places[k][1][-1]} is changed by the step alone; give the equations alone")
         rates = [places[k][1] for k in range(self.count)]
         self.own_state = [places[k][0] for k in range(self.count)] + rates
         entries = [*(Formula(Outside(rate).mark) for rate in rates), *accelerations]
         return self._of_state(entries, scope, parameters)
+
+    def _is_no_rate(self, path: Path, k: int) -> bool:
+        """Whether what a coordinate is changed by is a step alone, or another coordinate's rate by its name."""
+        last = str(path[-1])
+        of = self.known.of_rate(last, 1)
+        return (of is not None and of != k) or (STEP.fullmatch(last) is not None and not self.known.is_quantity(last))
 
     def _has_all(self, value: Value) -> bool:
         return isinstance(value, Array) and len(value.entries) in (self.count, 2 * self.count)

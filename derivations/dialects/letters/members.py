@@ -14,6 +14,7 @@ POINTER = re.compile(
     r"(?<![\w.>])(?:\(\s*\*\s*(?P<of>[A-Za-z]\w{0,20})\s*\)\s*\.|(?P<by>[A-Za-z]\w{0,20})->)(?P<name>[A-Za-z]\w{0,30})"
 )
 NAMED = re.compile(r"(?:(?:const|float|double|auto)\s+)*(?P<x>[A-Za-z]\w{0,30})\s*=\s*(?P=x)\s*(?=[;,\n]|$)")
+OF_RATE = re.compile(r"\s*\(?\s*\w+\s*'{1,2}\s*\)?\s*")  # phi_ of "phi'": the name of a rate, and no member
 WHOLE = re.compile(r"(?:^|[=(,+-])\s*(?P<of>[0-9]+\s*/\s*[0-9]+)(?![\w.])")
 
 
@@ -61,6 +62,7 @@ def without_low_lines(data: dict[str, Any]) -> dict[str, Any]:
     names = {m["name"] for text in texts for m in MEMBER.finditer(text)}
     if isinstance(define, dict):
         names |= {m["name"] for key in define if (m := NAME.fullmatch(str(key)[:40]))}
+        names -= {name for name in names if OF_RATE.fullmatch(str(define.get(f"{name}_", "")), 0, 60)}
     if not names:
         return data
     for name in sorted(names):

@@ -35,6 +35,8 @@ def entrywise(a: Value, b: Value, of: Callable[[Formula, Formula], Formula]) -> 
             return Array([of(a.entries[0], y) for y in b.entries], b.shape, b.kind)
         if len(b.entries) == 1 and len(a.entries) > 1:
             return Array([of(x, b.entries[0]) for x in a.entries], a.shape, a.kind)
+        if "spread" in (a.kind, b.kind):
+            a, b = _broadcast(a, b)
         shape = _common(a, b)
         kind = "matrix" if "matrix" in (a.kind, b.kind) else a.kind if a.kind == b.kind else "array"
         return Array([of(x, y) for x, y in zip(a.entries, b.entries, strict=True)], shape, kind)
@@ -55,6 +57,30 @@ def expanded(value: Outside, like: Array) -> Array:
 def vector(value: Outside, size: int) -> Array:
     """A vector from outside."""
     return Array([Formula(Outside((*value.path, k)).mark) for k in range(size)], (size,), "loose")
+
+
+def spread(value: Array, axis: int) -> Array:
+    """A vector with an axis more, np.expand_dims(x, 1): put together with another it is repeated along this."""
+    if len(value.shape) != 1 or value.is_state or axis not in (0, 1, -1):
+        raise NotFollowed("an axis more of something that is no vector; write out its entries")
+    return Array(list(value.entries), (1, len(value.entries)) if axis == 0 else (len(value.entries), 1), "spread")
+
+
+def _broadcast(a: Array, b: Array) -> tuple[Array, Array]:
+    """Both as large as the larger, along each axis."""
+    if len(a.shape) != 2 or len(b.shape) != 2 or "matrix" in (a.kind, b.kind):
+        raise NotFollowed("a vector with an axis more is put together with another array; write out what it comes to")
+    sizes = [max(x, y) for x, y in zip(a.shape, b.shape, strict=True)]
+    if any(x not in (1, size) for one in (a, b) for x, size in zip(one.shape, sizes, strict=True)):
+        raise NotFollowed("arrays of different size are put together")
+    if sizes[0] * sizes[1] > LARGEST:
+        raise NotFollowed(f"an array of more than {LARGEST} entries")
+    made = []
+    for one in (a, b):
+        rows = one.rows * (sizes[0] if one.shape[0] == 1 else 1)
+        entries = [e for row in rows for e in row * (sizes[1] if one.shape[1] == 1 else 1)]
+        made.append(Array(entries, (sizes[0], sizes[1])))
+    return made[0], made[1]
 
 
 def _common(a: Array, b: Array) -> tuple[int, ...]:

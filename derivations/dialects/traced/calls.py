@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from . import library, nodes
-from .arrays import determinant, entrywise, product, turned
-from .expressions import Expressions
+from .arrays import determinant, entrywise, product, spread, turned
+from .expressions import LONGEST_STATE, Expressions
 from .names import Scope
 from .nodes import dotted
 from .values import (
@@ -90,7 +90,7 @@ class Calls:
     ) -> Value:
         """np.sin(x), self.f(x), M.dot(v), M.inv()."""
         root = path.split(".")[0] if path else ""
-        if root in library.MODULES and scope.find(root) is None:
+        if root in self.expressions.modules and scope.find(root) is None:
             return self.known(name, self.given(node, scope), node, scope)
         if root in (*TYPES, "cls") and path is not None and path.count(".") == 1 and name in self.functions:
             return self.follow(self.functions[name], self.given(node, scope), self.named(node, scope))
@@ -176,6 +176,8 @@ class Calls:
                 if name in ("matrix", "mat", "asmatrix", "Matrix", "ImmutableMatrix", "MutableDenseMatrix")
                 else "array"
             )
+            if name.endswith("Matrix") and len(given) == 3:
+                return library.by_sizes(given, kind)
             return self.matrix(name, library.as_array(given[0], kind), kind)
         if name in library.EMPTY:
             return self.empty(name, given)
@@ -218,7 +220,9 @@ class Calls:
             return library.total(library.as_array(given[0]))
         if name in ("reshape",) and given:
             return self.reshaped(library.as_array(given[0]), given[1:])
-        if name in ("expand_dims", "unsqueeze") and given:
+        if name == "expand_dims" and given:
+            return self.spread(given[0], [*given[1:], *self.named(node, scope).values()])
+        if name == "unsqueeze" and given:
             return given[0]
         if name in ("split", "chunk") and len(given) == 2 and isinstance(given[0], Outside):
             return self.halves(name, given[0], given[1], dotted(node.of) or "")
@@ -251,6 +255,17 @@ class Calls:
             raise NotFollowed(f"{name}(…) is no part of equations of motion here; leave it out")
         self.unknown += 1
         return Outside((f"{name}({self.unknown})",))
+
+    def spread(self, value: Value, axes: list[Value]) -> Array:
+        """np.expand_dims(x, 1); x from outside has as many entries as [define] says."""
+        if isinstance(value, Outside):
+            said = [k for k in range(LONGEST_STATE) if f"{value.path[-1]}[{k}]" in self.expressions.names.known.defined]
+            if not said or said != list(range(len(said))):
+                raise NotFollowed(f"{value.path[-1]}: how many entries it has is not said; write them out")
+            value = Array([Formula(Outside((*value.path, k)).mark) for k in said], (len(said),))
+        if not isinstance(value, Array) or len(axes) != 1:
+            raise NotFollowed("an axis more of something that is no vector; write out its entries")
+        return spread(value, formula(axes[0]).whole or 0)
 
     def halves(self, name: str, state: Outside, count: Value, path: str) -> Value:
         """np.split(state, 2), torch.chunk(state, 2): its two halves. torch.split counts entries, not parts."""

@@ -20,6 +20,7 @@ from .values import (
     NotFollowed,
     Outside,
     Reach,
+    Record,
     Several,
     Value,
     Words,
@@ -46,6 +47,7 @@ class Expressions:
         self.names, self.matlab, self.calls, self.free = names, matlab, calls, free
         self.size = 2 * len(names.known.coordinates)
         self.members: dict[str, Value] = {}
+        self.modules: frozenset[str] = MODULES
         self.entered: set[tuple[str | int, ...]] = set()  # whose entries are read
 
     def value(self, node: nodes.Node, scope: Scope) -> Value:  # noqa: PLR0911, PLR0912 -- one for each kind
@@ -90,8 +92,15 @@ class Expressions:
                 return self.each(node, scope)
             case nodes.Dots():
                 return Reach(None, None)
-        text = node.text if isinstance(node, nodes.Strange) else ""
+            case nodes.Pairs(keys=keys, values=values) if all(isinstance(k, nodes.Text) for k in keys):
+                return self.record_of({k.text: self.value(v, scope) for k, v in zip(keys, values, strict=True)
+                                       if isinstance(k, nodes.Text)})  # fmt: skip
+        text = node.text if isinstance(node, nodes.Strange | nodes.Pairs) else ""
         raise NotFollowed(f"{text[:40]!r}: this expression is not followed; write out what it comes to")
+
+    def record_of(self, values: dict[str, Value]) -> Record:
+        """{'m1': 1.0}: a quantity by its name, whatever its number; of another name the number is not taken."""
+        return Record({name: self.names.kept(name, value, f"'{name}': …") for name, value in values.items()})
 
     def holds(self, test: nodes.Node, scope: Scope) -> bool:
         """Whether a test of whole numbers holds. Raises NotFollowed where it is one of anything else."""
@@ -103,6 +112,8 @@ class Expressions:
     def each(self, node: nodes.Each, scope: Scope) -> Value:
         """[l*sin(th[i]) for i in range(n)]"""
         made: list[Value] = []
+        if "," in node.name:
+            raise NotFollowed("a list over several names at once; write it out")
         for k in reach(self.value(node.over, scope)):
             inner = Scope(scope, {node.name: number(k)})
             if all(self.holds(test, inner) for test in node.tests):
@@ -125,7 +136,7 @@ class Expressions:
 
     def member(self, node: nodes.Member, scope: Scope) -> Value:  # noqa: PLR0911 -- one for each kind
         """np.pi, self.m1, p.carro.m."""
-        if isinstance(node.of, nodes.Word) and node.of.name in MODULES and scope.find(node.of.name) is None:
+        if isinstance(node.of, nodes.Word) and node.of.name in self.modules and scope.find(node.of.name) is None:
             if node.name in NUMBERS:
                 return Formula("pi")
             return Outside((node.of.name, node.name))
@@ -272,6 +283,11 @@ class Expressions:
             raise NotFollowed(of.why)
         if isinstance(of, Outside):
             return self.outside(of, places, first)
+        if isinstance(of, Record) and len(places) == 1 and isinstance(places[0], Words):
+            found = of.fields.get(places[0].text)
+            if found is None or isinstance(found, Formula):
+                raise NotFollowed(f"{places[0].text}: give it the name that a body has for it")
+            return found
         if isinstance(of, Several):
             if len(places) == 1 and isinstance(places[0], Reach):
                 return Several(of.items[places[0].first : places[0].last])

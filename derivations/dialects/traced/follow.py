@@ -10,10 +10,10 @@ from .calls import Calls
 from .expressions import Expressions, chosen_of
 from .known import Known
 from .library import empty as library_empty
-from .library import from_items, reach
-from .names import Names, Scope
+from .library import filling, from_items, reach
+from .names import Names, Scope, require_followed
 from .nodes import dotted, set_by
-from .values import Array, Broken, Formula, Local, NotFollowed, Outside, Several, Value, copied, formula
+from .values import Array, Broken, Formula, Local, NotFollowed, Outside, Several, Value, copied, outside_of
 
 MOST_STEPS, DEEPEST = 3000, 12
 GIVEN_BACK = "return"
@@ -133,6 +133,7 @@ class Follower:
                 return self.expressions.value(local.of.value, scope)
             assert isinstance(local.of, nodes.Define)
             found = self._body(local.of.body, scope)
+            require_followed(local.parameters, given, scope)
             if isinstance(scope.names.get(GIVEN_BACK), Broken):
                 self.expressions.word(GIVEN_BACK, scope)  # refused: what is given back, a condition decides
             if found is not None and found.value is not None:
@@ -200,6 +201,8 @@ class Follower:
 
     def _repeat(self, statement: nodes.Repeat, scope: Scope) -> nodes.Return | None:
         try:
+            if "," in statement.name:
+                raise NotFollowed("a loop over several names at once; write it out")
             value = self.expressions.value(statement.over, scope)
             numbers: list[Value] = [Formula(str(k)) for k in reach(value)]
         except NotFollowed as error:
@@ -354,6 +357,7 @@ class Follower:
 
     def _put_several(self, items: tuple[nodes.Node, ...], value: Value, line: str, scope: Scope) -> None:
         count = len(items)
+        value = outside_of(value)
         if isinstance(value, Outside):
             declared = [isinstance(i, nodes.Word) and self.known.is_quantity(i.name) for i in items]
             parts: list[Value] = [Outside((*value.path, k)) for k in range(count)]
@@ -372,6 +376,9 @@ class Follower:
                 parts = [value]
         if len(parts) != count:
             raise NotFollowed(f"{count} names, and not as many values behind the equals sign")
+        whole = nodes.all_entries(items, self.expressions.size)
+        if whole in scope.parameters:  # y[0], y[1] = y[1], -y[0]; return y
+            items, parts = (nodes.Word(whole),), [from_items(parts)]
         for item, part in zip(items, parts, strict=True):
             self._put(item, part, line, scope)
 
@@ -436,14 +443,5 @@ class Follower:
         return array
 
     def _fill(self, array: Array, chosen: list[int], shape: tuple[int, ...], value: Value, line: str) -> None:
-        if isinstance(value, Several):
-            value = from_items(value.items)
-        if isinstance(value, Outside) and shape and len(chosen) > 1:
-            value = Array([Formula(Outside((*value.path, k)).mark) for k in range(len(chosen))], (len(chosen),))
-        entries = value.entries if isinstance(value, Array) else [formula(value)]
-        if len(entries) == 1:
-            entries = entries * len(chosen)
-        if len(entries) != len(chosen):
-            raise NotFollowed(f"{len(chosen)} entries are given {len(entries)} values")
-        for k, entry in zip(chosen, entries, strict=True):
+        for k, entry in zip(chosen, filling(value, len(chosen), is_part=bool(shape)), strict=True):
             array.entries[k] = self.names.line(entry, line)

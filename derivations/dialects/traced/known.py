@@ -48,6 +48,7 @@ TURNING_TWICE = (
     "thetadd",
     "ddtheta",
 )
+COUNTED_TWICE = ("acc", "accel", "acceleration")  # with an index, where no coordinate is a length
 SLIDING = ("v", "vel", "velocity", "vx")
 SLIDING_TWICE = ("a", "acc", "accel", "acceleration", "dv", "vdot", "dvdt", "ax")
 
@@ -86,7 +87,10 @@ class Known:
         """The coordinate whose rate (order 1) or acceleration (order 2) is called so, by what stands in the name."""
         said = re.fullmatch(r"\(?\s*(?P<of>[^'()\s]+)(?P<primes>'+)\s*\)?", self.defined.get(name, name))
         if said:
-            return self.coordinate(said["of"].replace("\\", "")) if len(said["primes"]) == order else None
+            of, primes = said["of"].replace("\\", ""), len(said["primes"])
+            if self.coordinate(of) is None and primes < order == 2:  # the rate of what is called a rate
+                return self.of_rate(of, 1)
+            return self.coordinate(of) if primes == order else None
         found = {k for k in range(len(self.coordinates)) if _is_derivative(name, self, k, order)}
         return found.pop() if len(found) == 1 else None
 
@@ -167,7 +171,7 @@ def _is_derivative_of(name: str, all_known: Known, k: int, order: int, letter: s
     alone = sum(s == slide for s in all_known.slides) == 1
     words = (SLIDING if slide else TURNING) if order == 1 else (SLIDING_TWICE if slide else TURNING_TWICE)
     if not slide and index and not any(all_known.slides):
-        spelled |= {f"{word}{index}" for word in words}
+        spelled |= {f"{word}{index}" for word in (*words, *(COUNTED_TWICE if order == 2 else ()))}
     if alone:
         spelled |= set(words)
     if alone and order == 1 and not slide:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 
 from .arrays import entrywise, product
@@ -59,6 +60,14 @@ SOLVES = frozenset((
 ))  # fmt: skip
 
 
+IMPORTED = re.compile(r"(?m)^\s*import\s+(?:sympy|numpy|casadi|torch|jax|math)[\w.]*\s+as\s+(?P<name>\w+)")
+
+
+def modules_of(text: str) -> frozenset[str]:
+    """Names of modules in a text of Python, its own names for them among these."""
+    return MODULES | {m["name"] for m in IMPORTED.finditer(text)}
+
+
 def from_items(items: Sequence[Value], kind: str = "array") -> Value:
     """A list of values as an array, where they are numbers or rows of one length."""
     if items and all(isinstance(x, Array) for x in items):
@@ -73,6 +82,20 @@ def from_items(items: Sequence[Value], kind: str = "array") -> Value:
     return Several(list(items))
 
 
+def filling(value: Value, count: int, *, is_part: bool) -> list[Formula]:
+    """What as many entries of an array are given; one number stands for all of them."""
+    if isinstance(value, Several):
+        value = from_items(value.items)
+    if isinstance(value, Outside) and is_part and count > 1:
+        value = Array([Formula(Outside((*value.path, k)).mark) for k in range(count)], (count,))
+    entries = value.entries if isinstance(value, Array) else [formula(value)]
+    if len(entries) == 1:
+        entries = entries * count
+    if len(entries) != count:
+        raise NotFollowed(f"{count} entries are given {len(entries)} values")
+    return entries
+
+
 def as_array(value: Value, kind: str = "array") -> Value:
     """What np.array, np.matrix and the like make of a list; a number stays one."""
     if isinstance(value, Several):
@@ -83,6 +106,15 @@ def as_array(value: Value, kind: str = "array") -> Value:
             shape = (1, *shape)
         return Array(list(value.entries), shape, kind)
     return value
+
+
+def by_sizes(given: Sequence[Value], kind: str) -> Array:
+    """sympy's Matrix(2, 1, [a, b])."""
+    height, width = (v.whole if isinstance(v, Formula) else None for v in given[:2])
+    entries = as_array(given[2])
+    if not height or not width or not isinstance(entries, Array) or len(entries.entries) != height * width:
+        raise NotFollowed("a matrix of this size; write out its rows")
+    return Array(list(entries.entries), (height, width), kind)
 
 
 def columns(value: Value) -> Value:
@@ -124,7 +156,10 @@ def joined(name: str, values: Sequence[Value], axis: int | None) -> Value:
         v = as_array(value) if isinstance(value, Several) else value
         if isinstance(v, Broken):
             raise NotFollowed(v.why)
-        arrays.append(v if isinstance(v, Array) else Array([formula(v)], (1,)))
+        v = v if isinstance(v, Array) else Array([formula(v)], (1,))
+        if name in ("vertcat", "horzcat") and v.kind == "loose":  # a vector of casadi is a column
+            v = Array(v.entries, (len(v.entries), 1))
+        arrays.append(v)
     flat = all(len(a.shape) == 1 for a in arrays)
     if name in ("vstack", "stack", "column_stack") and flat and all(len(a.entries) > 1 for a in arrays):
         width = len(arrays[0].entries)

@@ -119,7 +119,7 @@ class _Parser:
         ):
             while not self.is_sign("\n", ";") and self.token.kind != "end":
                 self.at += 1
-            return []
+            return self.moving(start) if token.text == "syms" else []
         if token.kind == "word" and token.text in ("classdef", "properties", "methods", "events"):
             while not self.is_sign("\n") and self.token.kind != "end":
                 self.at += 1
@@ -153,6 +153,14 @@ class _Parser:
             return [nodes.Assign(target, value, line, sign)]
         self.finish()
         return [nodes.Do(target, line)]
+
+    def moving(self, start: int) -> list[nodes.Statement]:
+        """syms th1(t) m1: what is a function of time."""
+        inside = self.tokens[start : self.at]
+        names = [a.text for a, b, c in zip(inside, inside[1:], inside[2:], strict=False)
+                 if a.kind == "word" and b.text == "(" and c.text in ("t", "time", "tau")]  # fmt: skip
+        declared = nodes.Call(nodes.Word("syms·"), tuple(map(nodes.Word, names)))
+        return [nodes.Do(declared, self.line(start))] if names else []
 
     def finish(self) -> None:
         if not self.is_sign("\n", ";", ",") and self.token.kind != "end":
@@ -386,10 +394,16 @@ class _Parser:
         if token.text == "[":
             return self.block("]")
         if token.text == "{":
-            return self.block("}")
+            return self.cells()
         if token.text == "@":
             return self.handle()
         raise NoMatlab
+
+    def cells(self) -> nodes.Node:
+        """{a, b}: a list, and no matrix."""
+        made = self.block("}")
+        assert isinstance(made, nodes.Block)
+        return nodes.Listed(tuple(one for row in made.rows for one in row))
 
     def handle(self) -> nodes.Node:
         if self.token.kind == "word":

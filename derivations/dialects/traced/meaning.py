@@ -57,7 +57,8 @@ class Meaning:
         if whole in self.known.defined and len(path) > 1:
             found = [self.known.defined[whole]]
         elif self.names.first and isinstance(last, int) and len(path) > 1:
-            found = [self.known.defined[k] for k in (f"{path[-2]}[{last + 1}]",) if k in self.known.defined]
+            keys = (f"{path[-2]}[{last + 1}]", f"{path[-2]}({last + 1})")
+            found = [self.known.defined[k] for k in keys if k in self.known.defined]
         elif isinstance(last, int) and len(path) > 1:
             base, k = str(path[-2]), last
             found = [self.known.defined[key] for key in (f"{base}[{k}]", f"{base}({k + 1})", f"{base}{{{k + 1}}}")

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from .known import GRAVITY, Known
-from .values import Array, Formula, Local, NotFollowed, Outside, Value
+from .values import Array, Broken, Formula, Local, NotFollowed, Outside, Value
 
 SHORT = 48  # characters of a formula that needs no name of its own
 MARK = re.compile(r"«([^«»]+)»")
@@ -39,6 +40,14 @@ class Scope:
     def all(self) -> list[Scope]:
         """This one and those around it."""
         return [self, *(self.around.all if self.around is not None else [])]
+
+
+def require_followed(parameters: Sequence[str], given: Sequence[Value], scope: Scope) -> None:
+    """Raises NotFollowed where an array that a function was given is not known behind it: it is its caller's, too."""
+    for name, value in zip(parameters, given, strict=False):
+        found = scope.names.get(name)
+        if isinstance(value, Array) and isinstance(found, Broken):
+            raise NotFollowed(found.why)
 
 
 @dataclass

@@ -141,6 +141,23 @@ class Fields:
 
 
 @dataclass(frozen=True)
+class Pairs:
+    """Values by keys, {key: value}."""
+
+    keys: tuple[Node, ...]
+    values: tuple[Node, ...]
+    text: str
+
+
+@dataclass(frozen=True)
+class Primed:
+    """A derivative by time, written with primes behind."""
+
+    of: Node
+    order: int
+
+
+@dataclass(frozen=True)
 class Strange:
     """An expression of a kind that is not followed."""
 
@@ -165,6 +182,8 @@ Node = (
     | Either
     | Each
     | Fields
+    | Pairs
+    | Primed
     | Strange
 )
 
@@ -282,3 +301,11 @@ def set_by(target: Node) -> list[str]:
         case At(of=of) | Call(of=of):
             return set_by(of)
     return []
+
+
+def all_entries(targets: tuple[Node, ...], size: int) -> str:
+    """The name whose entries, all of them and in order, are set at once; an empty text where that is not so."""
+    found = {of.name if t.text == str(k) else "" for k, one in enumerate(targets) if isinstance(one, At)
+             for of, t in ((one.of, one.places[0]),) if isinstance(of, Word) and isinstance(t, Number)}  # fmt: skip
+    is_each = all(isinstance(one, At) and len(one.places) == 1 for one in targets)
+    return found.pop() if len(found) == 1 and is_each and len(targets) == size else ""

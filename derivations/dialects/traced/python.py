@@ -100,8 +100,8 @@ class _Reader:
                 if _is_main(test):
                     return []
                 return [nodes.Choice(_tree(test), self.body(body), self.body(otherwise), line, _names(node))]
-            case ast.For(target=ast.Name(id=name), iter=over, body=body, orelse=[]):
-                return [nodes.Repeat(name, _tree(over), self.body(body), line)]
+            case ast.For(target=target, iter=over, body=body, orelse=[]) if _bound(target):
+                return [nodes.Repeat(_bound(target), _tree(over), self.body(body), line)]
             case ast.Continue() | ast.Break():
                 return [nodes.Leave("continue" if isinstance(node, ast.Continue) else "break", line)]
         return [nodes.Unfollowed(line, _names(node))]
@@ -146,6 +146,13 @@ def _is_default(test: ast.expr, body: list[ast.stmt], otherwise: list[ast.stmt])
 def _is_main(test: ast.expr) -> bool:
     """if __name__ == "__main__"."""
     return isinstance(test, ast.Compare) and isinstance(test.left, ast.Name) and test.left.id == "__name__"
+
+
+def _bound(target: ast.expr) -> str:
+    """The name that a loop sets, or several with commas; nothing of what is no name."""
+    parts = target.elts if isinstance(target, ast.Tuple) else [target]
+    names = [one.id for one in parts if isinstance(one, ast.Name)]
+    return ",".join(names) if len(names) == len(parts) else ""
 
 
 def _parameters(args: ast.arguments) -> tuple[str, ...]:
@@ -200,8 +207,8 @@ def _tree(node: ast.expr) -> nodes.Node:  # noqa: PLR0911, PLR0912 -- one for ea
             return whole
         case ast.IfExp(test=test, body=value, orelse=otherwise):
             return nodes.Either(_tree(test), _tree(value), _tree(otherwise))
-        case ast.ListComp(elt=of, generators=[one]) | ast.GeneratorExp(elt=of, generators=[one]) if isinstance(
-            one.target, ast.Name
-        ):
-            return nodes.Each(_tree(of), one.target.id, _tree(one.iter), tuple(map(_tree, one.ifs)))
+        case ast.ListComp(elt=of, generators=[one]) | ast.GeneratorExp(elt=of, generators=[one]) if _bound(one.target):
+            return nodes.Each(_tree(of), _bound(one.target), _tree(one.iter), tuple(map(_tree, one.ifs)))
+        case ast.Dict(keys=keys, values=values) if all(keys):
+            return nodes.Pairs(tuple(_tree(k) for k in keys if k), tuple(map(_tree, values)), ast.unparse(node)[:60])
     return nodes.Strange(ast.unparse(node)[:60])

@@ -13,6 +13,7 @@ from . import nodes
 from .follow import Follower
 from .forms import Forms, Rows, needed
 from .known import Known, known, readable
+from .library import modules_of
 from .matlab import matlab_tree
 from .meaning import ADVICE, Meaning
 from .names import MARK, Scope
@@ -90,6 +91,7 @@ class Reader(Forms):
                  ) -> None:  # fmt: skip
         self.data, self.known = data, found
         self.follower = Follower(found, tree, matlab=matlab, prefix=prefix)
+        self.follower.expressions.modules = modules_of("\n".join(text for _, text in rows_of(data)))
         self.tree = tree
         self.refused: list[str] = []
 
@@ -224,6 +226,8 @@ class Reader(Forms):
                     return matrix
         if isinstance(value, Broken):
             raise Doubtful(value.why)
+        if isinstance(value, Local) and isinstance(value.of, nodes.Define) and value.of is not define:
+            return self._function(value)  # a function that makes the one that is meant
         found = None if value is None else self._try(lambda: self._from_value(value, scope, define.parameters, names))
         if found is not None:
             return found
@@ -263,7 +267,7 @@ class Reader(Forms):
         lines = needed(names.lines, " ".join(left + " " + right for left, right in rows))
         made = {name: self._said(line, meaning) for name, line in lines.items()}
         texts = [f"{left} = {right}" for left, right in rows]
-        made, texts = _short(made, texts)
+        made, texts = shortened(made, texts)
         define = self.data.get("define", {})
         used = " ".join([*texts, *made.values()])
         kept = {k: v for k, v in define.items() if self._is_kept(str(k), v, used)} if isinstance(define, dict) else {}
@@ -286,7 +290,7 @@ class Reader(Forms):
         return {**body, "coordinate": readable(bare, self.known.quantities)}
 
     def _is_kept(self, name: str, value: Any, used: str) -> bool:
-        if re.search(r"[\[({]", name) and not name.endswith("(t)"):
+        if (re.search(r"[\[({]", name) and not name.endswith("(t)")) or name.endswith("_"):
             return False
         return not (isinstance(value, str) and "[" in value and not re.search(rf"(?<!\w){re.escape(name)}(?!\w)", used))
 
@@ -294,7 +298,7 @@ class Reader(Forms):
 MOST_LINES, LONGEST_ROW = 38, 8000
 
 
-def _short(lines: dict[str, str], rows: list[str]) -> tuple[dict[str, str], list[str]]:
+def shortened(lines: dict[str, str], rows: list[str]) -> tuple[dict[str, str], list[str]]:
     """Lines that are used once stand where they are used, while there are too many."""
     made = dict(lines)
     for name in list(made):

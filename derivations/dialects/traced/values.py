@@ -134,6 +134,12 @@ def number(value: int) -> Formula:
     return Formula(str(value), FACTOR if value >= 0 else SUM)
 
 
+def outside_of(value: Value) -> Value:
+    """A formula that is nothing but a quantity from outside, as that; any other value as it is."""
+    found = re.fullmatch("«([^«»]+)»", value.text) if isinstance(value, Formula) else None
+    return Outside(tuple(int(p) if p.isdigit() else p for p in found[1].split("|"))) if found else value
+
+
 def copied(value: Value) -> Value:
     """An array that changes with no other; any other value as it is."""
     return value.copied() if isinstance(value, Array) else value
@@ -219,6 +225,8 @@ def power(a: Formula, b: Formula) -> Formula:
     exponent = re.sub(r"\.0*$", "", b.text)
     if not WHOLE.fullmatch(exponent):
         raise NotFollowed(f"a power of {b.text[:20]}; only whole numbers are read, as in x^2")
+    if exponent == "1":
+        return a
     base = a.text if ATOM.fullmatch(a.text) else f"({a.text})"
     return _made(f"{base}^{exponent}" if int(exponent) >= 0 else f"{base}^({exponent})", FACTOR)
 

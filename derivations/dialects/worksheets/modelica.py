@@ -15,16 +15,20 @@ MODEL = re.compile(
 )
 QUOTES = re.compile(r'"[^"]{0,300}"')
 REMARKS = re.compile(r"//[^\n]*|/\*.{0,1000}?\*/", re.DOTALL)
-BY_OTHERS = re.compile(r"^\s*(?:parameter|constant)\b[^=]*=(?!\s*Modelica\.)[^,]*[A-Za-z](?<![0-9][eE])[^,]*$")
 BOUND = re.compile(
-    r"^\s*(?:(?:protected|public)\s+)?(?:Real|[\w.]*SI\.\w+)\s+(?P<name>\w{1,30})\s*(?:\([^()]*\))?\s*=\s*(?P<value>[^=]{1,400})$"
+    r"^\s*(?P<before>(?:(?:protected|public|final|inner|outer|parameter|constant)\s+)*)(?:Real|[\w.]*SI\.\w+)\s+(?P<name>\w{1,30})\s*(?:\([^()]*\))?\s*=\s*(?P<value>[^=]{1,400})$"
 )
 OTHER = re.compile(r"\b(?:if|when|for|connect|assert|algorithm|initial|reinit|noEvent|pre)\b")
+NUMBER = re.compile(r"[-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?")  # right for every value is right for it
+OF_LIBRARY = re.compile(r"Modelica\.")
 MOST_ROWS = 24
 
 
 def from_modelica(text: str) -> tuple[list[str], Definitions] | None:
-    """The rows, and no definitions: ``with_definitions`` finds them among the rows. None where it is no model."""
+    """The rows, and what parameters are by others; ``with_definitions`` finds other definitions among the rows.
+
+    None where it is no model.
+    """
     found = MODEL.match(text)
     if found is None:
         return None
@@ -37,11 +41,11 @@ def from_modelica(text: str) -> tuple[list[str], Definitions] | None:
     if other:
         raise InvalidInput(f"{other[0]!r} in a Modelica model: write out the equations that hold")
     head = REMARKS.sub(" ", QUOTES.sub(" ", found["head"]))
-    by_others = next((m for part in parts_of(head, ";") if (m := BY_OTHERS.match(part))), None)
-    if by_others:
-        raise InvalidInput(f"{by_others[0].strip()[:60]}: a parameter that others say; write it so in the rows")
-    bound = (BOUND.match(part) for part in parts_of(head, ";"))
-    rows = [*(f"{m['name']} = {m['value'].strip()}" for m in bound if m), *rows]
+    bound = [m for part in parts_of(head, ";") if (m := BOUND.match(part))]
+    fixed = {m["name"]: m["value"].strip() for m in bound if re.search(r"parameter|constant", m["before"])}
+    rows = [*(f"{m['name']} = {m['value'].strip()}" for m in bound if m["name"] not in fixed), *rows]
     if len(rows) > MOST_ROWS or not all(row.count("=") == 1 for row in rows):
         raise InvalidInput(f"a Modelica model with up to {MOST_ROWS} equations, one equals sign each, is read")
-    return rows, {}
+    used = " ".join([*rows, *fixed.values()])
+    said = {n: v for n, v in fixed.items() if not NUMBER.fullmatch(v) and not OF_LIBRARY.match(v)}
+    return rows, {n: v for n, v in said.items() if re.search(rf"(?<!\w){n}(?!\w)", used)}

@@ -27,3 +27,4 @@ class Language:
     by_columns: bool = False  # mat2(a, b, c, d) has the columns (a, b) and (c, d)
     blank: re.Pattern[str] | None = None
     spaced: re.Pattern[str] | None = None  # a sign that its grammar takes for another thing without blanks
+    fills: bool = False  # a = [b, c] fills the array that a function was given
