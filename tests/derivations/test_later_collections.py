@@ -7,6 +7,7 @@ from functools import cache
 from pathlib import Path
 
 import prove_eighth
+import prove_eighth_programs
 import prove_fifth_code
 import prove_fifth_notes
 import prove_fresh
@@ -33,6 +34,7 @@ PROOFS = {
     "seventh_collection": prove_seventh.PROOFS,
     "seventh_programs": prove_seventh_programs.PROOFS,
     "eighth_collection": prove_eighth.PROOFS,
+    "eighth_programs": prove_eighth_programs.PROOFS,
 }
 
 
