@@ -1,11 +1,13 @@
 """Derivations as computer algebra, programs, word processors and textbooks print them (the second collection), pasted
 whole, as programs, pages and forums have them (the third), in notations that furiko had not been tried with (the
-fourth), and as public notes and programs have them (the fifth and the sixth): none is misjudged."""
+fourth), and as public notes and programs have them (from the fifth on): none is misjudged."""
 
 import tomllib
 from functools import cache
 from pathlib import Path
 
+import prove_eighth
+import prove_eighth_programs
 import prove_fifth_code
 import prove_fifth_notes
 import prove_fresh
@@ -31,6 +33,8 @@ PROOFS = {
     "sixth_collection": prove_sixth.PROOFS,
     "seventh_collection": prove_seventh.PROOFS,
     "seventh_programs": prove_seventh_programs.PROOFS,
+    "eighth_collection": prove_eighth.PROOFS,
+    "eighth_programs": prove_eighth_programs.PROOFS,
 }
 
 
