@@ -26,6 +26,7 @@ from ..dialects.letters.said_motions import with_said_motions
 from ..dialects.markup.asciimath import without_ticks
 from ..dialects.markup.macros import plain_macros
 from ..dialects.markup.pages import from_pages
+from ..dialects.markup.printed import plainly_printed
 from ..dialects.markup.prose import FormulasInWords
 from ..dialects.markup.wrapped import unwrapped
 from ..dialects.notes.note import as_note, is_worded
@@ -55,7 +56,7 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     """
     known_fields(data)
     data = _of_one_text(data)
-    data = with_said_motions(plain_macros(without_ticks(unwrapped(without_pointers(data)))))
+    data = with_said_motions(plain_macros(plainly_printed(without_ticks(unwrapped(without_pointers(data))))))
     require_no_time(data)
     data = with_phases(data)
     spelled = _spelled(data)

@@ -10,6 +10,9 @@ from typing import Any
 
 from ..letters.every_text import everywhere
 from ..statements import is_program
+from .comments import uncommented
+from .drawn import from_drawn
+from .elements import without_elements
 from .prose import BRACED, is_whole
 from .typst_text import typst_text
 
@@ -26,11 +29,9 @@ TAGS = re.compile(
     re.DOTALL,
 )
 DISPLAYED = re.compile(r"\$|\\\[|\\begin\s*\{(?:equation|align|gather|eqnarray|multline|displaymath)")
-COMMENT = re.compile(r"[ \t]*(?://[/!]?|#)(?=\s|$)")
-BLOCK = re.compile(r"^\s*/\*[*!]?(?P<inner>.*)\*/\s*$", re.DOTALL)
-STARRED = re.compile(r"(?m)^[ \t]*\*(?=\s)")
 FENCED = re.compile(r"(?m)^[ \t]*(?:```|~~~)")
-TICKED = re.compile(r"(?m)^[ \t]*`(?P<inner>[^`\n]{1,400})`[ \t]*[.,;]?[ \t]*$")
+# A line in backticks, as an item of a list or alone
+TICKED = re.compile(r"(?m)^[ \t]*(?:[-*+][ \t]+|\d{1,2}[.)][ \t]+)?`(?P<inner>[^`\n]{1,400})`[ \t]*[.,;]?[ \t]*$")
 ESCAPED = re.compile(r"(?<!\\)\\_")  # an index of LaTeX that Markdown would take for italics
 
 
@@ -40,10 +41,10 @@ def unwrapped(data: dict[str, Any]) -> dict[str, Any]:
 
 
 def _unwrapped(text: str) -> str:
-    text = _uncommented(text)
+    text = without_elements(uncommented(text))
     if is_program(text):
         return text
-    text = typst_text(text)
+    text = typst_text(from_drawn(text))
     text = TAGS.sub(lambda m: _display(m["a"] or m["b"] or ""), text)
     if ".. math::" in text:
         text = DIRECTIVE.sub(lambda m: _display(f"{m['first']}\n{OPTION.sub('', m['inner'])}"), text)
@@ -55,17 +56,6 @@ def _unwrapped(text: str) -> str:
     if len(lines) > 1 and all(m and is_whole(m["inner"]) for m in braced):
         text = "\n".join(_display(m["inner"]) for m in braced if m)
     return ESCAPED.sub("_", text)
-
-
-def _uncommented(text: str) -> str:
-    """Without the marks of a comment in front of every line."""
-    block = BLOCK.match(text)
-    if block and "*/" not in block["inner"]:
-        return STARRED.sub("", block["inner"])
-    lines = text.split("\n")
-    if any(line.strip() for line in lines) and all(COMMENT.match(line) for line in lines if line.strip()):
-        return "\n".join(COMMENT.sub("", line, count=1) for line in lines)
-    return text
 
 
 def _display(inner: str) -> str:

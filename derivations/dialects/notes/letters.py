@@ -26,6 +26,7 @@ WORDY = {"sin", "cos", "tan", "sgn", "sign", "abs", "sqrt", "d", "t", "g", "pi",
          "dot", "ddot", "cdot", "times", "begin", "end", "inv", "T", "top", "e", "partial", "big", "over"}  # fmt: skip
 USED = re.compile(rf"\\(?P<command>[A-Za-z]+)(?P<i>{_INDEX})|(?P<word>[A-Za-z]|[{''.join(GLYPHS)}])(?P<j>{_INDEX})")
 WAVE = re.compile(r"(?<![A-Za-z\\])(?:sin|cos|tan)(?![A-Za-z])")
+OF_WAVE = re.compile(r"^\s*\\?(?:sin|cos)(?![A-Za-z])\s*(?P<inner>[^^]*)$")
 ENVIRONMENT = re.compile(r"\\(?:begin|end)\s*\{\w+\*?\}(?:\{[clr|]*\})?")
 
 
@@ -62,6 +63,15 @@ def alone(side: str) -> str | None:
     """The plain name that is all of a side, its arguments left out; None where there is more."""
     found = ALONE.match(unfonted(side))
     return plain_name(found["name"]) if found else None
+
+
+def is_abbreviation(side: str, names: Names) -> bool:
+    r"""Whether a side is a sum of coordinates, or the sine or cosine of one: what a letter for it is cannot be wrong."""
+    found = OF_WAVE.match(side)
+    inner = re.sub(r"\\(?:left|right|[,;:! ])|[()\s{}]", " ", found["inner"] if found else side)
+    inner = re.sub(r"_ (\w{1,4}) ", r"_{\1}", inner)
+    parts = [plain_name(part.strip()) for part in re.split(r"[+−-]", inner) if part.strip()]
+    return bool(parts) and all(part in names.coordinates for part in parts) and (found is not None or len(parts) > 1)
 
 
 def written_alone(side: str) -> str:

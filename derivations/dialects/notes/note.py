@@ -21,7 +21,7 @@ from .declarations import plain_declarations
 from .derivatives import plain_derivatives
 from .displays import Statement, has_arrow, statements_of
 from .energies import Energy, energy, evident_rates
-from .entries import with_entries, without_arguments
+from .entries import with_columns_apart, with_entries, with_points, without_arguments
 from .letters import Names, alone, names_of, with_accents, with_bold_apart
 from .partial import rows_of_partial
 from .points import of_squared_speeds, of_unknown_points
@@ -143,7 +143,7 @@ def _with_energy(
             text = with_momenta(text, names)
         if kind == "lagrangian" and "L" in names.all:  # L is a length, and the letter in a font the Lagrangian
             text = IN_FONT.sub("ℒ ", text)
-        said = of_squared_speeds(by_rule(_statements(text, names)), names)
+        said = of_squared_speeds(with_points(by_rule(_statements(text, names)), names), names)
         found: Energy = energy(kind, of_unknown_points(said, names), names)
     except InvalidInput as error:
         raise InvalidInput(f"{kind}: {error}") from None
@@ -171,7 +171,8 @@ def _with_equations(data: dict[str, Any], names: Names, new: dict[str, str], ste
         except InvalidInput as error:
             raise InvalidInput(f"equations.{label:.40}: {error}") from None
     try:
-        statements = with_states(without_arguments(by_rule(statements), names), names, _texts(data.get("define")))
+        statements = with_points(with_columns_apart(by_rule(statements), names), names)
+        statements = with_states(without_arguments(statements, names), names, _texts(data.get("define")))
         statements = with_entries(of_unknown_points(dotted_columns(statements, names), names), names)
         found: Sorted = sorted_statements(with_columns(statements, names), names)
         more, equal = rows_of_partial(found.partial, names, data)

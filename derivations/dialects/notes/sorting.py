@@ -12,7 +12,7 @@ from typing import Any
 from ....models.errors import InvalidInput
 from ..names import plain_name, spelling
 from .displays import Statement
-from .letters import NAME, Names, alone, used, uses, written_alone
+from .letters import NAME, Names, alone, is_abbreviation, used, uses, written_alone
 from .partial import is_law
 from .points import derived, named_rate
 
@@ -114,7 +114,7 @@ class _Sorter:
         for name, (written, sides) in self.values.items():
             if name in needed | below:
                 self.found.defined[written] = sides[-1]
-            elif name not in stages:
+            elif name not in stages and not all(is_abbreviation(side, self.names) for side in sides):
                 raise InvalidInput(
                     f"{written[:30]} = … is said, and no equation needs it: leave it out, or give it in a field of its "
                     "own (positions, kinetic, potential, lagrangian)"

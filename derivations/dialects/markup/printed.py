@@ -1,0 +1,121 @@
+# ruff: noqa: E501 -- patterns stand on one line
+r"""What people print around letters that says nothing of mechanics: c o s, = 0!, \note in front, \tau_c(\mathrm{yön}).
+
+And \frac{d\dot x}{dt} for \ddot x, and a row [0 \quad 1] for a matrix.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection
+from typing import Any
+
+from ..letters.every_text import everywhere
+from ..names import GLYPHS, GREEK, plain_name
+from ..statements import is_program
+from ..table import known_of
+
+SPACED = re.compile(r"(?<![A-Za-z\\])(?:c\s+o\s+s|s\s+i\s+n|t\s+a\s+n)(?=\s*[({\\])")
+_END = r"(?:\s|\\[,;:! ]|[.,;$`])*(?:$|\\\\|\\end|\\\]|\\\)|\n|\$|\}\s*$)"
+EMPHASIS = re.compile(rf"(?P<before>=(?:\s|\\[,;:! ]|&)*0)(?:\s|\\[,;:! ]){{0,3}}!(?P<behind>{_END})")
+MUST = re.compile(
+    r"\\(?:overset|stackrel)\s*\{\s*(?:!|\?|\\text\s*\{\s*!\s*\}|\\mathrm\s*\{\s*def\.?\s*\}|\\text\s*\{\s*def\.?\s*\}|def)\s*\}\s*(?:\{\s*=\s*\}|=)|\\(?:eqdef|stackeq)(?![A-Za-z])"
+)
+_STARTS = r"(?P<start>^|\$\$|\\\[|\\begin\s*\{(?:equation|align|gather|aligned|gathered|split)\*?\}|\\\\)(?P<blank>(?:\s|&|\\[,;:! ])*)"
+# A mark in front of a formula: macros of notes, and signs that no product has
+MARK = re.compile(
+    rf"{_STARTS}\\(?:note|important|result|remark|warning|attention|hint|keyeq|boxeq|star|bigstar|bullet|checkmark|blacktriangleright|triangleright|blacksquare|Box|square|dagger|ast|circledast|looparrowright|hookrightarrow|leadsto|rightsquigarrow)(?![A-Za-z])(?!\s*[_^{{(=+\-])"
+)
+_D = r"(?:\\mathrm\s*\{\s*d\s*\}|\{\s*\\rm\s+d\s*\}|\\text\s*\{\s*d\s*\}|\\operatorname\s*\{\s*d\s*\}|\\mathrm\s*d|\\rm\s+d|d)"
+_GREEK = "|".join(sorted(GREEK, key=len, reverse=True))
+_X = rf"(?:\\(?:{_GREEK})(?![A-Za-z])|[A-Za-z])"
+_LOW = r"(?:\s*_\s*(?:\{[^{}]{1,8}\}|\w))?"
+_RATE = rf"(?:\{{\s*)?\\dot\s*(?:\{{\s*(?P<a>{_X}{_LOW})\s*\}}|(?P<b>{_X}))(?P<i>{_LOW})(?:\s*\}})?\s*(?:\(\s*t\s*\))?"
+_ABOVE = r"[\u0307]"
+_GLYPH = rf"(?P<g>[A-Za-z{''.join(GLYPHS)}])(?P<gi>[₀-₉]{{0,2}})"
+BY_TIME = (
+    re.compile(rf"\\[dtc]?frac\s*\{{\s*{_D}\s*{_RATE}\s*\}}\s*\{{\s*{_D}\s*t\s*\}}"),
+    re.compile(
+        rf"\\[dtc]?frac\s*\{{\s*{_D}\s*\}}\s*\{{\s*{_D}\s*t\s*\}}\s*(?!\\dot\s*\{{?\s*\w+\s*\}}?\s*[({{^]){_RATE}(?!\s*\^)"
+    ),
+    re.compile(rf"(?<![A-Za-z\\]){_D}\s*{_RATE}\s*/\s*{_D}\s*t(?![A-Za-z])"),
+    re.compile(rf"(?<![A-Za-z\\])d\s*{_GLYPH}{_ABOVE}(?P<gj>[₀-₉]{{0,2}})\s*/\s*dt(?![A-Za-z])"),
+)
+ROW = re.compile(
+    r"(?<![A-Za-z0-9_\])}])(?:\\left\s*)?\[(?P<inner>[^\[\]=&]{1,200}?\\q?quad[^\[\]=&]{1,200}?)(?:\\right\s*)?\]"
+)
+WIDE = re.compile(r"\\q?quad(?![A-Za-z])")
+ROW_ENDS = re.compile(r"\\\\(?:\s*\[[^\[\]]{1,12}\])?")
+ARGUMENT = re.compile(
+    r"(?P<x>\\?[A-Za-z]+(?:\s*_\s*(?:\{[^{}\\]{1,12}\}|\w))?)\s*(?:\\left\s*)?\(\s*\\(?:mathrm|text|textrm|mathit|textit|rm|mbox)\s*\{(?P<word>[^\W\d_][\w .-]{2,30})\}\s*(?:\\right\s*)?\)"
+)
+
+_MATRIX = r"\\begin\s*\{(?P<of>[pbB]?(?:small)?matrix|array)\}(?:\s*\{[clr|@{}\s]{0,20}\})?(?P<inner>(?:(?!\\begin).){1,2000}?)\\end\s*\{(?P=of)\}"
+_T = r"(?:\\(?:top|intercal)(?![A-Za-z])|\\(?:mathrm|mathsf|text|textsf|mathit|mathbf)\s*\{\s*T\s*\}|\\(?:rm|sf|mathrm)\s+T(?![A-Za-z])|T(?![A-Za-z])|⊤)"
+_TURN = rf"\s*(?:\^\s*(?:\{{\s*(?:{_T}|t)\s*\}}|{_T})|ᵀ)"
+TURNED = re.compile(rf"(?:\\left\s*[(\[]\s*)?{_MATRIX}(?:\s*\\right\s*[)\]])?{_TURN}", re.DOTALL)
+ENTRY = re.compile(
+    r"\s*\\?(?P<dots>d{0,2}ot)?\s*\{?\s*(?P<x>\\?[A-Za-z]+(?:\s*_\s*(?:\{\s*\w{1,6}\s*\}|\w))?)\s*\}?\s*(?P<i>_\s*(?:\{\s*\w{1,6}\s*\}|\w))?\s*"
+)
+LISTED = re.compile(r"(?<=[\w}])\s*(?:\\left\s*)?\((?P<inner>[^()=+*/^]{3,200})\)")
+
+
+def plainly_printed(data: dict[str, Any]) -> dict[str, Any]:
+    """The fields without these; programs stay."""
+    known = known_of(data)
+    names = {*known.coordinates, *known.quantities}
+
+    def noted(found: re.Match[str]) -> str:
+        return found["x"] if plain_name(found["x"]) in names and plain_name(found["word"]) not in names else found[0]
+
+    def one(text: str) -> str:
+        if is_program(text):
+            return text
+        text = ARGUMENT.sub(noted, _plain(text))
+        return LISTED.sub(lambda m: " " if _depends(m["inner"], known.coordinates) else m[0], text)
+
+    return everywhere(data, one)
+
+
+def _plain(text: str) -> str:
+    text = SPACED.sub(lambda m: re.sub(r"\s", "", m[0]) + " ", text)
+    text = EMPHASIS.sub(lambda m: m["before"] + m["behind"], MUST.sub(" = ", text))
+    if "\\" in text:
+        text = MARK.sub(lambda m: m["start"] + m["blank"], text)
+        text = TURNED.sub(_turned, ROW.sub(_row, text))
+    for pattern in BY_TIME:
+        text = pattern.sub(_twice, text)
+    return text
+
+
+def _twice(found: re.Match[str]) -> str:
+    groups = found.groupdict()
+    if groups.get("g"):
+        return f"{groups['g']}\u0308{groups['gi'] or groups['gj'] or ''} "
+    name = (groups["a"] or groups["b"] or "").strip()
+    return f"\\ddot{{{name}{(groups['i'] or '').strip()}}} "
+
+
+def _depends(inner: str, coordinates: Collection[str]) -> bool:
+    """Whether a list in brackets has coordinates and their rates alone: what a quantity depends on, and no factor."""
+    parts = re.split(r"[,;]", re.sub(r"\\(?:left|right|[,;:! ])", " ", inner))
+    found = [ENTRY.fullmatch(part) for part in parts]
+    names = [plain_name(m["x"] + (m["i"] or "")) for m in found if m]
+    return len(parts) > 1 and all(found) and all(x in coordinates or (x == "t" and "\\" in inner) for x in names)
+
+
+def _turned(found: re.Match[str]) -> str:
+    """A matrix that is written with rows for columns."""
+    rows = [[x.strip() for x in row.split("&")] for row in ROW_ENDS.split(found["inner"]) if row.strip()]
+    if len({len(row) for row in rows}) != 1:
+        return found[0]
+    inner = " \\\\ ".join(" & ".join(column) for column in zip(*rows, strict=True))
+    return f" \\begin{{bmatrix}} {inner} \\end{{bmatrix}} "
+
+
+def _row(found: re.Match[str]) -> str:
+    r"""[0 \quad 1] as a matrix of one row."""
+    entries = [part.strip() for part in WIDE.split(found["inner"])]
+    if not all(entries) or any(entry.endswith((",", ";")) or entry[0] in "+-*/=" for entry in entries[1:]):
+        return found[0]
+    return " \\begin{bmatrix} " + " & ".join(entries) + " \\end{bmatrix}"
