@@ -24,6 +24,7 @@ from ..dialects.letters.members import without_low_lines, without_pointers
 from ..dialects.letters.odd_waves import with_odd_waves
 from ..dialects.letters.said_motions import with_said_motions
 from ..dialects.markup.asciimath import without_ticks
+from ..dialects.markup.environments import plain_environments
 from ..dialects.markup.macros import plain_macros
 from ..dialects.markup.pages import from_pages
 from ..dialects.markup.printed import plainly_printed
@@ -56,7 +57,9 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     """
     known_fields(data)
     data = _of_one_text(data)
-    data = with_said_motions(plain_macros(plainly_printed(without_ticks(unwrapped(without_pointers(data))))))
+    data = with_said_motions(
+        plain_macros(plainly_printed(plain_environments(without_ticks(unwrapped(without_pointers(data))))))
+    )
     require_no_time(data)
     data = with_phases(data)
     spelled = _spelled(data)

@@ -17,6 +17,11 @@ from ..table import known_of
 
 SPACED = re.compile(r"(?<![A-Za-z\\])(?:c\s+o\s+s|s\s+i\s+n|t\s+a\s+n)(?=\s*[({\\])")
 _END = r"(?:\s|\\[,;:! ]|[.,;$`])*(?:$|\\\\|\\end|\\\]|\\\)|\n|\$|\}\s*$)"
+# Sine and tangent in Spanish, Italian, Portuguese, French, German and Russian
+SINE = re.compile(
+    r"\\(?:operatorname|mathrm|text|textrm|mathop|rm|mathsf)\*?\s*\{\s*(?:\\mathrm\s*\{\s*)?(?P<a>sen|sin|cos|tg|tan)\s*(?:\}\s*)?\}|\\(?P<b>sen|tg|Sin|Cos|Tan)(?![A-Za-z])|(?<![\w\\.])(?P<c>sen|tg|Sen)(?=\s*(?:[²^]?\d?\s*[(]|[²\s]?\s?[θϑφϕψα]))"
+)
+NAMES = {"sen": "sin", "Sen": "sin", "tg": "tan", "Sin": "sin", "Cos": "cos", "Tan": "tan"}
 EMPHASIS = re.compile(rf"(?P<before>=(?:\s|\\[,;:! ]|&)*0)(?:\s|\\[,;:! ]){{0,3}}!(?P<behind>{_END})")
 MUST = re.compile(
     r"\\(?:overset|stackrel)\s*\{\s*(?:!|\?|\\text\s*\{\s*!\s*\}|\\mathrm\s*\{\s*def\.?\s*\}|\\text\s*\{\s*def\.?\s*\}|def)\s*\}\s*(?:\{\s*=\s*\}|=)|\\(?:eqdef|stackeq)(?![A-Za-z])"
@@ -80,12 +85,18 @@ def plainly_printed(data: dict[str, Any]) -> dict[str, Any]:
 def _plain(text: str) -> str:
     text = SPACED.sub(lambda m: re.sub(r"\s", "", m[0]) + " ", text)
     text = EMPHASIS.sub(lambda m: m["before"] + m["behind"], MUST.sub(" = ", text))
+    text = SINE.sub(_wave, text)
     if "\\" in text:
         text = MARK.sub(lambda m: m["start"] + m["blank"], text)
         text = TURNED.sub(_turned, ROW.sub(_row, text))
     for pattern in BY_TIME:
         text = pattern.sub(_twice, text)
     return text
+
+
+def _wave(found: re.Match[str]) -> str:
+    name = next(x for x in (found["a"], found["b"], found["c"]) if x)
+    return ("" if found["c"] else "\\") + NAMES.get(name, name) + ("" if found["b"] or found["c"] else " ")
 
 
 def _twice(found: re.Match[str]) -> str:

@@ -10,9 +10,11 @@ from typing import Any
 
 from ..letters.every_text import everywhere
 from ..statements import is_program
-from .comments import uncommented
-from .drawn import from_drawn
-from .elements import without_elements
+from .around.comments import uncommented
+from .around.drawn import from_drawn
+from .around.elements import without_elements
+from .around.sites import from_sites
+from .own_macros import with_own_macros
 from .prose import BRACED, is_whole
 from .typst_text import typst_text
 
@@ -41,9 +43,10 @@ def unwrapped(data: dict[str, Any]) -> dict[str, Any]:
 
 
 def _unwrapped(text: str) -> str:
-    text = without_elements(uncommented(text))
+    text = uncommented(text)
     if is_program(text):
         return text
+    text = with_own_macros(from_sites(without_elements(text)))
     text = typst_text(from_drawn(text))
     text = TAGS.sub(lambda m: _display(m["a"] or m["b"] or ""), text)
     if ".. math::" in text:

@@ -65,7 +65,9 @@ def energy(kind: str, statements: Sequence[Statement], names: Names) -> Energy:
             found.steps += [(side, sides[-1]) for side in sides[:-1] if _is_step(side, names, set(values))]
         elif re.fullmatch(r"[xyXY][1-9]?", name) and len(sides) == 1:
             found.positions[name] = sides[0]
-        elif not _only_names(name, sides, names, set(values)) and not all(is_abbreviation(x, names) for x in sides):
+        elif not _only_names(name, sides, names, set(values)) and not all(
+            is_abbreviation(name, x, names) for x in sides
+        ):
             raise InvalidInput(f"{written[:30]} = … is said, and the {kind} does not need it: leave it out, or give it in a "
                                "field of its own (positions, kinetic, potential)")  # fmt: skip
     found.steps += [(side, found.value) for side in said[:-1] if _is_step(side, names, set(values))]

@@ -26,7 +26,7 @@ WORDY = {"sin", "cos", "tan", "sgn", "sign", "abs", "sqrt", "d", "t", "g", "pi",
          "dot", "ddot", "cdot", "times", "begin", "end", "inv", "T", "top", "e", "partial", "big", "over"}  # fmt: skip
 USED = re.compile(rf"\\(?P<command>[A-Za-z]+)(?P<i>{_INDEX})|(?P<word>[A-Za-z]|[{''.join(GLYPHS)}])(?P<j>{_INDEX})")
 WAVE = re.compile(r"(?<![A-Za-z\\])(?:sin|cos|tan)(?![A-Za-z])")
-OF_WAVE = re.compile(r"^\s*\\?(?:sin|cos)(?![A-Za-z])\s*(?P<inner>[^^]*)$")
+OF_WAVE = re.compile(r"^\s*\\?(?P<of>sin|cos)(?![A-Za-z])\s*(?P<inner>[^^]*)$")
 ENVIRONMENT = re.compile(r"\\(?:begin|end)\s*\{\w+\*?\}(?:\{[clr|]*\})?")
 
 
@@ -65,13 +65,18 @@ def alone(side: str) -> str | None:
     return plain_name(found["name"]) if found else None
 
 
-def is_abbreviation(side: str, names: Names) -> bool:
-    r"""Whether a side is a sum of coordinates, or the sine or cosine of one: what a letter for it is cannot be wrong."""
+def is_abbreviation(name: str, side: str, names: Names) -> bool:
+    r"""Whether a side is a sum of coordinates, or the sine or cosine of one, and its name is of these: c_1 = cos θ_1."""
     found = OF_WAVE.match(side)
     inner = re.sub(r"\\(?:left|right|[,;:! ])|[()\s{}]", " ", found["inner"] if found else side)
     inner = re.sub(r"_ (\w{1,4}) ", r"_{\1}", inner)
-    parts = [plain_name(part.strip()) for part in re.split(r"[+−-]", inner) if part.strip()]
-    return bool(parts) and all(part in names.coordinates for part in parts) and (found is not None or len(parts) > 1)
+    parts = [plain_name(part.strip()) or "" for part in re.split(r"[+−-]", inner) if part.strip()]
+    if not parts or not all(part in names.coordinates for part in parts) or (found is None and len(parts) < 2):
+        return False
+    if found and name[0].lower() in "sc" and name[0].lower() != found["of"][0]:
+        return False
+    figures = [re.sub("[^0-9]", "", x) for x in ("".join(parts), "".join(parts[::-1]), name)]
+    return figures[2] in ("", *figures[:2])
 
 
 def written_alone(side: str) -> str:

@@ -114,7 +114,7 @@ class _Sorter:
         for name, (written, sides) in self.values.items():
             if name in needed | below:
                 self.found.defined[written] = sides[-1]
-            elif name not in stages and not all(is_abbreviation(side, self.names) for side in sides):
+            elif name not in stages and not all(is_abbreviation(name, side, self.names) for side in sides):
                 raise InvalidInput(
                     f"{written[:30]} = … is said, and no equation needs it: leave it out, or give it in a field of its "
                     "own (positions, kinetic, potential, lagrangian)"

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from unicodedata import combining
 
 LEFT, RIGHT = "[⎡⎢⎣⎛⎜⎝", "]⎤⎥⎦⎞⎟⎠"
-PIECE = re.compile(rf"[{re.escape(LEFT)}](?P<inner>[^{re.escape(LEFT + RIGHT)}=,;\\]*)[{re.escape(RIGHT)}]")
+PIECE = re.compile(rf"[{re.escape(LEFT)}](?P<inner>[^{re.escape(LEFT + RIGHT)}=;\\]*)[{re.escape(RIGHT)}]")
 GAP = re.compile(r"[ \t\u00a0]{2,}|\t")
-BLANK = re.compile(r"[ \t]*")
+COMMA = re.compile(",")
 MOST_LINES, MOST_COLUMNS = 60, 8
 
 
@@ -76,7 +76,8 @@ def _matrix(rows: list[str]) -> str | None:
     rows = [row for row in rows if row]  # between two rows a blank one is drawn
     if not rows:
         return None
-    wide = [[entry.strip() for entry in GAP.split(row)] for row in rows]
+    separator = COMMA if any("," in row for row in rows) else GAP
+    wide = [[entry.strip() for entry in separator.split(row)] for row in rows]
     if len({len(row) for row in wide}) != 1 or len(wide[0]) > MOST_COLUMNS:
         return None
     if any(not entry or entry[0] in "+*/·=" or entry[-1] in "+-−*/·=" for row in wide for entry in row):

@@ -1,0 +1,91 @@
+# ruff: noqa: E501 -- patterns stand on one line
+r"""How sites and their markups mark LaTeX: <math> of a wiki, [latexmath], ```{math}, [tex], images whose address is a formula."""
+
+from __future__ import annotations
+
+import re
+from urllib.parse import unquote
+
+_LATEX = r"(?=[^<]*[\\^_=])"
+WIKI = re.compile(
+    rf"<(?P<of>math|latex|tex|m|me|men|md|mrow|equation)(?![a-z])(?P<how>[^<>]{{0,60}})>{_LATEX}(?P<inner>[^<]*)</(?P=of)>",
+    re.IGNORECASE,
+)
+TEMPLATE = re.compile(
+    r"\{\{\s*(?:NumBlk|EquationRef|EqnRef|Equation box 1|bi|math|equation)\s*\|[^{}$]{0,40}?(?=\$)|(?<=\$)\s*\|[^{}$]{0,60}\}\}",
+    re.IGNORECASE,
+)
+INDENT = re.compile(r"(?m)^[ \t]*[:;*]+[ \t]*(?=\$)")
+TAGS = re.compile(
+    r"\[(?P<of>tex|latex|math|katex|itex|mathjax|equation|displaymath)\](?P<inner>.*?)\[/(?P=of)\]|\$latex\s(?P<wp>[^$]+?)\$|\$\$latex\s(?P<wps>[^$]+?)\$\$|\[;(?P<reddit>.+?);\]",
+    re.DOTALL | re.IGNORECASE,
+)
+# AsciiDoc: a block between lines of plus signs, and latexmath:[…] in a sentence
+BLOCK = re.compile(
+    r"(?m)^(?:\.[^\n.][^\n]{0,80}\n)?(?:\[\[[\w:.-]{1,40}\]\]\n)?\[(?P<of>latexmath|asciimath|stem)[^\]\n]{0,60}\][ \t]*\n(?:\.[^\n.][^\n]{0,80}\n)?\+{4}[ \t]*\n(?P<inner>.*?)\n\+{4}[ \t]*$",
+    re.DOTALL,
+)
+SENTENCE = re.compile(r"\b(?:latexmath|stem):\[(?P<inner>(?:\\\]|[^\[\]]|\[[^\[\]]*\])*)\]")
+# MyST and its kin: a directive in a fence, with options
+FENCED = re.compile(
+    r"(?m)^[ \t]*(?P<mark>`{3,}|:{3,}|~{3,})[ \t]*\{(?:math|amsmath|eq|equation)\}[^\n]*\n(?P<inner>.*?)^[ \t]*(?P=mark)[ \t]*$",
+    re.DOTALL,
+)
+OPTION = re.compile(r"(?m)^[ \t]*:[a-z]{2,12}:[^\n]*$|\A---\n.*?\n---\n", re.DOTALL)
+ROLE = re.compile(r"\{math\}`(?P<inner>[^`$]{1,300})`")
+# Behind a display: (eq:pendulum) of MyST, {#eq-pendulum} of Quarto, {: .eq} of kramdown, ^block of Obsidian
+LABEL = re.compile(
+    r"(?<=\$\$)[ \t]*(?:\((?:eq[\w:.-]*|[a-z]+[:_-][\w:.-]*)\)|\n?[ \t]*\{[:#.][^{}\n]{0,60}\}|[ \t]\^[\w-]{1,40})[ \t]*(?=\n|$)"
+)
+ORG = re.compile(
+    r"(?mi)^[ \t]*(?:#\+(?:begin|end)_(?:src|export|latex|example)[^\n]*|#\+(?:name|caption|attr_\w+|label|latex_\w+|title|author|options|results|header):[^\n]*)$"
+)
+CODECOGS = re.compile(
+    r"(?:!\[[^\[\]]{0,300}\]\(\s*|<img[^<>]*?\ssrc=[\"']?)https?://[\w.]*(?:codecogs\.com/\w+(?:\.latex)?\?|render\.githubusercontent\.com/render/math\?math=|math\.now\.sh\?from=|i\.upmath\.me/svg/|chart\.(?:googleapis|apis\.google)\.com/chart\?cht=tx&chl=|tex\.s2cms\.(?:ru|com)/svg/|www\.sciweavers\.org/tex2img\.php\?eq=)(?P<inner>[^\n\"'<>]{3,4000}?)(?:(?<!\\right)\)[ \t]*(?=\n|$)|[\"'][^<>]*>|>)"
+)
+LOOKS = re.compile(
+    r"^(?:\\(?:dpi|bg_\w+|fg_\w+|inline|large|Large|LARGE|huge|small|color)(?:\s*\{[^{}]{0,20}\})?|\s|&space;|\\space)+"
+)
+ALTERNATIVE = re.compile(r"!\[(?P<inner>[^\[\]\n]*\\[^\[\]\n]*=[^\[\]\n]*)\]\([^()\n]{0,400}\)")
+
+
+def from_sites(text: str) -> str:
+    """The text with displays and formulas of Markdown in place of these; any other text as it is."""
+    text = CODECOGS.sub(_of_address, text)
+    text = ALTERNATIVE.sub(lambda m: _display(m["inner"]), text)
+    if "<" in text and not re.search(r"<m(?:row|i|o|n|frac|sup|sub|over)\b", text):
+        text = WIKI.sub(_of_wiki, text)
+        text = INDENT.sub("", TEMPLATE.sub("", text))
+    text = TAGS.sub(lambda m: _display(next(m[k] for k in ("inner", "wp", "wps", "reddit") if m[k] is not None)), text)
+    text = BLOCK.sub(_of_block, text)
+    text = SENTENCE.sub(lambda m: f"${m['inner']}$", text)
+    text = FENCED.sub(lambda m: _display(OPTION.sub("", m["inner"])), text)
+    text = ROLE.sub(lambda m: f"${m['inner']}$", text)
+    text = LABEL.sub("", text)
+    return ORG.sub("", text) if "#+" in text else text
+
+
+def _of_wiki(found: re.Match[str]) -> str:
+    inner = found["inner"].replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&").replace("&nbsp;", " ")
+    return _display(inner)
+
+
+def _of_block(found: re.Match[str]) -> str:
+    inner = found["inner"].strip()
+    if found["of"] == "latexmath" or "\\" in inner:
+        return _display(inner)
+    return "\n" + "\n".join(f"`{line.strip()}`" for line in inner.split("\n") if line.strip()) + "\n"
+
+
+def _of_address(found: re.Match[str]) -> str:
+    inner = unquote(
+        found["inner"].replace("&space;", " ").replace("+", "%2B") if "%" not in found["inner"] else found["inner"]
+    )
+    inner = inner.replace("&space;", " ").replace("&plus;", "+").replace("&amp;", "&")
+    return _display(LOOKS.sub("", inner))
+
+
+def _display(inner: str) -> str:
+    inner = inner.strip()
+    displayed = re.match(r"\$|\\\[|\\begin\s*\{(?:equation|align|gather|eqnarray|multline)", inner)
+    return f"\n{inner}\n" if displayed else f"\n$${inner}$$\n"
