@@ -22,6 +22,11 @@ SINE = re.compile(
     r"\\(?:operatorname|mathrm|text|textrm|mathop|rm|mathsf)\*?\s*\{\s*(?:\\mathrm\s*\{\s*)?(?P<a>sen|sin|cos|tg|tan)\s*(?:\}\s*)?\}|\\(?P<b>sen|tg|Sin|Cos|Tan)(?![A-Za-z])|(?<![\w\\.])(?P<c>sen|tg|Sen)(?=\s*(?:[²^]?\d?\s*[(]|[²\s]?\s?[θϑφϕψα]))"
 )
 NAMES = {"sen": "sin", "Sen": "sin", "tg": "tan", "Sin": "sin", "Cos": "cos", "Tan": "tan"}
+OF_TIME = re.compile(r"\{\s*\\left\s*\(\s*t\s*\\right\s*\)\s*\}")
+# Newton's law as a head, \sum M_O = J\ddot\theta: …
+LAW = re.compile(
+    r"(?P<start>^|\n|\$|\\\[|\\\\|\\begin\s*\{(?:equation|align|gather|aligned|gathered|split)\*?\})(?P<blank>(?:\s|&|\\[,;:! ])*)(?:\\sum|∑|Σ)\s*(?:\\(?:vec|mathbf|bm)\s*)?\{?[FMTNQ]\}?(?:\s*_\s*(?:\{[^{}=:]{1,12}\}|\w))?\s*(?:=\s*&?\s*[mMJIΘ](?:_\s*(?:\{\w{1,6}\}|\w))?\s*(?:\\,)?\s*(?:\\d?dot\s*\{?\s*(?:\\[a-z]+|[a-z])\s*\}?|\\alpha|a)(?:_\s*(?:\{\w{1,6}\}|\w))?\s*)?[:：](?!=)(?:\s|&|\\[,;:! ]|\\q?quad(?![A-Za-z]))*(?=[^=]*=)"
+)
 EMPHASIS = re.compile(rf"(?P<before>=(?:\s|\\[,;:! ]|&)*0)(?:\s|\\[,;:! ]){{0,3}}!(?P<behind>{_END})")
 MUST = re.compile(
     r"\\(?:overset|stackrel)\s*\{\s*(?:!|\?|\\text\s*\{\s*!\s*\}|\\mathrm\s*\{\s*def\.?\s*\}|\\text\s*\{\s*def\.?\s*\}|def)\s*\}\s*(?:\{\s*=\s*\}|=)|\\(?:eqdef|stackeq)(?![A-Za-z])"
@@ -87,6 +92,7 @@ def _plain(text: str) -> str:
     text = EMPHASIS.sub(lambda m: m["before"] + m["behind"], MUST.sub(" = ", text))
     text = SINE.sub(_wave, text)
     if "\\" in text:
+        text = LAW.sub(lambda m: m["start"] + m["blank"], OF_TIME.sub("(t)", text))
         text = MARK.sub(lambda m: m["start"] + m["blank"], text)
         text = TURNED.sub(_turned, ROW.sub(_row, text))
     for pattern in BY_TIME:

@@ -14,6 +14,7 @@ from .around.comments import uncommented
 from .around.drawn import from_drawn
 from .around.elements import without_elements
 from .around.sites import from_sites
+from .around.strings import from_strings
 from .own_macros import with_own_macros
 from .prose import BRACED, is_whole
 from .typst_text import typst_text
@@ -43,7 +44,7 @@ def unwrapped(data: dict[str, Any]) -> dict[str, Any]:
 
 
 def _unwrapped(text: str) -> str:
-    text = uncommented(text)
+    text = uncommented(from_strings(text))
     if is_program(text):
         return text
     text = with_own_macros(from_sites(without_elements(text)))

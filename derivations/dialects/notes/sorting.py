@@ -169,7 +169,7 @@ def _is_derived(sides: Statement, values: Values, found: Sorted) -> bool:
 
 
 STAGES = (
-    ("positions", re.compile(r"[xyXY][1-9]?")), ("velocities", re.compile(r"v[1-9]?")),
+    ("positions", re.compile(r"[xyXY][1-8]?")), ("velocities", re.compile(r"v[1-9]?")),
     ("kinetic", re.compile(r"T|K|Ek|Ekin|KE|Ttot|Ec")), ("potential", re.compile(r"V|U|Ep|Epot|PE")), ("lagrangian", re.compile(r"L")),
 )  # fmt: skip
 

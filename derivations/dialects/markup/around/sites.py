@@ -11,6 +11,11 @@ WIKI = re.compile(
     rf"<(?P<of>math|latex|tex|m|me|men|md|mrow|equation)(?![a-z])(?P<how>[^<>]{{0,60}})>{_LATEX}(?P<inner>[^<]*)</(?P=of)>",
     re.IGNORECASE,
 )
+SCRIPT = re.compile(
+    r"<script\s+type=[\"']math/tex(?P<how>[^\"'<>]{0,30})[\"']\s*>(?P<inner>.*?)</script>", re.DOTALL | re.IGNORECASE
+)
+# Markdown takes one backslash of \\\\[ … \\\\] away
+ESCAPED = re.compile(r"(?<!\\)\\\\(?P<of>[\[(])(?P<inner>(?:(?!\\\\[\[(]).)+?)(?<!\\)\\\\[\])]", re.DOTALL)
 TEMPLATE = re.compile(
     r"\{\{\s*(?:NumBlk|EquationRef|EqnRef|Equation box 1|bi|math|equation)\s*\|[^{}$]{0,40}?(?=\$)|(?<=\$)\s*\|[^{}$]{0,60}\}\}",
     re.IGNORECASE,
@@ -56,6 +61,8 @@ def from_sites(text: str) -> str:
     if "<" in text and not re.search(r"<m(?:row|i|o|n|frac|sup|sub|over)\b", text):
         text = WIKI.sub(_of_wiki, text)
         text = INDENT.sub("", TEMPLATE.sub("", text))
+    text = SCRIPT.sub(lambda m: _display(m["inner"]), text)
+    text = ESCAPED.sub(_of_escaped, text)
     text = TAGS.sub(lambda m: _display(next(m[k] for k in ("inner", "wp", "wps", "reddit") if m[k] is not None)), text)
     text = BLOCK.sub(_of_block, text)
     text = SENTENCE.sub(lambda m: f"${m['inner']}$", text)
@@ -63,6 +70,15 @@ def from_sites(text: str) -> str:
     text = ROLE.sub(lambda m: f"${m['inner']}$", text)
     text = LABEL.sub("", text)
     return ORG.sub("", text) if "#+" in text else text
+
+
+def _of_escaped(found: re.Match[str]) -> str:
+    inner = found["inner"]
+    if found["of"] == "[" and re.match(r"\s*-?[\d.]+\s*(?:pt|em|ex|mm|cm|in|baselineskip)", inner):
+        return found[0]  # a row's end, \\\\[4pt]
+    if found["of"] == "(":
+        return f"${inner}$"
+    return _display(inner.replace("\\\\\\\\", "\\\\"))
 
 
 def _of_wiki(found: re.Match[str]) -> str:
