@@ -14,6 +14,7 @@ from ..letters.every_text import everywhere
 from ..names import GLYPHS, GREEK, plain_name
 from ..statements import is_program
 from ..table import known_of
+from .time_indices import in_indices
 
 SPACED = re.compile(r"(?<![A-Za-z\\])(?:c\s+o\s+s|s\s+i\s+n|t\s+a\s+n)(?=\s*[({\\])")
 _END = r"(?:\s|\\[,;:! ]|[.,;$`])*(?:$|\\\\|\\end|\\\]|\\\)|\n|\$|\}\s*$)"
@@ -70,6 +71,11 @@ ENTRY = re.compile(
 LISTED = re.compile(r"(?<=[\w}])\s*(?:\\left\s*)?\((?P<inner>[^()=+*/^]{3,200})\)")
 
 
+OVER = re.compile(
+    r"\{(?P<top>(?:[^{}]|\{(?:[^{}]|\{[^{}]*\})*\})*?)\\over(?![A-Za-z])(?P<below>(?:[^{}]|\{(?:[^{}]|\{[^{}]*\})*\})*)\}"
+)
+
+
 def plainly_printed(data: dict[str, Any]) -> dict[str, Any]:
     """The fields without these; programs stay."""
     known = known_of(data)
@@ -81,7 +87,7 @@ def plainly_printed(data: dict[str, Any]) -> dict[str, Any]:
     def one(text: str) -> str:
         if is_program(text):
             return text
-        text = ARGUMENT.sub(noted, _plain(text))
+        text = ARGUMENT.sub(noted, in_indices(_plain(text), known.coordinates, names))
         return LISTED.sub(lambda m: " " if _depends(m["inner"], known.coordinates) else m[0], text)
 
     return everywhere(data, one)
@@ -94,6 +100,10 @@ def _plain(text: str) -> str:
     if "\\" in text:
         text = LAW.sub(lambda m: m["start"] + m["blank"], OF_TIME.sub("(t)", text))
         text = MARK.sub(lambda m: m["start"] + m["blank"], text)
+        for _ in range(40):
+            text, count = OVER.subn(lambda m: f"\\frac{{{m['top'].strip()}}}{{{m['below'].strip()}}}", text)
+            if not count:
+                break
         text = TURNED.sub(_turned, ROW.sub(_row, text))
     for pattern in BY_TIME:
         text = pattern.sub(_twice, text)

@@ -16,6 +16,8 @@ from .states import entries
 ENTRY = re.compile(r"(?P<letter>[A-Za-z])(?P<index>[1-9]{1,2})")
 LITERAL = re.compile(r"\s*(?:\\left\s*)?(?:\[|\\begin\s*\{[pbB]?(?:small)?matrix\})")
 MOTION = re.compile(r"\\ddot")
+RATE = re.compile(r"\\dot|[\u0307\u0308']")
+VECTOR = re.compile(r"[rpPRA](?P<k>[1-8])")
 POINT = re.compile(r"[xyzXYZ]\w{0,3}")
 AS_BRACES = str.maketrans("([)]", "{{}}")
 BRACKETED = re.compile(r"^\s*(?:\\left\s*)?[(\[](?P<inner>.*?)(?:\\right\s*)?[)\]]\s*$", re.DOTALL)
@@ -77,7 +79,24 @@ def with_columns_apart(statements: Sequence[Statement], names: Names) -> list[St
 
 def with_points(statements: Sequence[Statement], names: Names) -> list[Statement]:
     """The statements with x_1 = … and y_1 = … for A_1 = (x_1, y_1) = (…, …)."""
-    return [one for sides in statements for one in _of_point(sides, names)]
+    first = {alone(sides[0]) for sides in statements}
+    made = [_of_vector(sides, first, names) or [sides] for sides in statements]
+    points = [name for sides, new in zip(statements, made, strict=True) if len(new) > 1 and (name := alone(sides[0]))]
+    texts = [side for new in made for sides in new for side in sides]
+    if any(uses(name, texts) for name in points):
+        made = [[sides] for sides in statements]
+    return [one for new in made for sides in new for one in _of_point(sides, names)]
+
+
+def _of_vector(sides: Statement, first: set[str | None], names: Names) -> list[Statement]:
+    r"""x_1 = … and y_1 = … for \vec r_1 = (…, …), where nothing else says them."""
+    found = VECTOR.fullmatch(alone(sides[0]) or "") if len(sides) == 2 else None
+    listed = _listed(sides[1]) if found and found[0] not in names.all and not MOTION.search(sides[1]) else []
+    if found is None or len(listed) != 2 or RATE.search(sides[1]):
+        return []
+    new = [(f"{x}_{{{found['k']}}}", value) for x, value in zip("xy", listed, strict=True)]
+    taken = first | names.all
+    return [] if any(alone(name) in taken for name, _ in new) else list(new)
 
 
 def _of_point(sides: Statement, names: Names) -> list[Statement]:

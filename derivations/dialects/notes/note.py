@@ -38,6 +38,7 @@ WORDED = re.compile(
     r"\$|\\[\[(]|```|(?<![^\W\d_])[^\W\d_]{3,40} [^\W\d_]{2,40} [^\W\d_]{2}|[\u3040-\u30ff\u4e00-\u9fff]{3}|(?<![\w)\]'])\*\*"
 )
 
+JOINED = re.compile(r"(?<!\\)\\\\(?=[A-Za-z])")  # a row's end at once before a letter
 DIFFERENCE = re.compile(
     r"(?:\\Delta|Δ|∆)\s*(?P<x>\\(?:var)?(?:theta|phi)(?![A-Za-z])|\\psi(?![A-Za-z])|[θϑφϕψ])(?:\s*_\s*(?:\{\s*(?P<i>\w{1,4})\s*\}|(?P<j>\w)))?"
 )
@@ -99,7 +100,7 @@ def is_fit_table(data: Mapping[str, Any]) -> bool:
 
 
 def _statements(text: str, names: Names) -> list[Statement]:
-    text = _with_differences(text.translate(FULL_WIDTH), names)
+    text = JOINED.sub(lambda m: f"{m[0]} ", _with_differences(text.translate(FULL_WIDTH), names))
     text = apart(index_first(plain_derivatives(text)), names)
     found: list[Statement] = []
     for formula in formulas_of(with_bold_apart(with_accents(text), names)):
@@ -120,7 +121,7 @@ def _is_said(sides: Statement, names: Names) -> bool:
     if len(sides) < 2 or ("\\sum" in sides[0] and is_abstract(sides, set(), names)):
         return False
     name, value = alone(sides[0]), sides[-1].strip()
-    if name is None or name not in names.all:
+    if name is None or name not in names.all or (name in names.quantities and ACCELERATION.search(value)):
         return True
     if name in names.coordinates:
         raise InvalidInput(f"{' = '.join(sides).strip()[:40]}: a sentence says what a coordinate is; is that part of the "
