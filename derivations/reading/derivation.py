@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from typing import Any
+from unicodedata import normalize
 
 from ...models.errors import InvalidInput
 from ..dialects.blocks import rows_of_blocks
@@ -174,10 +175,11 @@ def _meant(data: dict[str, Any], constants: list[str], count: int, slashes: int)
 def _with_positions(data: dict[str, Any]) -> dict[str, Any]:
     """The fields with the positions as definitions, where an energy is written in these."""
     positions, define = data.get("positions"), data.get("define", {})
-    energies = [data[name] for name in ("kinetic", "potential", "lagrangian") if isinstance(data.get(name), str)]
+    energies = [normalize("NFD", data[name]) for name in ("kinetic", "potential", "lagrangian")
+                if isinstance(data.get(name), str)]  # fmt: skip
     if not isinstance(positions, dict) or not isinstance(define, dict) or len(positions) > MOST_POSITIONS:
         return data
-    if not any(re.search(rf"(?<![A-Za-z\\\\]){name[:1]}\s*\}}?\s*_?\{{?[0-9a-z]", text) for name in map(str, positions)
+    if not any(re.search(rf"(?<![A-Za-z\\\\]){name[:1]}[\u0307\u0308]?\s*\}}?\s*_?\{{?[0-9a-z₀-₉]", text) for name in map(str, positions)
                if name[:1] in "xy" for text in energies):  # fmt: skip
         return data
     return data | {"define": {**define, **positions}}

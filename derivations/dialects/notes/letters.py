@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
+from unicodedata import normalize
 
 from ..given_names import ACCENT, OVER
 from ..names import GLYPHS, GREEK, LOWS, base_word, plain_name, spelling
@@ -26,6 +27,7 @@ WORDY = {"sin", "cos", "tan", "sgn", "sign", "abs", "sqrt", "d", "t", "g", "pi",
          "dot", "ddot", "cdot", "times", "begin", "end", "inv", "T", "top", "e", "partial", "big", "over"}  # fmt: skip
 USED = re.compile(rf"\\(?P<command>[A-Za-z]+)(?P<i>{_INDEX})|(?P<word>[A-Za-z]|[{''.join(GLYPHS)}])(?P<j>{_INDEX})")
 WAVE = re.compile(r"(?<![A-Za-z\\])(?:sin|cos|tan)(?![A-Za-z])")
+DOTS = re.compile("[\u0307\u0308]")  # above a letter, ẋ_1
 OF_WAVE = re.compile(r"^\s*\\?(?P<of>sin|cos)(?![A-Za-z])\s*(?P<inner>[^^]*)$")
 ENVIRONMENT = re.compile(r"\\(?:begin|end)\s*\{\w+\*?\}(?:\{[clr|]*\})?")
 
@@ -122,7 +124,7 @@ def spelled(name: str) -> str:
 def uses(name: str, texts: Iterable[str]) -> bool:
     """Whether a plain name stands in one of these texts."""
     pattern = re.compile(rf"(?<![A-Za-z\\]){spelling(name).pattern}|(?<=[A-Za-z]){spelling(name).pattern}")
-    return any(pattern.search(unfonted(text)) for text in texts)
+    return any(pattern.search(DOTS.sub("", normalize("NFD", unfonted(text)))) for text in texts)
 
 
 def with_accents(text: str) -> str:
