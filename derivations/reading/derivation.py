@@ -179,8 +179,9 @@ def _with_positions(data: dict[str, Any]) -> dict[str, Any]:
                 if isinstance(data.get(name), str)]  # fmt: skip
     if not isinstance(positions, dict) or not isinstance(define, dict) or len(positions) > MOST_POSITIONS:
         return data
-    if not any(re.search(rf"(?<![A-Za-z\\\\]){name[:1]}[\u0307\u0308]?\s*\}}?\s*_?\{{?[0-9a-z₀-₉]", text) for name in map(str, positions)
-               if name[:1] in "xy" for text in energies):  # fmt: skip
+    used = [re.compile(rf"(?<![A-Za-z\\]){x}[\u0307\u0308]?\s*\}}?\s*_?\{{?[0-9a-z₀-₉]") for x in "xy"
+            if any(str(name)[:1] == x for name in positions)]  # fmt: skip
+    if not any(pattern.search(text) for pattern in used for text in energies):
         return data
     return data | {"define": {**define, **positions}}
 

@@ -23,10 +23,14 @@ SINE = re.compile(
     r"\\(?:operatorname|mathrm|text|textrm|mathop|rm|mathsf)\*?\s*\{\s*(?:\\mathrm\s*\{\s*)?(?P<a>sen|sin|cos|tg|tan)\s*(?:\}\s*)?\}|\\(?P<b>sen|tg|Sin|Cos|Tan)(?![A-Za-z])|(?<![\w\\.])(?P<c>sen|tg|Sen)(?=\s*(?:[²^]?\d?\s*[(]|[²\s]?\s?[θϑφϕψα]))"
 )
 NAMES = {"sen": "sin", "Sen": "sin", "tg": "tan", "Sin": "sin", "Cos": "cos", "Tan": "tan"}
+ABOVE = re.compile("[\u0307\u0308]")
+CITED = re.compile(
+    r"~?\\(?:cite[a-zA-Z]*|autoref|cref|Cref|eqref|ref|nameref|footnotemark|pageref)\*?(?:\[[^\[\]]{0,60}\]){0,2}\{[^{}]{0,120}\}"
+)
 OF_TIME = re.compile(r"\{\s*\\left\s*\(\s*t\s*\\right\s*\)\s*\}")
 # Newton's law as a head, \sum M_O = J\ddot\theta: …
 LAW = re.compile(
-    r"(?P<start>^|\n|\$|\\\[|\\\\|\\begin\s*\{(?:equation|align|gather|aligned|gathered|split)\*?\})(?P<blank>(?:\s|&|\\[,;:! ])*)(?:\\sum|∑|Σ)\s*(?:\\(?:vec|mathbf|bm)\s*)?\{?[FMTNQ]\}?(?:\s*_\s*(?:\{[^{}=:]{1,12}\}|\w))?\s*(?:=\s*&?\s*[mMJIΘ](?:_\s*(?:\{\w{1,6}\}|\w))?\s*(?:\\,)?\s*(?:\\d?dot\s*\{?\s*(?:\\[a-z]+|[a-z])\s*\}?|\\alpha|a)(?:_\s*(?:\{\w{1,6}\}|\w))?\s*)?[:：](?!=)(?:\s|&|\\[,;:! ]|\\q?quad(?![A-Za-z]))*(?=[^=]*=)"
+    r"(?P<start>^|\n|\$|\\\[|\\\\|\\begin\s*\{(?:equation|align|gather|aligned|gathered|split)\*?\})(?P<blank>(?:\s|&|\\[,;:! ])*)(?:\\sum|∑|Σ)\s*(?:\\(?:vec|mathbf|bm)\s*)?\{?(?:[FMTNQ]|\\tau|τ|\\Gamma)\}?(?:\s*_\s*(?:\{[^{}=:]{1,12}\}|\w))?\s*(?:=\s*&?\s*[mMJIΘ](?:_\s*(?:\{\w{1,6}\}|\w))?\s*(?:\\,)?\s*(?:\\d?dot\s*\{?\s*(?:\\[a-z]+|[a-z])\s*\}?|\\alpha|a)(?:_\s*(?:\{\w{1,6}\}|\w))?\s*)?(?:[:：](?!=)|\\(?:implies|Rightarrow|Longrightarrow|Leftrightarrow|iff|to)(?![A-Za-z])|⇒|⟹)(?:\s|&|\\[,;:! ]|\\q?quad(?![A-Za-z]))*(?=[^=]*=)"
 )
 EMPHASIS = re.compile(rf"(?P<before>=(?:\s|\\[,;:! ]|&)*0)(?:\s|\\[,;:! ]){{0,3}}!(?P<behind>{_END})")
 MUST = re.compile(
@@ -65,10 +69,12 @@ _MATRIX = r"\\begin\s*\{(?P<of>[pbB]?(?:small)?matrix|array)\}(?:\s*\{[clr|@{}\s
 _T = r"(?:\\(?:top|intercal)(?![A-Za-z])|\\(?:mathrm|mathsf|text|textsf|mathit|mathbf)\s*\{\s*T\s*\}|\\(?:rm|sf|mathrm)\s+T(?![A-Za-z])|T(?![A-Za-z])|⊤)"
 _TURN = rf"\s*(?:\^\s*(?:\{{\s*(?:{_T}|t)\s*\}}|{_T})|ᵀ)"
 TURNED = re.compile(rf"(?:\\left\s*[(\[]\s*)?{_MATRIX}(?:\s*\\right\s*[)\]])?{_TURN}", re.DOTALL)
+_NAME = rf"(?:\\?[A-Za-z]+|[{''.join(GLYPHS)}])"
+_LOW_ANY = r"(?:_\s*(?:\{\s*\w{1,6}\s*\}|\w)|[₀-₉]{1,2})"
 ENTRY = re.compile(
-    r"\s*\\?(?P<dots>d{0,2}ot)?\s*\{?\s*(?P<x>\\?[A-Za-z]+(?:\s*_\s*(?:\{\s*\w{1,6}\s*\}|\w))?)\s*\}?\s*(?P<i>_\s*(?:\{\s*\w{1,6}\s*\}|\w))?\s*"
+    rf"\s*(?:\\d?dot)?\s*\{{?\s*(?P<x>{_NAME}[\u0307\u0308]{{0,2}}\s*{_LOW_ANY}?)\s*\}}?\s*(?P<i>{_LOW_ANY})?['′″]{{0,2}}\s*"
 )
-LISTED = re.compile(r"(?<=[\w}])\s*(?:\\left\s*)?\((?P<inner>[^()=+*/^]{3,200})\)")
+LISTED = re.compile(r"(?<=[\w}\u0307\u0308'])\s*(?:\\left\s*)?\((?P<inner>[^()=+*/^]{3,200})\)")
 
 
 OVER = re.compile(
@@ -98,6 +104,7 @@ def _plain(text: str) -> str:
     text = EMPHASIS.sub(lambda m: m["before"] + m["behind"], MUST.sub(" = ", text))
     text = SINE.sub(_wave, text)
     if "\\" in text:
+        text = CITED.sub(" ", text)
         text = LAW.sub(lambda m: m["start"] + m["blank"], OF_TIME.sub("(t)", text))
         text = MARK.sub(lambda m: m["start"] + m["blank"], text)
         for _ in range(40):
@@ -127,7 +134,7 @@ def _depends(inner: str, coordinates: Collection[str]) -> bool:
     """Whether a list in brackets has coordinates and their rates alone: what a quantity depends on, and no factor."""
     parts = re.split(r"[,;]", re.sub(r"\\(?:left|right|[,;:! ])", " ", inner))
     found = [ENTRY.fullmatch(part) for part in parts]
-    names = [plain_name(m["x"] + (m["i"] or "")) for m in found if m]
+    names = [plain_name(ABOVE.sub("", m["x"]) + (m["i"] or "")) for m in found if m]
     return len(parts) > 1 and all(found) and all(x in coordinates or (x == "t" and "\\" in inner) for x in names)
 
 

@@ -14,7 +14,7 @@ from .around.comments import uncommented
 from .around.drawn import from_drawn
 from .around.elements import without_elements
 from .around.sites import from_sites
-from .around.strings import from_strings
+from .around.strings import from_strings, undoubled
 from .own_macros import with_own_macros
 from .prose import BRACED, is_whole
 from .typst_text import typst_text
@@ -35,6 +35,9 @@ DISPLAYED = re.compile(r"\$|\\\[|\\begin\s*\{(?:equation|align|gather|eqnarray|m
 FENCED = re.compile(r"(?m)^[ \t]*(?:```|~~~)")
 # A line in backticks, as an item of a list or alone
 TICKED = re.compile(r"(?m)^[ \t]*(?:[-*+][ \t]+|\d{1,2}[.)][ \t]+)?`(?P<inner>[^`\n]{1,400})`[ \t]*[.,;]?[ \t]*$")
+# Formulas in backticks within a sentence
+TICKS = re.compile(r"(?<!`)`(?P<inner>[^`\n=]{1,200}=[^`\n=]{1,400})`(?!`)[.,;]?")
+WORDED = re.compile(r"[^\W\d_]{2,}\s+[^\W\d_]{2,}")
 ESCAPED = re.compile(r"(?<!\\)\\_")  # an index of LaTeX that Markdown would take for italics
 
 
@@ -47,7 +50,7 @@ def _unwrapped(text: str) -> str:
     text = uncommented(from_strings(text))
     if is_program(text):
         return text
-    text = with_own_macros(from_sites(without_elements(text)))
+    text = with_own_macros(from_sites(undoubled(without_elements(text))))
     text = typst_text(from_drawn(text))
     text = TAGS.sub(lambda m: _display(m["a"] or m["b"] or ""), text)
     if ".. math::" in text:
@@ -55,6 +58,8 @@ def _unwrapped(text: str) -> str:
     text = ROLE.sub(lambda m: f"${m['inner']}$", text)
     if FENCED.search(text):  # beside formulas in fences, a line in backticks is one more
         text = TICKED.sub(lambda m: m["inner"], text)
+    elif not re.search(r"[$\\]|ddot", text) and WORDED.search(TICKS.sub(" ", text)):
+        text = TICKS.sub(lambda m: f"\n{m['inner']}\n", text)
     lines = [line for line in text.split("\n") if line.strip()]
     braced = [BRACED.match(line) for line in lines]
     if len(lines) > 1 and all(m and is_whole(m["inner"]) for m in braced):

@@ -76,7 +76,10 @@ def statements_of(formula: str) -> list[Statement]:
 def has_arrow(formula: str) -> bool:
     """Whether an arrow stands between two equations of one row."""
     rows = _rows(_bare(formula))
-    return any(len([part for part in cut(row, LEADS) if _equals(part)]) > 1 for row in rows)
+    # a law, of derivatives of the Lagrangian, is no premise: whether it is one is asked where it is read
+    return any(
+        len([p for p in cut(row, LEADS) if _equals(p) and "partial" not in p and "∂" not in p]) > 1 for row in rows
+    )
 
 
 def _bare(text: str) -> str:
@@ -91,7 +94,8 @@ def _bare(text: str) -> str:
             break
         text = made
     text = re.sub(
-        r"\\overrightarrow\s*\{[^{}]{1,12}(?:\{[^{}]{1,8}\})?[^{}]{0,4}\}\s*=\s*(?=\s*⁑)|\\vec\s*\{[^{}]{1,12}\}(?:_\w|_\{\w+\})?\s*=\s*(?=\s*⁑)",
+        r"\\overrightarrow\s*\{[^{}]{1,12}(?:\{[^{}]{1,8}\})?[^{}]{0,4}\}\s*=\s*(?=\s*⁑)|\\vec\s*\{[^{}]{1,12}\}(?:_\w|_\{\w+\})?\s*=\s*(?=\s*⁑)"
+        r"|(?:^|(?<=\n))\s*(?:\\d?dot\s*\{?\s*)?\{?\s*(?:\\(?:mathbf|boldsymbol|bm|vec|mathrm|underline)\s*\{?\s*)?[A-Za-z](?:_\w|_\{\w+\})?[\s}]{0,4}(?:\(t\)\s*)?&?\s*:?=\s*(?=\s*⁑)",
         " ",
         text,
     )

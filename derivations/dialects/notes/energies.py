@@ -162,7 +162,9 @@ def _of_speeds(side: str, names: Names) -> bool:
     half = r"(?:\\[dt]?frac\{?1\}?\{?2\}?|½|1/2|\(1/2\)|\{1\\over2\})"
     bare = re.sub(r"\\left|\\right|\\[,;:! ]|\\cdot|·|\*|\s", "", unfonted(side))
     masses = "|".join(spelling(q).pattern for q in names.quantities if re.match(r"[mM]", q)) or "m"
-    square = rf"(?:[vVu]{low}{two}|[vVu]{two}{low})"
+    bar = r"(?:\\[lr]?[vV]ert|\\\||\|)"
+    whole = rf"(?:\\dot\{{{{0,2}}[rRpP]\}}{{0,2}}{low}\}}?|[vVu]{low})"
+    square = rf"(?:[vVu]{low}{two}|[vVu]{two}{low}|{bar}{whole}{bar}{two}|{whole}{two})"
     dotted = r"\\dot(?:\{\s*[xyz](?:_\{?\w\}?)?\}|[xyz])(?:_\{?\w\}?)?"
     both = rf"[(\[](?:{dotted}{two}\+{dotted}{two}|v{low}{two}\+v{low}{two})[)\]]"
     motion = rf"{half}(?:{masses})(?:{square}|{both})"

@@ -136,6 +136,9 @@ def _said(sides: Statement, names: Names) -> dict[str, str]:
 
 def _derived(sides: Statement, said: Mapping[str, str], names: Names) -> Statement:
     """The statement with what a state's derivative is in place of all its names."""
+    of = derived(sides[0])
+    if len(sides) == 2 and of and of[1] == 1 and of[0] in said:
+        return _rate(said[of[0]], names), sides[1]
     order = list(said)
     meant = [_state(side, order, names) for side in sides[:-1]]
     if len(sides) < 2 or not all(meant) or not ("\\begin" in sides[-1] or entries(sides[-1])):

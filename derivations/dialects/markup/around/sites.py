@@ -42,6 +42,12 @@ ROLE = re.compile(r"\{math\}`(?P<inner>[^`$]{1,300})`")
 LABEL = re.compile(
     r"(?<=\$\$)[ \t]*(?:\((?:eq[\w:.-]*|[a-z]+[:_-][\w:.-]*)\)|\n?[ \t]*\{[:#.][^{}\n]{0,60}\}|[ \t]\^[\w-]{1,40})[ \t]*(?=\n|$)"
 )
+# An admonition around formulas: of MyST, Docusaurus, MkDocs, GitHub and reStructuredText
+_KIND = r"(?:admonition|note|tip|important|info|hint|seealso|theorem|definition|proposition|card|dropdown|details|example|abstract|quote|success)"
+ADMONITION = re.compile(
+    rf"(?mi)^[ \t]*(?:(?::{{3,}}|`{{3,}})[ \t]*\{{?{_KIND}\}}?|!!!\+?[ \t]+{_KIND}|>?[ \t]*\[!{_KIND}\][+-]?)(?P<title>[^\n]*)(?:\n[ \t]*:[a-z-]{{2,12}}:[^\n]*)*$"
+)
+CLOSED = re.compile(r"(?m)^[ \t]*:{3,}[ \t]*$")
 ORG = re.compile(
     r"(?mi)^[ \t]*(?:#\+(?:begin|end)_(?:src|export|latex|example)[^\n]*|#\+(?:name|caption|attr_\w+|label|latex_\w+|title|author|options|results|header):[^\n]*)$"
 )
@@ -68,8 +74,16 @@ def from_sites(text: str) -> str:
     text = SENTENCE.sub(lambda m: f"${m['inner']}$", text)
     text = FENCED.sub(lambda m: _display(OPTION.sub("", m["inner"])), text)
     text = ROLE.sub(lambda m: f"${m['inner']}$", text)
+    if ADMONITION.search(text) and "```{" not in text:
+        text = CLOSED.sub("", ADMONITION.sub(_titled, text))
     text = LABEL.sub("", text)
     return ORG.sub("", text) if "#+" in text else text
+
+
+def _titled(found: re.Match[str]) -> str:
+    """The title of an admonition, which is a sentence like others."""
+    title = found["title"].strip(' "')
+    return f"{title}:" if title and title[-1] not in ".:" else title
 
 
 def _of_escaped(found: re.Match[str]) -> str:

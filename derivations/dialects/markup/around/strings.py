@@ -16,6 +16,18 @@ PRINTED = re.compile(
 )
 
 
+# Every backslash twice, as in a string that is not raw
+DOUBLED = re.compile(
+    r"(?<!\\)\\\\(?:d?dot|frac|dfrac|tfrac|theta|varphi|phi|sin|cos|alpha|left|begin|partial|omega)(?![A-Za-z])"
+)
+SINGLE = re.compile(r"(?<!\\)\\(?:\\\\)*[A-Za-z]")
+
+
+def undoubled(text: str) -> str:
+    r"""The text with \ddot for \\ddot, where no command has a backslash alone; any other as it is."""
+    return text.replace("\\\\", "\\") if DOUBLED.search(text) and not SINGLE.search(text) else text
+
+
 def from_strings(text: str) -> str:
     """What such strings hold; any other text as it is."""
     raw = PRINTED.match(text)
