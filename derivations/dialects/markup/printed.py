@@ -16,6 +16,7 @@ from ..statements import is_program
 from ..table import known_of
 from .time_indices import in_indices
 
+HIGH = re.compile(r"(?<=[\w)\]'])[²³]")
 SPACED = re.compile(r"(?<![A-Za-z\\])(?:c\s+o\s+s|s\s+i\s+n|t\s+a\s+n)(?=\s*[({\\])")
 _END = r"(?:\s|\\[,;:! ]|[.,;$`])*(?:$|\\\\|\\end|\\\]|\\\)|\n|\$|\}\s*$)"
 # Sine and tangent in Spanish, Italian, Portuguese, French, German and Russian
@@ -26,6 +27,19 @@ NAMES = {"sen": "sin", "Sen": "sin", "tg": "tan", "Sin": "sin", "Cos": "cos", "T
 ABOVE = re.compile("[\u0307\u0308]")
 CITED = re.compile(
     r"~?\\(?:cite[a-zA-Z]*|autoref|cref|Cref|eqref|ref|nameref|footnotemark|pageref)\*?(?:\[[^\[\]]{0,60}\]){0,2}\{[^{}]{0,120}\}"
+)
+# Behind a row: its unit in brackets, or for which times it holds
+UNIT = re.compile(
+    r"(?:\\q?quad(?![A-Za-z])|\\[,;: ]|\s|~)+(?:\\left\s*)?[\[(]\s*(?:\\(?:mathrm|text|textrm|rm|si|unit)\s*\{[^{}=]{1,40}\}\s*[/·]?\s*)+(?:\\right\s*)?[\])](?=\s*(?:$|\\\\|\$|\\\]|\\end|[.,]))"
+)
+TIMES = re.compile(
+    r"[,;]?(?:\\q?quad(?![A-Za-z])|\\[,;:! ]|\s|~)*(?:\\(?:text|mathrm|textrm)\s*\{\s*(?:for|für|pour|para|per)(?:\s+all|\s+alle|\s+tout)?\s*\})?(?:\\[,;: ]|\s)*(?:\\forall\s*|∀\s*)?(?<![A-Za-z])t\s*(?:\\(?:geq?|geqslant|gt|in)(?![A-Za-z])|≥|>|∈)\s*(?:t_\{?0\}?|0|\\mathbb\s*\{?\s*R\s*\}?(?:\s*_?\s*\{?[+≥0\\a-z ]{0,8}\}?)?|\[[^\[\]()=]{1,20}[\])])(?=\s*(?:$|\\\\|\$|\\\]|\\end|[.,]))"
+)
+# The number of an equation behind dots or in a circle, as in Japan, China and Korea
+_DOTS = r"(?:\\[cl]?dots[bcmi]?(?![A-Za-z])|…|⋯|・{2,}|·{3,}|\.{3,}|\\text\s*\{\s*(?:…|・|·|⋯|\.)+\s*\})"
+_WIDE = r"(?:\s|\\[,;:! ]|\\q?quad(?![A-Za-z])|~)*"
+COUNT = re.compile(
+    rf"{_WIDE}(?:(?:{_DOTS}{_WIDE})+(?:[(（]\s*\w{{1,4}}(?:[.-]\d{{1,2}})?\s*[)）]|(?:\\(?:text|mathrm|textcircled)\s*\{{?)?\s*[①-⑳Ⓐ-ⓩ0-9]\s*\}}?|\\text\s*\{{\s*[(（]\s*\w{{1,4}}\s*[)）]\s*\}})|(?:\\(?:text|mathrm)\s*\{{\s*)?[①-⑳]\s*\}}?)(?=\s*[.,，。]?\s*(?:$|\n|\\\\|\$|\\\]|\\end))"
 )
 OF_TIME = re.compile(r"\{\s*\\left\s*\(\s*t\s*\\right\s*\)\s*\}")
 # Newton's law as a head, \sum M_O = J\ddot\theta: …
@@ -100,11 +114,13 @@ def plainly_printed(data: dict[str, Any]) -> dict[str, Any]:
 
 
 def _plain(text: str) -> str:
+    if "*" in text and "\\" not in text:  # as a program writes, but for its powers
+        text = HIGH.sub(lambda m: ("**" if "**" in text else "^") + "23"["²³".index(m[0])], text)
     text = SPACED.sub(lambda m: re.sub(r"\s", "", m[0]) + " ", text)
     text = EMPHASIS.sub(lambda m: m["before"] + m["behind"], MUST.sub(" = ", text))
-    text = SINE.sub(_wave, text)
+    text = COUNT.sub("", SINE.sub(_wave, text))
     if "\\" in text:
-        text = CITED.sub(" ", text)
+        text = TIMES.sub("", UNIT.sub("", CITED.sub(" ", text)))
         text = LAW.sub(lambda m: m["start"] + m["blank"], OF_TIME.sub("(t)", text))
         text = MARK.sub(lambda m: m["start"] + m["blank"], text)
         for _ in range(40):

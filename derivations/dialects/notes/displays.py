@@ -26,7 +26,10 @@ SYSTEM = re.compile(
     r"(?:\\left\s*(?:\\\{|\\lbrace|\.)|\\\{)?\s*\\begin\s*\{(?P<of>cases|dcases|rcases|array|matrix)\}(?:\s*\{[clr|@{}\s0-9]{0,20}\})?(?P<inner>.*?)\\end\s*\{(?P=of)\}(?:\s*\\right\s*(?:\.|\\\}|\\rbrace))?",
     re.DOTALL,
 )
-BEFORE_SYSTEM = re.compile(r"(?:^|\\\\|\n)[^\n=\\]*\\?(?:[^\n=]|\\overrightarrow|\\vec){1,40}=\s*$")
+BRACED = re.compile(
+    r"\\left\s*(?:\\\{|\\lbrace|\[|\.)\s*(?P<inner>\\begin\s*\{(?P<of>aligned|alignedat|gathered|split|align|gather)\*?\}.*?\\end\s*\{(?P=of)\*?\})(?:\s*\\right\s*(?:\.|\\\}|\\rbrace|\]))?",
+    re.DOTALL,
+)
 ROW_END = re.compile(r"\\\\(?:\s*\[[^\[\]]{1,12}\])?|\\cr(?![A-Za-z])|\\newline(?![A-Za-z])")
 LEADS = re.compile(
     r"\\(?:therefore|because|Rightarrow|implies|Longrightarrow|longrightarrow|Leftrightarrow|Longleftrightarrow|iff|leadsto|quad\\Rightarrow)(?![A-Za-z])|[∴⇒⇔⟹⟺→]"
@@ -88,6 +91,7 @@ def _bare(text: str) -> str:
     text = COMMENT.sub("", text)
     text = unnamed(LOST.sub(" ", _uncovered(text)))
     text = ENDED.sub(f" {END} ", text)
+    text = BRACED.sub(lambda m: m["inner"], text)
     for _ in range(4):
         made = SYSTEM.sub(_of_system, text)
         if made == text:
@@ -268,7 +272,7 @@ def _require_words(piece: str) -> None:
 
 
 def _sides(part: str) -> list[str]:
-    part = re.sub(r"[,;.。，、](?:\s|\\[,;:! ]|~|\$)*$", "", part.strip())
+    part = re.sub(r"(?<!\\)[,;.。，、](?:\s|\\[,;:! ]|~|\$)*$", "", part.strip())
     sides, start = [], 0
     for at, end in _places(part, EQUALS):
         sides.append(part[start:at])

@@ -10,11 +10,13 @@ from ..given_names import OF_COORDINATES
 from ..markup.prose import is_whole
 from ..names import plain_name, spelling
 from .displays import Statement, cut
-from .letters import Names, alone, spelled, unfonted, uses, written_alone
+from .letters import Names, alone, unfonted, uses, written_alone
 from .states import entries
 
 ENTRY = re.compile(r"(?P<letter>[A-Za-z])(?P<index>[1-9]{1,2})")
 LITERAL = re.compile(r"\s*(?:\\left\s*)?(?:\[|\\begin\s*\{[pbB]?(?:small)?matrix\})")
+# Behind a matrix, the rates of all coordinates together
+OF_ALL = r"\\d?dot\s*\{?\s*(?:\\(?:mathbf|bm|boldsymbol|vec)\s*\{?\s*)?q(?!\s*_)"
 MOTION = re.compile(r"\\ddot")
 RATE = re.compile(r"\\dot|[\u0307\u0308']")
 VECTOR = re.compile(r"[rpPRA](?P<k>[1-8])")
@@ -56,21 +58,23 @@ def _require_names_once(statements: Sequence[Statement], names: Names) -> None:
 def with_columns_apart(statements: Sequence[Statement], names: Names) -> list[Statement]:
     r"""The statements with a name of its own for a column g, in which the number g may stand: \tau = M \ddot q + c + g.
 
-    It is meant where it stands as a term alone in an equation of letters for matrices.
+    It is meant where it stands as a term alone, with (q) or before \ddot q in an equation of letters for matrices.
     """
     made = list(statements)
     for sides in statements:
         name = alone(sides[0]) if len(sides) == 2 else None
         if name is None or name not in names.all or name in names.coordinates or not LITERAL.match(sides[1]):
             continue
-        x = spelling(name).pattern
-        term = re.compile(rf"(?P<before>(?:^|[=+−-])\s*)(?:{x})\s*(?:{OF_COORDINATES})?(?=\s*(?:$|[=+−-]))")
-        column = f"{spelled(name)[:1]}_{{9}}" if len(name) == 1 else ""
+        x = f"(?:{spelling(name).pattern})"
+        of = rf"\s*{OF_COORDINATES}"
+        alone_in_sum = rf"(?<=[=+−-])\s*{x}(?=\s*(?:$|[=+−-]))|^\s*{x}(?=\s*(?:$|[=+−-]))"
+        term = re.compile(rf"(?<![A-Za-z\\])(?:{x}{of}|{x}(?=\s*{OF_ALL}))|{alone_in_sum}")
+        column = f"{name}_{{9}}" if len(name) == 1 else ""
         others = [other for other in made if MOTION.search(" ".join(other)) and "\\begin" not in " ".join(other)]
         if not column or not any(term.search(unfonted(side)) for other in others for side in other):
             continue
         made = [
-            tuple(term.sub(rf"\g<before> {column} ", unfonted(side)) for side in other) if other in others else other
+            tuple(term.sub(f" {column} ", unfonted(side)) for side in other) if other in others else other
             for other in made
         ]
         made = [(column, sides[1]) if other == sides else other for other in made]

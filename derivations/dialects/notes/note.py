@@ -25,7 +25,7 @@ from .entries import with_columns_apart, with_entries, with_points, without_argu
 from .letters import Names, alone, names_of, with_accents, with_bold_apart
 from .partial import rows_of_partial
 from .points import of_squared_speeds, of_unknown_points
-from .products import apart, index_first
+from .products import apart, index_first, with_transposes
 from .sorting import ACCELERATION, Sorted, is_abstract, sorted_statements
 from .states import with_states
 from .words import formulas_of
@@ -38,6 +38,9 @@ WORDED = re.compile(
     r"\$|\\[\[(]|```|(?<![^\W\d_])[^\W\d_]{3,40} [^\W\d_]{2,40} [^\W\d_]{2}|[\u3040-\u30ff\u4e00-\u9fff]{3}|(?<![\w)\]'])\*\*"
 )
 
+INITIAL = re.compile(  # θ(0) = θ_0
+    r"^\s*(?:\\d?dot\s*)?\{?\s*\\?[^\W\d_]+[\u0307]?\s*(?:_\s*(?:\{\w{1,4}\}|\w)|[₀-₉]|[0-9])?\s*\}?(?:_\w|_\{\w\})?['′]{0,2}\s*(?:\\left\s*)?\(\s*(?:t\s*=\s*)?0\s*(?:\\right\s*)?\)\s*$"
+)
 JOINED = re.compile(r"(?<!\\)\\\\(?=[A-Za-z])")  # a row's end at once before a letter
 DIFFERENCE = re.compile(
     r"(?:\\Delta|Δ|∆)\s*(?P<x>\\(?:var)?(?:theta|phi)(?![A-Za-z])|\\psi(?![A-Za-z])|[θϑφϕψ])(?:\s*_\s*(?:\{\s*(?P<i>\w{1,4})\s*\}|(?P<j>\w)))?"
@@ -106,7 +109,7 @@ def _statements(text: str, names: Names) -> list[Statement]:
     for formula in formulas_of(with_bold_apart(with_accents(text), names)):
         said = statements_of(formula.text)
         found += [s for s in said if not formula.inline or _is_said(s, names)]
-    return found
+    return [sides for sides in found if not (len(sides) == 2 and INITIAL.match(sides[0]))]
 
 
 def _with_differences(text: str, names: Names) -> str:
@@ -172,7 +175,8 @@ def _with_equations(data: dict[str, Any], names: Names, new: dict[str, str], ste
         except InvalidInput as error:
             raise InvalidInput(f"equations.{label:.40}: {error}") from None
     try:
-        statements = with_points(with_columns_apart(by_rule(statements), names), names)
+        statements = with_transposes(with_columns_apart(dotted_columns(by_rule(statements), names), names), names)
+        statements = with_points(statements, names)
         statements = with_states(without_arguments(statements, names), names, _texts(data.get("define")))
         statements = with_entries(of_unknown_points(dotted_columns(statements, names), names), names)
         found: Sorted = sorted_statements(with_columns(statements, names), names)

@@ -11,11 +11,11 @@ SOURCE = re.compile(
 )
 LISTED = re.compile(r"^\s*\"(?:[^\"\\\n]|\\.)*\"\s*,?\s*(?:\n\s*\"(?:[^\"\\\n]|\\.)*\"\s*,?\s*)+$")
 PRINTED = re.compile(
-    r"^\s*(?:display|print|Markdown|Math|Latex|Tex|MathTex|st\.(?:latex|markdown|write)|plt\.(?:title|text)|ax\.set_title)?\s*\(*\s*[rR](?P<q>\"|')(?P<inner>(?:(?!(?P=q)).)*\\(?:(?!(?P=q)).)*)(?P=q)\s*\)*\s*;?\s*$",
+    r"^\s*(?:\w{1,20}\s*=\s*)?(?:display|print|Markdown|Math|Latex|Tex|MathTex|st\.(?:latex|markdown|write)|plt\.(?:title|text)|ax\.set_title)?\s*\(*\s*(?P<raw>[rR]|L|raw|md|tex|latex|@R_str)?(?P<q>\"\"\"|\"|')(?P<inner>(?:(?!(?P=q)).)+)(?P=q)\s*\)*\s*;?\s*$",
     re.DOTALL,
 )
-
-
+OBJECT = re.compile(r"^\s*\{\s*\"(?:[^\"\\]|\\.)*\"\s*:.*\}\s*,?\s*$", re.DOTALL)
+TICKED = re.compile(r"(?<!`)``(?P<inner>[^`]*[=\\][^`]*)``(?!`)")  # mathematics in Julia's Markdown
 # Every backslash twice, as in a string that is not raw
 DOUBLED = re.compile(
     r"(?<!\\)\\\\(?:d?dot|frac|dfrac|tfrac|theta|varphi|phi|sin|cos|alpha|left|begin|partial|omega)(?![A-Za-z])"
@@ -28,11 +28,25 @@ def undoubled(text: str) -> str:
     return text.replace("\\\\", "\\") if DOUBLED.search(text) and not SINGLE.search(text) else text
 
 
+def _of_object(text: str) -> str:
+    """The formulas of an object of JSON, a line each; the text where it is none."""
+    try:
+        found = json.loads(text.strip().rstrip(","))
+    except ValueError:
+        return text
+    values = found.values() if isinstance(found, dict) else ()
+    lines = [x for value in values for x in (value if isinstance(value, list) else [value])]
+    return "\n".join(x for x in lines if "=" in x) if all(isinstance(x, str) for x in lines) else text
+
+
 def from_strings(text: str) -> str:
     """What such strings hold; any other text as it is."""
-    raw = PRINTED.match(text)
-    if raw:
-        return raw["inner"]
+    text = TICKED.sub(lambda m: f"${m['inner']}$", text)
+    string = PRINTED.match(text)
+    if string and "=" in string["inner"]:
+        return undoubled(string["inner"]) if not string["raw"] or string["raw"] == "md" else string["inner"]
+    if OBJECT.match(text):
+        return _of_object(text)
     found = SOURCE.match(text)
     listed = found["list"] if found else f"[{text.strip().rstrip(',')}]" if LISTED.match(text) else None
     if listed is None:
