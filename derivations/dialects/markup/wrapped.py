@@ -50,13 +50,14 @@ def _unwrapped(text: str) -> str:
     text = uncommented(from_strings(text))
     if is_program(text):
         return text
+    fenced = FENCED.search(text) is not None
     text = with_own_macros(from_sites(undoubled(without_elements(text))))
     text = typst_text(from_drawn(text))
     text = TAGS.sub(lambda m: _display(m["a"] or m["b"] or ""), text)
     if ".. math::" in text:
         text = DIRECTIVE.sub(lambda m: _display(f"{m['first']}\n{OPTION.sub('', m['inner'])}"), text)
     text = ROLE.sub(lambda m: f"${m['inner']}$", text)
-    if FENCED.search(text):  # beside formulas in fences, a line in backticks is one more
+    if fenced:  # beside formulas in fences, a line in backticks is one more
         text = TICKED.sub(lambda m: m["inner"], text)
     elif not re.search(r"[$\\]|ddot", text) and WORDED.search(TICKS.sub(" ", text)):
         text = TICKS.sub(lambda m: f"\n{m['inner']}\n", text)

@@ -33,10 +33,11 @@ BLOCK = re.compile(
 SENTENCE = re.compile(r"\b(?:latexmath|stem):\[(?P<inner>(?:\\\]|[^\[\]]|\[[^\[\]]*\])*)\]")
 # MyST and its kin: a directive in a fence, with options
 FENCED = re.compile(
-    r"(?m)^[ \t]*(?P<mark>`{3,}|:{3,}|~{3,})[ \t]*\{(?:math|amsmath|eq|equation)\}[^\n]*\n(?P<inner>.*?)^[ \t]*(?P=mark)[ \t]*$",
+    r"(?m)^[ \t]*(?P<mark>`{3,}|:{3,}|~{3,})[ \t]*(?:\{(?:math|amsmath|eq|equation)\}|(?:math|latex|tex|katex)\b)[^\n]*\n(?P<inner>.*?)^[ \t]*(?P=mark)[ \t]*$",
     re.DOTALL,
 )
 OPTION = re.compile(r"(?m)^[ \t]*:[a-z]{2,12}:[^\n]*$|\A---\n.*?\n---\n", re.DOTALL)
+ALONE = re.compile(r"^\s*\\\[(?P<inner>(?:(?!\\\[).)*)\\\]\s*$", re.DOTALL)
 ROLE = re.compile(r"\{math\}`(?P<inner>[^`$]{1,300})`")
 # Behind a display: (eq:pendulum) of MyST, {#eq-pendulum} of Quarto, {: .eq} of kramdown, ^block of Obsidian
 LABEL = re.compile(
@@ -73,6 +74,7 @@ def from_sites(text: str) -> str:
     text = BLOCK.sub(_of_block, text)
     text = SENTENCE.sub(lambda m: f"${m['inner']}$", text)
     text = FENCED.sub(lambda m: _display(OPTION.sub("", m["inner"])), text)
+    text = ALONE.sub(lambda m: _display(m["inner"]), text)
     text = ROLE.sub(lambda m: f"${m['inner']}$", text)
     if ADMONITION.search(text) and "```{" not in text:
         text = CLOSED.sub("", ADMONITION.sub(_titled, text))
