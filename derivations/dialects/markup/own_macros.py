@@ -54,7 +54,11 @@ def _expanded(text: str, macros: dict[str, tuple[int, str | None, str]]) -> str:
             body = body.replace(f"#{k}", argument)
         # \dot\tha takes the whole of what the macro stands for
         alone = re.search(r"\\d?dot\s*$|[_^]\s*$", text[: found.start()]) is not None
-        made = f"{{{body}}}" if alone else body + (" " if re.search(r"[A-Za-z]$", body) else "")
+        made = (
+            f"{{{body}}}"
+            if alone
+            else body + (" " if re.search(r"[A-Za-z]$", body) and text[at : at + 1].isalpha() else "")
+        )
         text = text[: found.start()] + made + text[at:]
         if len(text) > LONGEST:
             break

@@ -55,7 +55,7 @@ def _unwrapped(text: str) -> str:
     text = typst_text(from_drawn(text))
     text = TAGS.sub(lambda m: _display(m["a"] or m["b"] or ""), text)
     if ".. math::" in text:
-        text = DIRECTIVE.sub(lambda m: _display(f"{m['first']}\n{OPTION.sub('', m['inner'])}"), text)
+        text = DIRECTIVE.sub(_of_directive, text)
     text = ROLE.sub(lambda m: f"${m['inner']}$", text)
     if fenced:  # beside formulas in fences, a line in backticks is one more
         text = TICKED.sub(lambda m: m["inner"], text)
@@ -66,6 +66,14 @@ def _unwrapped(text: str) -> str:
     if len(lines) > 1 and all(m and is_whole(m["inner"]) for m in braced):
         text = "\n".join(_display(m["inner"]) for m in braced if m)
     return ESCAPED.sub("_", text)
+
+
+def _of_directive(found: re.Match[str]) -> str:
+    """What a directive holds: an equation between blank lines each, as Sphinx prints them."""
+    whole = f"{found['first']}\n{OPTION.sub('', found['inner'])}"
+    parts = [part for part in re.split(r"\n[ \t]*\n", whole) if part.strip()]
+    apart = "\\begin" not in whole and all(part.count("=") > 0 for part in parts)
+    return "".join(_display(part) for part in (parts if apart else [whole]))
 
 
 def _display(inner: str) -> str:

@@ -210,11 +210,16 @@ def _rows(text: str) -> list[str]:
 
 
 def _lines(text: str) -> list[str]:
-    r"""The lines of a text without \\\\, where each is an equation that says what one letter is; else the text."""
-    lines = [line for line in cut(text, re.compile(r"\n")) if line.strip()]
-    sides = [_sides(part) for line in lines for part in cut(line, WIDE) if part.strip()]
-    apart = len(lines) > 1 and all(len(x) > 1 and LETTER.match(x[0]) and not LETTER.match(x[-1]) for x in sides)
-    return lines if apart and not any(GOES_ON.search(line) for line in lines) else [text]
+    r"""The lines of a text without \\\\, or what blank lines part, where each is an equation by itself; else the text."""
+    for separator in (r"\n[ \t]*\n", r"\n"):
+        lines = [line for line in cut(text, re.compile(separator)) if line.strip(" \t\n$")]
+        if len(lines) > 1 and not any(GOES_ON.search(line) or STARTS.match(line) for line in lines):
+            sides = [_sides(part) for line in lines for part in cut(line, WIDE) if part.strip()]
+            if all(len(_equals(line)) == 1 for line in lines) or all(
+                len(x) > 1 and LETTER.match(x[0]) and not LETTER.match(x[-1]) for x in sides
+            ):
+                return lines
+    return [text]
 
 
 def _columns(row: str) -> list[str]:
@@ -272,7 +277,7 @@ def _require_words(piece: str) -> None:
 
 
 def _sides(part: str) -> list[str]:
-    part = re.sub(r"(?<!\\)[,;.。，、](?:\s|\\[,;:! ]|~|\$)*$", "", part.strip())
+    part = re.sub(r"(?<!\\)[,;.。，、](?:\s|\\[,;:! ]|~|\$)*$", "", re.sub(r"(?<!\\)\s+$", "", part.lstrip()))
     sides, start = [], 0
     for at, end in _places(part, EQUALS):
         sides.append(part[start:at])

@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 
 COMMENT = re.compile(r"[ \t]*(?://[/!]?|#['!]?|%{1,3}|--|;{1,3}|!)(?=\s|$)")
+MAIL = re.compile(r"[ \t]*>[ \t]?")
 BLOCK = re.compile(r"^\s*/\*[*!]?(?P<inner>.*)\*/\s*$", re.DOTALL)
 QUOTED = re.compile(r"^\s*(?:@doc\s+)?(?:raw|[rRuUfF])?(?P<q>\"\"\"|''')(?P<inner>.*?)(?P=q)\s*$", re.DOTALL)
 BRACKETED = re.compile(
@@ -34,6 +35,11 @@ def uncommented(text: str) -> str:
 
 
 def _without_marks(text: str) -> str:
+    for _ in range(3):  # a quotation, of a mail or of Markdown
+        said = [line for line in text.split("\n") if line.strip()]
+        if not said or not all(MAIL.match(line) for line in said):
+            break
+        text = "\n".join(MAIL.sub("", line, count=1) for line in text.split("\n"))
     lines = text.split("\n")
     said = [line for line in lines if line.strip()]
     if said and all(COMMENT.match(line) for line in said):
