@@ -17,6 +17,7 @@ from ..table import known_of
 from .time_indices import in_indices
 
 HIGH = re.compile(r"(?<=[\w)\]'])[²³]")
+LOW = re.compile(r"(?<=[A-Za-z}\])])[ \t]*(?P<mark>[_^])[ \t]*(?=[\w{\\])")  # m _ { 1 } of a converter
 SPACED = re.compile(r"(?<![A-Za-z\\])(?:c\s+o\s+s|s\s+i\s+n|t\s+a\s+n)(?=\s*[({\\])")
 _END = r"(?:\s|\\[,;:! ]|[.,;$`])*(?:$|\\\\|\\end|\\\]|\\\)|\n|\$|\}\s*$)"
 # Sine and tangent in Spanish, Italian, Portuguese, French, German and Russian
@@ -29,8 +30,9 @@ CITED = re.compile(
     r"~?\\(?:cite[a-zA-Z]*|autoref|cref|Cref|eqref|ref|nameref|footnotemark|pageref)\*?(?:\[[^\[\]]{0,60}\]){0,2}\{[^{}]{0,120}\}"
 )
 # Behind a row: its unit in brackets, or for which times it holds
+_UNIT = r"\s*(?:\\(?:mathrm|text|textrm|rm|si|unit)\s*\{[^{}=]{1,40}\}\s*[/·]?\s*)+(?:\\right\s*)?"
 UNIT = re.compile(
-    r"(?:\\q?quad(?![A-Za-z])|\\[,;: ]|\s|~)+(?:\\left\s*)?[\[(]\s*(?:\\(?:mathrm|text|textrm|rm|si|unit)\s*\{[^{}=]{1,40}\}\s*[/·]?\s*)+(?:\\right\s*)?[\])](?=\s*(?:$|\\\\|\$|\\\]|\\end|[.,]))"
+    rf"(?:\\[,;: ]|\s|~)*(?:\\q?quad(?![A-Za-z])(?:\\[,;: ]|\s|~)*(?:\\left\s*)?[\[(]{_UNIT}[\])]|\\[,;: ]\s*(?:\\left\s*)?\[{_UNIT}\])(?=\s*(?:$|\\\\|\$|\\\]|\\end|[.,]))"
 )
 TIMES = re.compile(
     r"[,;]?(?:\\q?quad(?![A-Za-z])|\\[,;:! ]|\s|~)*(?:\\(?:text|mathrm|textrm)\s*\{\s*(?:for|für|pour|para|per)(?:\s+all|\s+alle|\s+tout)?\s*\})?(?:\\[,;: ]|\s)*(?:\\forall\s*|∀\s*)?(?<![A-Za-z])t\s*(?:\\(?:geq?|geqslant|gt|in)(?![A-Za-z])|≥|>|∈)\s*(?:t_\{?0\}?|0|\\mathbb\s*\{?\s*R\s*\}?(?:\s*_?\s*\{?[+≥0\\a-z ]{0,8}\}?)?|\[[^\[\]()=]{1,20}[\])])(?=\s*(?:$|\\\\|\$|\\\]|\\end|[.,]))"
@@ -65,7 +67,7 @@ _GLYPH = rf"(?P<g>[A-Za-z{''.join(GLYPHS)}])(?P<gi>[₀-₉]{{0,2}})"
 BY_TIME = (
     re.compile(rf"\\[dtc]?frac\s*\{{\s*{_D}\s*{_RATE}\s*\}}\s*\{{\s*{_D}\s*t\s*\}}"),
     re.compile(
-        rf"\\[dtc]?frac\s*\{{\s*{_D}\s*\}}\s*\{{\s*{_D}\s*t\s*\}}\s*(?!\\dot\s*\{{?\s*\w+\s*\}}?\s*[({{^]){_RATE}(?!\s*\^)"
+        rf"\\[dtc]?frac\s*\{{\s*{_D}\s*\}}\s*\{{\s*{_D}\s*t\s*\}}\s*(?!\\dot\s*\{{?\s*\w+\s*\}}?\s*[({{^]){_RATE}(?=(?:\s|\\[,;:! ])*(?:$|[=+−&,;.}}$)\]-]|\\\\|\\(?:q?quad|end|right)(?![A-Za-z])))"
     ),
     re.compile(rf"(?<![A-Za-z\\]){_D}\s*{_RATE}\s*/\s*{_D}\s*t(?![A-Za-z])"),
     re.compile(rf"(?<![A-Za-z\\])d\s*{_GLYPH}{_ABOVE}(?P<gj>[₀-₉]{{0,2}})\s*/\s*dt(?![A-Za-z])"),
@@ -120,6 +122,7 @@ def _plain(text: str) -> str:
     text = EMPHASIS.sub(lambda m: m["before"] + m["behind"], MUST.sub(" = ", text))
     text = COUNT.sub("", SINE.sub(_wave, text))
     if "\\" in text:
+        text = LOW.sub(r"\g<mark>", text)
         text = TIMES.sub("", UNIT.sub("", CITED.sub(" ", text)))
         text = LAW.sub(lambda m: m["start"] + m["blank"], OF_TIME.sub("(t)", text))
         text = MARK.sub(lambda m: m["start"] + m["blank"], text)
