@@ -45,7 +45,7 @@ def _without_words(text: str) -> str:
     """Its displays, a line each, where sentences stand around them. Raises InvalidInput where words deny them."""
     displays = list(DISPLAY.finditer(text))
     outside = INLINE.sub(" ", DISPLAY.sub(" ", PREAMBLE.sub("", text)))
-    if not displays or not MARKS.search(text) or "$" in outside or not re.search(r"[^\W\d_]{2}", outside):
+    if not displays or not MARKS.search(text) or re.search(r"[$#]", outside) or not re.search(r"[^\W\d_]{2}", outside):
         return text
     stated = [m[0] for m in INLINE.finditer(DISPLAY.sub(" ", text)) if "=" in m[0]]
     denied = DENIED.search(outside)

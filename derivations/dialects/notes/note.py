@@ -39,7 +39,7 @@ WORDED = re.compile(
 )
 
 INITIAL = re.compile(  # θ(0) = θ_0
-    r"^\s*(?:\\d?dot\s*)?\{?\s*\\?[^\W\d_]+[\u0307]?\s*(?:_\s*(?:\{\w{1,4}\}|\w)|[₀-₉]|[0-9])?\s*\}?(?:_\w|_\{\w\})?['′]{0,2}\s*(?:\\left\s*)?\(\s*(?:t\s*=\s*)?0\s*(?:\\right\s*)?\)\s*$"
+    r"^\s*(?:\\dot\s*)?\{?\s*\\?[^\W\d_]+[\u0307]?\s*(?:_\s*(?:\{\w{1,4}\}|\w)|[₀-₉]|[0-9])?\s*\}?(?:_\w|_\{\w\})?['′]{0,2}\s*(?:\\left\s*)?\(\s*(?:t\s*=\s*)?0\s*(?:\\right\s*)?\)\s*$"
 )
 JOINED = re.compile(r"(?<!\\)\\\\(?=[A-Za-z])")  # a row's end at once before a letter
 DIFFERENCE = re.compile(

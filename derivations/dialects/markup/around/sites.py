@@ -6,6 +6,8 @@ from __future__ import annotations
 import re
 from urllib.parse import unquote
 
+from .....models.errors import InvalidInput
+
 _LATEX = r"(?=[^<]*[\\^_=])"
 WIKI = re.compile(
     rf"<(?P<of>math|latex|tex|m|me|men|md|mrow|equation)(?![a-z])(?P<how>[^<>]{{0,60}})>{_LATEX}(?P<inner>[^<]*)</(?P=of)>",
@@ -16,6 +18,7 @@ SCRIPT = re.compile(
 )
 # Markdown takes one backslash of \\\\[ … \\\\] away
 ESCAPED = re.compile(r"(?<!\\)\\\\(?P<of>[\[(])(?P<inner>(?:(?!\\\\[\[(]).)+?)(?<!\\)\\\\[\])]", re.DOTALL)
+STRUCK = re.compile(r"~~[ \t]*[$`][^~]{1,2000}[$`][ \t]*~~")
 TEMPLATE = re.compile(
     r"\{\{\s*(?:NumBlk|EquationRef|EqnRef|Equation box 1|bi|math|equation)\s*\|[^{}$]{0,40}?(?=\$)|(?<=\$)\s*\|[^{}$]{0,60}\}\}",
     re.IGNORECASE,
@@ -27,7 +30,7 @@ TAGS = re.compile(
 )
 # AsciiDoc: a block between lines of plus signs, and latexmath:[…] in a sentence
 BLOCK = re.compile(
-    r"(?m)^(?:\.[^\n.][^\n]{0,80}\n)?(?:\[\[[\w:.-]{1,40}\]\]\n)?\[(?P<of>latexmath|asciimath|stem)[^\]\n]{0,60}\][ \t]*\n(?:\.[^\n.][^\n]{0,80}\n)?\+{4}[ \t]*\n(?P<inner>.*?)\n\+{4}[ \t]*$",
+    r"(?m)^(?:\.(?P<title>[^\n.][^\n]{0,80})\n)?(?:\[\[[\w:.-]{1,40}\]\]\n)?\[(?P<of>latexmath|asciimath|stem)[^\]\n]{0,60}\][ \t]*\n(?:\.(?P<below>[^\n.][^\n]{0,80})\n)?\+{4}[ \t]*\n(?P<inner>.*?)\n\+{4}[ \t]*$",
     re.DOTALL,
 )
 SENTENCE = re.compile(r"\b(?:latexmath|stem):\[(?P<inner>(?:\\\]|[^\[\]]|\[[^\[\]]*\])*)\]")
@@ -50,10 +53,11 @@ ADMONITION = re.compile(
 )
 CLOSED = re.compile(r"(?m)^[ \t]*:{3,}[ \t]*$")
 ORG = re.compile(
-    r"(?mi)^[ \t]*(?:#\+(?:begin|end)_(?:src|export|latex|example)[^\n]*|#\+(?:name|caption|attr_\w+|label|latex_\w+|title|author|options|results|header):[^\n]*)$"
+    r"(?mi)^[ \t]*(?:#\+(?:begin|end)_(?:src|export|latex|example)[^\n]*|#\+(?:name|attr_\w+|label|latex_\w+|title|author|options|results|header):[^\n]*)$"
 )
+CAPTION = re.compile(r"(?mi)^[ \t]*#\+(?:caption|title):[ \t]*(?P<said>[^\n]*)$")
 CODECOGS = re.compile(
-    r"(?:!\[[^\[\]]{0,300}\]\(\s*|<img[^<>]*?\ssrc=[\"']?)https?://[\w.]*(?:codecogs\.com/\w+(?:\.latex)?\?|render\.githubusercontent\.com/render/math\?math=|math\.now\.sh\?from=|i\.upmath\.me/svg/|chart\.(?:googleapis|apis\.google)\.com/chart\?cht=tx&chl=|tex\.s2cms\.(?:ru|com)/svg/|www\.sciweavers\.org/tex2img\.php\?eq=)(?P<inner>[^\n\"'<>]{3,4000}?)(?:(?<!\\right)\)[ \t]*(?=\n|$)|[\"'][^<>]*>|>)"
+    r"(?:!\[(?P<said>[^\[\]]{0,300})\]\(\s*|<img[^<>]*?\ssrc=[\"']?)https?://[\w.]*(?:codecogs\.com/\w+(?:\.latex)?\?|render\.githubusercontent\.com/render/math\?math=|math\.now\.sh\?from=|i\.upmath\.me/svg/|chart\.(?:googleapis|apis\.google)\.com/chart\?cht=tx&chl=|tex\.s2cms\.(?:ru|com)/svg/|www\.sciweavers\.org/tex2img\.php\?eq=)(?P<inner>[^\n\"'<>]{3,4000}?)(?:(?<!\\right)\)[ \t]*(?=\n|$)|[\"'][^<>]*>|>)"
 )
 LOOKS = re.compile(
     r"^(?:\\(?:dpi|bg_\w+|fg_\w+|inline|large|Large|LARGE|huge|small|color)(?:\s*\{[^{}]{0,20}\})?|\s|&space;|\\space)+"
@@ -62,7 +66,12 @@ ALTERNATIVE = re.compile(r"!\[(?P<inner>[^\[\]\n]*\\[^\[\]\n]*=[^\[\]\n]*)\]\([^
 
 
 def from_sites(text: str) -> str:
-    """The text with displays and formulas of Markdown in place of these; any other text as it is."""
+    """The text with displays and formulas of Markdown in place of these; any other text as it is.
+
+    Raises InvalidInput where one is struck out.
+    """
+    if STRUCK.search(text):
+        raise InvalidInput("~~ around a formula: it is struck out; leave it out")
     text = CODECOGS.sub(_of_address, text)
     text = ALTERNATIVE.sub(lambda m: _display(m["inner"]), text)
     if "<" in text and not re.search(r"<m(?:row|i|o|n|frac|sup|sub|over)\b", text):
@@ -79,6 +88,8 @@ def from_sites(text: str) -> str:
     if ADMONITION.search(text) and "```{" not in text:
         text = CLOSED.sub("", ADMONITION.sub(_titled, text))
     text = LABEL.sub("", text)
+    if "#+" in text:
+        text = CAPTION.sub(lambda m: f"{m['said']}:", text)
     return ORG.sub("", text) if "#+" in text else text
 
 
@@ -103,10 +114,14 @@ def _of_wiki(found: re.Match[str]) -> str:
 
 
 def _of_block(found: re.Match[str]) -> str:
-    inner = found["inner"].strip()
+    inner, title = found["inner"].strip(), found["title"] or found["below"] or ""
     if found["of"] == "latexmath" or "\\" in inner:
-        return _display(inner)
-    return "\n" + "\n".join(f"`{line.strip()}`" for line in inner.split("\n") if line.strip()) + "\n"
+        return f"\n{title}\n{_display(inner)}"
+    return (
+        f"\n{title}:\n" * bool(title)
+        + "\n".join(f"`{line.strip()}`" for line in inner.split("\n") if line.strip())
+        + "\n"
+    )
 
 
 def _of_address(found: re.Match[str]) -> str:
@@ -114,7 +129,9 @@ def _of_address(found: re.Match[str]) -> str:
         found["inner"].replace("&space;", " ").replace("+", "%2B") if "%" not in found["inner"] else found["inner"]
     )
     inner = inner.replace("&space;", " ").replace("&plus;", "+").replace("&amp;", "&")
-    return _display(LOOKS.sub("", inner))
+    said = (found["said"] or "").strip()
+    words = f"\n{said}:\n" if re.search(r"[^\W\d_]{3}", said) and not re.search(r"[\\=^]", said) else ""
+    return words + _display(LOOKS.sub("", inner))
 
 
 def _display(inner: str) -> str:

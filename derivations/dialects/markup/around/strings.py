@@ -15,6 +15,10 @@ PRINTED = re.compile(
     re.DOTALL,
 )
 OBJECT = re.compile(r"^\s*\{\s*\"(?:[^\"\\]|\\.)*\"\s*:.*\}\s*,?\s*$", re.DOTALL)
+FORMULA_KEY = re.compile(
+    r"(?i)^(?:\w{0,12}_?(?:equations?|formulas?|latex|tex|math|eom|odes?|dynamics|source|content)\w{0,4}|[a-z]{1,8}_?[0-9]?)$"
+)
+WRONG_KEY = re.compile(r"(?i)wrong|incorrect|false|bad|mistake|error|falsch|not")
 TICKED = re.compile(r"(?<!`)``(?P<inner>[^`]*[=\\][^`]*)``(?!`)")  # mathematics in Julia's Markdown
 # Every backslash twice, as in a string that is not raw
 DOUBLED = re.compile(
@@ -34,7 +38,9 @@ def _of_object(text: str) -> str:
         found = json.loads(text.strip().rstrip(","))
     except ValueError:
         return text
-    values = found.values() if isinstance(found, dict) else ()
+    if not isinstance(found, dict) or not all(FORMULA_KEY.match(x) and not WRONG_KEY.search(x) for x in found):
+        return text
+    values = found.values()
     lines = [x for value in values for x in (value if isinstance(value, list) else [value])]
     return "\n".join(x for x in lines if "=" in x) if all(isinstance(x, str) for x in lines) else text
 
