@@ -46,7 +46,7 @@ COUNT = re.compile(
 OF_TIME = re.compile(r"\{\s*\\left\s*\(\s*t\s*\\right\s*\)\s*\}")
 # Newton's law as a head, \sum M_O = J\ddot\theta: …
 LAW = re.compile(
-    r"(?P<start>^|\n|\$|\\\[|\\\\|\\begin\s*\{(?:equation|align|gather|aligned|gathered|split)\*?\})(?P<blank>(?:\s|&|\\[,;:! ])*)(?:\\sum|∑|Σ)\s*(?:\\(?:vec|mathbf|bm)\s*)?\{?(?:[FMTNQ]|\\tau|τ|\\Gamma)\}?(?:\s*_\s*(?:\{[^{}=:]{1,12}\}|\w))?\s*(?:=\s*&?\s*[mMJIΘ](?:_\s*(?:\{\w{1,6}\}|\w))?\s*(?:\\,)?\s*(?:\\d?dot\s*\{?\s*(?:\\[a-z]+|[a-z])\s*\}?|\\alpha|a)(?:_\s*(?:\{\w{1,6}\}|\w))?\s*)?(?:[:：](?!=)|\\(?:implies|Rightarrow|Longrightarrow|Leftrightarrow|iff|to)(?![A-Za-z])|⇒|⟹)(?:\s|&|\\[,;:! ]|\\q?quad(?![A-Za-z]))*(?=[^=]*=)"
+    r"(?P<start>^|\n|\$|\\\[|\\\\|\\begin\s*\{(?:equation|align|gather|aligned|gathered|split)\*?\})(?P<blank>(?:\s|&|\\[,;:! ])*)(?:\\sum|∑|Σ)\s*(?:\\(?:vec|mathbf|bm)\s*)?\{?(?:[FMTNQ]|\\tau|τ|\\Gamma)\}?(?:\s*_\s*(?:\{[^{}=:]{1,12}\}|\w))?\s*(?:=\s*&?\s*[mMJIΘ](?:_\s*(?:\{\w{1,6}\}|\w))?\s*(?:\\,)?\s*(?:\\ddot\s*\{?\s*(?:\\[a-z]+|[a-z])\s*\}?|\\alpha|a)(?:_\s*(?:\{\w{1,6}\}|\w))?\s*)?(?:[:：](?!=)|\\(?:implies|Rightarrow|Longrightarrow|Leftrightarrow|iff|to)(?![A-Za-z])|⇒|⟹)(?:\s|&|\\[,;:! ]|\\q?quad(?![A-Za-z]))*(?=[^=]*=)"
 )
 EMPHASIS = re.compile(rf"(?P<before>=(?:\s|\\[,;:! ]|&)*0)(?:\s|\\[,;:! ]){{0,3}}!(?P<behind>{_END})")
 MUST = re.compile(

@@ -108,7 +108,9 @@ class _Sorter:
 
     def definitions(self) -> None:
         """What names are, those that equations or stages need. Raises InvalidInput where nothing needs one."""
-        needed = _needed([" ".join(sides) for sides in self.left], self.values)
+        # a law of derivatives of L needs no L: what L is said to be is judged as a stage
+        texts = [side for sides in self.left for side in sides if not PARTIAL.search(side)]
+        needed = _needed(texts, self.values)
         stages = {name for name, (_, sides) in self.values.items() if name not in needed and _stage(name, sides)}
         below = _needed([" ".join(self.values[name][1]) for name in stages], self.values)
         for name, (written, sides) in self.values.items():
