@@ -127,7 +127,7 @@ def _plain(text: str) -> str:
         text = LAW.sub(lambda m: m["start"] + m["blank"], OF_TIME.sub("(t)", text))
         text = MARK.sub(lambda m: m["start"] + m["blank"], text)
         for _ in range(40):
-            text, count = OVER.subn(lambda m: f"\\frac{{{m['top'].strip()}}}{{{m['below'].strip()}}}", text)
+            text, count = OVER.subn(lambda m: f"{{\\frac{{{m['top'].strip()}}}{{{m['below'].strip()}}}}}", text)
             if not count:
                 break
         text = TURNED.sub(_turned, ROW.sub(_row, text))
