@@ -32,16 +32,16 @@ CITED = re.compile(
 # Behind a row: its unit in brackets, or for which times it holds
 _UNIT = r"\s*(?:\\(?:mathrm|text|textrm|rm|si|unit)\s*\{[^{}=]{1,40}\}\s*[/·]?\s*)+(?:\\right\s*)?"
 UNIT = re.compile(
-    rf"(?:\\[,;: ]|\s|~)*(?:\\q?quad(?![A-Za-z])(?:\\[,;: ]|\s|~)*(?:\\left\s*)?[\[(]{_UNIT}[\])]|\\[,;: ]\s*(?:\\left\s*)?\[{_UNIT}\])(?=\s*(?:$|\\\\|\$|\\\]|\\end|[.,]))"
+    rf"(?:\\[,;: ]|\s|~){0, 12}(?:\\q?quad(?![A-Za-z])(?:\\[,;: ]|\s|~){0, 12}(?:\\left\s*)?[\[(]{_UNIT}[\])]|\\[,;: ]\s*(?:\\left\s*)?\[{_UNIT}\])(?=\s*(?:$|\\\\|\$|\\\]|\\end|[.,]))"
 )
 TIMES = re.compile(
-    r"[,;]?(?:\\q?quad(?![A-Za-z])|\\[,;:! ]|\s|~)*(?:\\(?:text|mathrm|textrm)\s*\{\s*(?:for|für|pour|para|per)(?:\s+all|\s+alle|\s+tout)?\s*\})?(?:\\[,;: ]|\s)*(?:\\forall\s*|∀\s*)?(?<![A-Za-z])t\s*(?:\\(?:geq?|geqslant|gt|in)(?![A-Za-z])|≥|>|∈)\s*(?:t_\{?0\}?|0|\\mathbb\s*\{?\s*R\s*\}?(?:\s*_?\s*\{?[+≥0\\a-z ]{0,8}\}?)?|\[[^\[\]()=]{1,20}[\])])(?=\s*(?:$|\\\\|\$|\\\]|\\end|[.,]))"
+    r"[,;]?(?:\\q?quad(?![A-Za-z])|\\[,;:! ]|\s|~){0,12}(?:\\(?:text|mathrm|textrm)\s*\{\s*(?:for|für|pour|para|per)(?:\s+all|\s+alle|\s+tout)?\s*\})?(?:\\[,;: ]|\s)*(?:\\forall\s*|∀\s*)?(?<![A-Za-z])t\s*(?:\\(?:geq?|geqslant|gt|in)(?![A-Za-z])|≥|>|∈)\s*(?:t_\{?0\}?|0|\\mathbb\s*\{?\s*R\s*\}?(?:\s*_?\s*\{?[+≥0\\a-z ]{0,8}\}?)?|\[[^\[\]()=]{1,20}[\])])(?=\s*(?:$|\\\\|\$|\\\]|\\end|[.,]))"
 )
 # The number of an equation behind dots or in a circle, as in Japan, China and Korea
-_DOTS = r"(?:\\[cl]?dots[bcmi]?(?![A-Za-z])|…|⋯|・{2,}|·{3,}|\.{3,}|\\text\s*\{\s*(?:…|・|·|⋯|\.)+\s*\})"
-_WIDE = r"(?:\s|\\[,;:! ]|\\q?quad(?![A-Za-z])|~)*"
+_DOTS = r"(?:\\[cl]?dots[bcmi]?(?![A-Za-z])|…|⋯|(?<!・)・{2,12}(?!・)|(?<!·)·{3,12}(?!·)|(?<!\.)\.{3,12}(?!\.)|\\text\s*\{\s*(?:…|・|·|⋯|\.)+\s*\})"
+_WIDE = r"(?:\s|\\[,;:! ]|\\q?quad(?![A-Za-z])|~){0,12}"
 COUNT = re.compile(
-    rf"{_WIDE}(?:(?:{_DOTS}{_WIDE})+(?:[(（]\s*\w{{1,4}}(?:[.-]\d{{1,2}})?\s*[)）]|(?:\\(?:text|mathrm|textcircled)\s*\{{?)?\s*[①-⑳Ⓐ-ⓩ0-9]\s*\}}?|\\text\s*\{{\s*[(（]\s*\w{{1,4}}\s*[)）]\s*\}})|(?:\\(?:text|mathrm)\s*\{{\s*)?[①-⑳]\s*\}}?)(?=\s*[.,，。]?\s*(?:$|\n|\\\\|\$|\\\]|\\end))"
+    rf"{_WIDE}(?:(?:{_DOTS}{_WIDE}){{1,6}}(?:[(（]\s*\w{{1,4}}(?:[.-]\d{{1,2}})?\s*[)）]|(?:\\(?:text|mathrm|textcircled)\s*\{{?)?\s*[①-⑳Ⓐ-ⓩ0-9]\s*\}}?|\\text\s*\{{\s*[(（]\s*\w{{1,4}}\s*[)）]\s*\}})|(?:\\(?:text|mathrm)\s*\{{\s*)?[①-⑳]\s*\}}?)(?=\s*[.,，。]?\s*(?:$|\n|\\\\|\$|\\\]|\\end))"
 )
 OF_TIME = re.compile(r"\{\s*\\left\s*\(\s*t\s*\\right\s*\)\s*\}")
 # Newton's law as a head, \sum M_O = J\ddot\theta: …
@@ -78,7 +78,7 @@ ROW = re.compile(
 WIDE = re.compile(r"\\q?quad(?![A-Za-z])")
 ROW_ENDS = re.compile(r"\\\\(?:\s*\[[^\[\]]{1,12}\])?")
 ARGUMENT = re.compile(
-    r"(?P<x>\\?[A-Za-z]+(?:\s*_\s*(?:\{[^{}\\]{1,12}\}|\w))?)\s*(?:\\left\s*)?\(\s*\\(?:mathrm|text|textrm|mathit|textit|rm|mbox)\s*\{(?P<word>[^\W\d_][\w .-]{2,30})\}\s*(?:\\right\s*)?\)"
+    r"(?<![A-Za-z\\])(?P<x>\\?[A-Za-z]{1,24}(?:\s*_\s*(?:\{[^{}\\]{1,12}\}|\w))?)\s*(?:\\left\s*)?\(\s*\\(?:mathrm|text|textrm|mathit|textit|rm|mbox)\s*\{(?P<word>[^\W\d_][\w .-]{2,30})\}\s*(?:\\right\s*)?\)"
 )
 
 _MATRIX = r"\\begin\s*\{(?P<of>[pbB]?(?:small)?matrix|array)\}(?:\s*\{[clr|@{}\s]{0,20}\})?(?P<inner>(?:(?!\\begin).){1,2000}?)\\end\s*\{(?P=of)\}"

@@ -37,7 +37,7 @@ FENCED = re.compile(r"(?m)^[ \t]*(?:```|~~~)")
 TICKED = re.compile(r"(?m)^[ \t]*(?:[-*+][ \t]+|\d{1,2}[.)][ \t]+)?`(?P<inner>[^`\n]{1,400})`[ \t]*[.,;]?[ \t]*$")
 # Formulas in backticks within a sentence
 TICKS = re.compile(r"(?<!`)`(?P<inner>[^`\n=]{1,200}=[^`\n=]{1,400})`(?!`)[.,;]?")
-WORDED = re.compile(r"[^\W\d_]{2,}\s+[^\W\d_]{2,}")
+WORDED = re.compile(r"(?<![^\W\d_])[^\W\d_]{2,40}\s{1,9}[^\W\d_]{2}")
 ESCAPED = re.compile(r"(?<!\\)\\_")  # an index of LaTeX that Markdown would take for italics
 
 
