@@ -32,7 +32,7 @@ CITED = re.compile(
 # Behind a row: its unit in brackets, or for which times it holds
 _UNIT = r"\s*(?:\\(?:mathrm|text|textrm|rm|si|unit)\s*\{[^{}=]{1,40}\}\s*[/·]?\s*)+(?:\\right\s*)?"
 UNIT = re.compile(
-    rf"(?:\\[,;: ]|\s|~){0, 12}(?:\\q?quad(?![A-Za-z])(?:\\[,;: ]|\s|~){0, 12}(?:\\left\s*)?[\[(]{_UNIT}[\])]|\\[,;: ]\s*(?:\\left\s*)?\[{_UNIT}\])(?=\s*(?:$|\\\\|\$|\\\]|\\end|[.,]))"
+    rf"(?:\\[,;: ]|\s|~){{0,12}}(?:\\q?quad(?![A-Za-z])(?:\\[,;: ]|\s|~){{0,12}}(?:\\left\s*)?[\[(]{_UNIT}[\])]|\\[,;: ]\s*(?:\\left\s*)?\[{_UNIT}\])(?=\s*(?:$|\\\\|\$|\\\]|\\end|[.,]))"
 )
 TIMES = re.compile(
     r"[,;]?(?:\\q?quad(?![A-Za-z])|\\[,;:! ]|\s|~){0,12}(?:\\(?:text|mathrm|textrm)\s*\{\s*(?:for|für|pour|para|per)(?:\s+all|\s+alle|\s+tout)?\s*\})?(?:\\[,;: ]|\s)*(?:\\forall\s*|∀\s*)?(?<![A-Za-z])t\s*(?:\\(?:geq?|geqslant|gt|in)(?![A-Za-z])|≥|>|∈)\s*(?:t_\{?0\}?|0|\\mathbb\s*\{?\s*R\s*\}?(?:\s*_?\s*\{?[+≥0\\a-z ]{0,8}\}?)?|\[[^\[\]()=]{1,20}[\])])(?=\s*(?:$|\\\\|\$|\\\]|\\end|[.,]))"
