@@ -78,6 +78,7 @@ MODEL = re.compile(r"^\s*(?:partial\s+)?model\s+\w+.*?\bequation\b(?P<rows>.*?)\
 IN_MATRIX_OR_MARK = re.compile(
     r"\\begin\s*\{(?P<of>[pbBvV]?(?:small)?matrix|array)\}.*?\\end\s*\{(?P=of)\}|&", re.DOTALL
 )
+BAR = re.compile(r"(?:[=+(−-]\s*|^\s*)(?:[-−–]\s+[-−–]|[-−–]{2,}|[—―_]{1,})(?:\s|$)")
 MOST_ROWS = 16
 MOST_NAMED = 60
 
@@ -109,7 +110,7 @@ def equations_in(line: str) -> list[str]:
     model = MODEL.match(line)
     if model:
         return [row.strip() for row in model["rows"].split(";") if row.strip()]
-    if "───" in line:
+    if "───" in line or _is_drawn(line):
         raise InvalidInput("column 1: an expression printed on several lines; print it by str(…), srepr(…) or latex(…)")
     rules = RULES.match(line)
     if rules:
@@ -131,6 +132,15 @@ def equations_in(line: str) -> list[str]:
     pieces = _pieces(bare)
     rows = [LAGRANGE.sub(" ", _led(piece)) for piece in pieces] if len(pieces) > 1 else [bare]
     return [_without_number(row) for row in rows]
+
+
+def _is_drawn(text: str) -> bool:
+    """Whether a fraction's bar may stand in a line, its top and bottom in the lines above and below."""
+    lines = text.split("\n")
+    bars = [k for k, line in enumerate(lines) if BAR.search(line)] if "\\" not in text else []
+    return any(
+        0 < k < len(lines) - 1 and all(lines[j].strip() and "=" not in lines[j] for j in (k - 1, k + 1)) for k in bars
+    )
 
 
 def _without_number(row: str) -> str:

@@ -104,7 +104,8 @@ def declared(
                 raise InvalidInput(f"bodies {place}: {name}: a text in quotes is needed, got {value!r:.40}")
     names, apart = _names([*(b[q] for b in bodies for q in QUANTITIES if q in b), *constants])
     coordinates = tuple(_coordinate(b, place) for place, b in enumerate(bodies, 1))
-    defined = tuple(map(str, data.get("define", {})))
+    places = data.get("positions", {})
+    defined = (*map(str, data.get("define", {})), *(map(str, places) if isinstance(places, dict) else ()))
     taken = frozenset({*names, *(base for base, _ in coordinates), *defined})
     taken |= {found[0] for name in defined if (found := base_and_index(name)) and found[1]}
     names += [_reaction(k) for k, body in enumerate(bodies) if _is_given(body, k)]

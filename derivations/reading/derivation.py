@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from typing import Any
+from unicodedata import normalize
 
 from ...models.errors import InvalidInput
 from ..dialects.blocks import rows_of_blocks
@@ -26,8 +27,10 @@ from ..dialects.letters.odd_waves import with_odd_waves
 from ..dialects.letters.said_motions import with_said_motions
 from ..dialects.letters.time_names import with_one_time
 from ..dialects.markup.asciimath import without_ticks
+from ..dialects.markup.environments import plain_environments
 from ..dialects.markup.macros import plain_macros
 from ..dialects.markup.pages import from_pages
+from ..dialects.markup.printed import plainly_printed
 from ..dialects.markup.prose import FormulasInWords
 from ..dialects.markup.wrapped import unwrapped
 from ..dialects.notes.note import as_note, is_worded
@@ -58,7 +61,9 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     """
     known_fields(data)
     data = with_one_time(_of_one_text(data))
-    data = with_said_motions(plain_macros(without_ticks(unwrapped(without_pointers(data)))))
+    data = with_said_motions(
+        plain_macros(plainly_printed(plain_environments(without_ticks(unwrapped(without_pointers(data))))))
+    )
     require_no_time(data)
     data = with_phases(data)
     unread: InvalidInput | None = None
@@ -192,11 +197,13 @@ def _meant(data: dict[str, Any], constants: list[str], count: int, slashes: int)
 def _with_positions(data: dict[str, Any]) -> dict[str, Any]:
     """The fields with the positions as definitions, where an energy is written in these."""
     positions, define = data.get("positions"), data.get("define", {})
-    energies = [data[name] for name in ("kinetic", "potential", "lagrangian") if isinstance(data.get(name), str)]
+    energies = [normalize("NFD", data[name]) for name in ("kinetic", "potential", "lagrangian")
+                if isinstance(data.get(name), str)]  # fmt: skip
     if not isinstance(positions, dict) or not isinstance(define, dict) or len(positions) > MOST_POSITIONS:
         return data
-    if not any(re.search(rf"(?<![A-Za-z\\\\]){name[:1]}\s*\}}?\s*_?\{{?[0-9a-z]", text) for name in map(str, positions)
-               if name[:1] in "xy" for text in energies):  # fmt: skip
+    used = [re.compile(rf"(?<![A-Za-z\\]){x}[\u0307\u0308]?\s*\}}?\s*_?\{{?[0-9a-z₀-₉]") for x in "xy"
+            if any(str(name)[:1] == x for name in positions)]  # fmt: skip
+    if not any(pattern.search(text) for pattern in used for text in energies):
         return data
     return data | {"define": {**define, **positions}}
 

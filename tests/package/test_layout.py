@@ -77,6 +77,7 @@ ROOMS = {
             ("algebra",),
             tuple(f"dialects.{name}" for name in DIALECTS),
             ("dialects.letters",),
+            ("dialects.markup.around",),
             ("dialects.markup",),
             ("dialects.worksheets",),
             ("dialects.code", "dialects.languages"),

@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import re
 
+from ....models.errors import InvalidInput
 from ..pasted import typst_dots
+from .prose import DENIED
 from .typst import BLOCK, LATEX, MARKS, from_typst
 
 # What leaves a formula as it is; what hides or strikes it out is none of these
@@ -19,6 +21,9 @@ INDEX = re.compile(
 )
 FIGURES = re.compile(r"(?<![A-Za-z])(?P<x>[A-Za-z]|ell|tau|theta)_(?P<i>[1-9]{2})(?![0-9A-Za-z])")
 BETWEEN = re.compile(r",?\s*\bq?quad\b\s*")
+DISPLAY = re.compile(r"\$\s[^$]*\s\$(?:[ \t]*<[\w:.-]{1,40}>)?")
+INLINE = re.compile(r"\$[^$\s](?:[^$]*[^$\s])?\$")
+PREAMBLE = re.compile(r"(?m)^[ \t]*(?:#(?:import|set|show|let|include|pagebreak|v|h)\b[^\n]*|=+[ \t][^\n]*)$")
 MOST = 60
 
 
@@ -28,11 +33,27 @@ def typst_text(text: str) -> str:
     if LATEX.search(text):
         return text
     text = INDEX.sub(lambda m: f"{m['x']}_{{{re.sub(r'[ ,]', '', m['i'])}}}", text)
+    text = _without_words(text)
     lines = [line for line in text.split("\n") if line.strip()]
     if len(lines) < 2 or not all(BLOCK.match(line) for line in lines) or not MARKS.search(text) or "\\" in text:
         return text
     pieces = [piece for line in lines for piece in _equations(BLOCK.sub(lambda m: m["inner"], line))]
     return "\n".join(typst_dots(FIGURES.sub(r"\g<x>_{\g<i>}", piece)) for piece in pieces)
+
+
+def _without_words(text: str) -> str:
+    """Its displays, a line each, where sentences stand around them. Raises InvalidInput where words deny them."""
+    displays = list(DISPLAY.finditer(text))
+    outside = INLINE.sub(" ", DISPLAY.sub(" ", PREAMBLE.sub("", text)))
+    if not displays or not MARKS.search(text) or re.search(r"[$#]", outside) or not re.search(r"[^\W\d_]{2}", outside):
+        return text
+    stated = [m[0] for m in INLINE.finditer(DISPLAY.sub(" ", text)) if "=" in m[0]]
+    denied = DENIED.search(outside)
+    if denied:
+        raise InvalidInput(
+            f"a sentence says {denied[0]!r} beside the equations: give the equations that are meant, alone"
+        )
+    return "\n".join(re.sub(r"\s*\n\s*", " ", line) for line in (*(m[0] for m in displays), *stated))
 
 
 def _equations(inner: str) -> list[str]:

@@ -10,6 +10,12 @@ from typing import Any
 
 from ..letters.every_text import everywhere
 from ..statements import is_program
+from .around.comments import uncommented
+from .around.drawn import from_drawn
+from .around.elements import without_elements
+from .around.sites import from_sites
+from .around.strings import from_strings, undoubled
+from .own_macros import with_own_macros
 from .prose import BRACED, is_whole
 from .typst_text import typst_text
 
@@ -26,11 +32,12 @@ TAGS = re.compile(
     re.DOTALL,
 )
 DISPLAYED = re.compile(r"\$|\\\[|\\begin\s*\{(?:equation|align|gather|eqnarray|multline|displaymath)")
-COMMENT = re.compile(r"[ \t]*(?://[/!]?|#)(?=\s|$)")
-BLOCK = re.compile(r"^\s*/\*[*!]?(?P<inner>.*)\*/\s*$", re.DOTALL)
-STARRED = re.compile(r"(?m)^[ \t]*\*(?=\s)")
 FENCED = re.compile(r"(?m)^[ \t]*(?:```|~~~)")
-TICKED = re.compile(r"(?m)^[ \t]*`(?P<inner>[^`\n]{1,400})`[ \t]*[.,;]?[ \t]*$")
+# A line in backticks, as an item of a list or alone
+TICKED = re.compile(r"(?m)^[ \t]*(?:[-*+][ \t]+|\d{1,2}[.)][ \t]+)?`(?P<inner>[^`\n]{1,400})`[ \t]*[.,;]?[ \t]*$")
+# Formulas in backticks within a sentence
+TICKS = re.compile(r"(?<!`)`(?P<inner>[^`\n=]{1,200}=[^`\n=]{1,400})`(?!`)[.,;]?")
+WORDED = re.compile(r"(?<![^\W\d_])[^\W\d_]{2,40}\s{1,9}[^\W\d_]{2}")
 ESCAPED = re.compile(r"(?<!\\)\\_")  # an index of LaTeX that Markdown would take for italics
 
 
@@ -40,16 +47,20 @@ def unwrapped(data: dict[str, Any]) -> dict[str, Any]:
 
 
 def _unwrapped(text: str) -> str:
-    text = _uncommented(text)
+    text = uncommented(from_strings(text))
     if is_program(text):
         return text
-    text = typst_text(text)
+    fenced = FENCED.search(text) is not None
+    text = with_own_macros(from_sites(undoubled(without_elements(text))))
+    text = typst_text(from_drawn(text))
     text = TAGS.sub(lambda m: _display(m["a"] or m["b"] or ""), text)
     if ".. math::" in text:
-        text = DIRECTIVE.sub(lambda m: _display(f"{m['first']}\n{OPTION.sub('', m['inner'])}"), text)
+        text = DIRECTIVE.sub(_of_directive, text)
     text = ROLE.sub(lambda m: f"${m['inner']}$", text)
-    if FENCED.search(text):  # beside formulas in fences, a line in backticks is one more
+    if fenced:  # beside formulas in fences, a line in backticks is one more
         text = TICKED.sub(lambda m: m["inner"], text)
+    elif not re.search(r"[$\\]|ddot", text) and WORDED.search(TICKS.sub(" ", text)):
+        text = TICKS.sub(lambda m: f"\n{m['inner']}\n", text)
     lines = [line for line in text.split("\n") if line.strip()]
     braced = [BRACED.match(line) for line in lines]
     if len(lines) > 1 and all(m and is_whole(m["inner"]) for m in braced):
@@ -57,15 +68,12 @@ def _unwrapped(text: str) -> str:
     return ESCAPED.sub("_", text)
 
 
-def _uncommented(text: str) -> str:
-    """Without the marks of a comment in front of every line."""
-    block = BLOCK.match(text)
-    if block and "*/" not in block["inner"]:
-        return STARRED.sub("", block["inner"])
-    lines = text.split("\n")
-    if any(line.strip() for line in lines) and all(COMMENT.match(line) for line in lines if line.strip()):
-        return "\n".join(COMMENT.sub("", line, count=1) for line in lines)
-    return text
+def _of_directive(found: re.Match[str]) -> str:
+    """What a directive holds: an equation between blank lines each, as Sphinx prints them."""
+    whole = f"{found['first']}\n{OPTION.sub('', found['inner'])}"
+    parts = [part for part in re.split(r"\n[ \t]*\n", whole) if part.strip()]
+    apart = "\\begin" not in whole and all(part.count("=") > 0 for part in parts)
+    return "".join(_display(part) for part in (parts if apart else [whole]))
 
 
 def _display(inner: str) -> str:

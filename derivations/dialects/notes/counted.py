@@ -45,8 +45,9 @@ def by_rule(statements: Sequence[Statement]) -> list[Statement]:
 
 def _use(rule: re.Match[str]) -> re.Pattern[str]:
     """A rule's name with figures."""
+    before = r"(?<![A-Za-z\\])" if len(rule["x"]) > 1 or not rule["x"].isascii() else r"(?<!\\)(?<![A-Za-z]{2})"
     return re.compile(
-        rf"(?<![A-Za-z\\]){re.escape(rule['x'])}\s*(?:_\s*(?:\{{\s*(?P<ij>[1-9](?:\s*,?\s*[1-9])?)\s*\}}|(?P<i>[1-9]))|(?P<low>[₁-₉]{{1,2}}))"
+        rf"{before}{re.escape(rule['x'])}\s*(?:_\s*(?:\{{\s*(?P<ij>[1-9](?:\s*,?\s*[1-9])?)\s*\}}|(?P<i>[1-9]))|(?P<low>[₁-₉]{{1,2}}))"
     )
 
 

@@ -26,7 +26,10 @@ SYSTEM = re.compile(
     r"(?:\\left\s*(?:\\\{|\\lbrace|\.)|\\\{)?\s*\\begin\s*\{(?P<of>cases|dcases|rcases|array|matrix)\}(?:\s*\{[clr|@{}\s0-9]{0,20}\})?(?P<inner>.*?)\\end\s*\{(?P=of)\}(?:\s*\\right\s*(?:\.|\\\}|\\rbrace))?",
     re.DOTALL,
 )
-BEFORE_SYSTEM = re.compile(r"(?:^|\\\\|\n)[^\n=\\]*\\?(?:[^\n=]|\\overrightarrow|\\vec){1,40}=\s*$")
+BRACED = re.compile(
+    r"\\left\s*(?:\\\{|\\lbrace|\[|\.)\s*(?P<inner>\\begin\s*\{(?P<of>aligned|alignedat|gathered|split|align|gather)\*?\}.*?\\end\s*\{(?P=of)\*?\})(?:\s*\\right\s*(?:\.|\\\}|\\rbrace|\]))?",
+    re.DOTALL,
+)
 ROW_END = re.compile(r"\\\\(?:\s*\[[^\[\]]{1,12}\])?|\\cr(?![A-Za-z])|\\newline(?![A-Za-z])")
 LEADS = re.compile(
     r"\\(?:therefore|because|Rightarrow|implies|Longrightarrow|longrightarrow|Leftrightarrow|Longleftrightarrow|iff|leadsto|quad\\Rightarrow)(?![A-Za-z])|[∴⇒⇔⟹⟺→]"
@@ -76,7 +79,10 @@ def statements_of(formula: str) -> list[Statement]:
 def has_arrow(formula: str) -> bool:
     """Whether an arrow stands between two equations of one row."""
     rows = _rows(_bare(formula))
-    return any(len([part for part in cut(row, LEADS) if _equals(part)]) > 1 for row in rows)
+    # a law, of derivatives of the Lagrangian, is no premise: whether it is one is asked where it is read
+    return any(
+        len([p for p in cut(row, LEADS) if _equals(p) and "partial" not in p and "∂" not in p]) > 1 for row in rows
+    )
 
 
 def _bare(text: str) -> str:
@@ -85,13 +91,15 @@ def _bare(text: str) -> str:
     text = COMMENT.sub("", text)
     text = unnamed(LOST.sub(" ", _uncovered(text)))
     text = ENDED.sub(f" {END} ", text)
+    text = BRACED.sub(lambda m: m["inner"], text)
     for _ in range(4):
         made = SYSTEM.sub(_of_system, text)
         if made == text:
             break
         text = made
     text = re.sub(
-        r"\\overrightarrow\s*\{[^{}]{1,12}(?:\{[^{}]{1,8}\})?[^{}]{0,4}\}\s*=\s*(?=\s*⁑)|\\vec\s*\{[^{}]{1,12}\}(?:_\w|_\{\w+\})?\s*=\s*(?=\s*⁑)",
+        r"\\overrightarrow\s*\{[^{}]{1,12}(?:\{[^{}]{1,8}\})?[^{}]{0,4}\}\s*=\s*(?=\s*⁑)|\\vec\s*\{[^{}]{1,12}\}(?:_\w|_\{\w+\})?\s*=\s*(?=\s*⁑)"
+        r"|(?:^|(?<=\n))\s*(?:\\d?dot\s*\{?\s*)?\{?\s*(?:\\(?:mathbf|boldsymbol|bm|vec|mathrm|underline)\s*\{?\s*)?[A-Za-z](?:_\w|_\{\w+\})?[\s}]{0,4}(?:\(t\)\s*)?&?\s*:?=\s*(?=\s*⁑)",
         " ",
         text,
     )
@@ -202,11 +210,16 @@ def _rows(text: str) -> list[str]:
 
 
 def _lines(text: str) -> list[str]:
-    r"""The lines of a text without \\\\, where each is an equation that says what one letter is; else the text."""
-    lines = [line for line in cut(text, re.compile(r"\n")) if line.strip()]
-    sides = [_sides(part) for line in lines for part in cut(line, WIDE) if part.strip()]
-    apart = len(lines) > 1 and all(len(x) > 1 and LETTER.match(x[0]) and not LETTER.match(x[-1]) for x in sides)
-    return lines if apart and not any(GOES_ON.search(line) for line in lines) else [text]
+    r"""The lines of a text without \\\\, or what blank lines part, where each is an equation by itself; else the text."""
+    for separator in (r"\n[ \t]*\n", r"\n"):
+        lines = [line for line in cut(text, re.compile(separator)) if line.strip(" \t\n$")]
+        if len(lines) > 1 and not any(GOES_ON.search(line) or STARTS.match(line) for line in lines):
+            sides = [_sides(part) for line in lines for part in cut(line, WIDE) if part.strip()]
+            if all(len(_equals(line)) == 1 for line in lines) or all(
+                len(x) > 1 and LETTER.match(x[0]) and not LETTER.match(x[-1]) for x in sides
+            ):
+                return lines
+    return [text]
 
 
 def _columns(row: str) -> list[str]:
@@ -264,7 +277,7 @@ def _require_words(piece: str) -> None:
 
 
 def _sides(part: str) -> list[str]:
-    part = re.sub(r"[,;.。，、](?:\s|\\[,;:! ]|~|\$)*$", "", part.strip())
+    part = re.sub(r"(?<!\\)[,;.。，、](?:\s|\\[,;:! ]|~|\$)*$", "", re.sub(r"(?<!\\)\s+$", "", part.lstrip()))
     sides, start = [], 0
     for at, end in _places(part, EQUALS):
         sides.append(part[start:at])

@@ -10,7 +10,8 @@ from dataclasses import dataclass, field
 from ....models.errors import InvalidInput
 from ..names import GREEK, spelling
 from .displays import Statement
-from .letters import Names, alone, spelled, unfonted, used, uses, written_alone
+from .letters import Names, alone, is_abbreviation, spelled, unfonted, used, uses, written_alone
+from .points import derived
 from .sorting import PARTIAL, rooted
 
 _FONT = r"(?:\\(?:mathcal|mathscr|mathrm|mathit|mathfrak|text|rm|operatorname)\s*)?"
@@ -48,13 +49,14 @@ class Energy:
 
 def energy(kind: str, statements: Sequence[Statement], names: Names) -> Energy:
     """What the statements of one field say. Raises InvalidInput where none says the energy, or more than is needed."""
-    said, values = _sorted(kind, [rooted(sides, names) for sides in statements], names)
+    said, values, moved = _sorted(kind, [rooted(sides, names) for sides in statements], names)
     wrong = next((side for side in said[:-1] if kind in SUMS and SUMS[kind].match(side)), None)
     if wrong:
         raise InvalidInput(f"{wrong.strip()[:20]}: the Lagrangian is T - U, and the Hamiltonian T + U; which is meant? Where U "
                            "is a force's function, -V, leave this side out")  # fmt: skip
     found = Energy(said[-1])
-    needed, texts = dict[str, None](), said
+    found.steps += [(sides[0], side) for sides in moved for side in sides[1:]]
+    needed, texts = dict[str, None](), said + [side for sides in moved for side in sides]
     while texts:
         new = [name for name in values if name not in needed and uses(name, texts)]
         needed |= dict.fromkeys(new)
@@ -65,7 +67,9 @@ def energy(kind: str, statements: Sequence[Statement], names: Names) -> Energy:
             found.steps += [(side, sides[-1]) for side in sides[:-1] if _is_step(side, names, set(values))]
         elif re.fullmatch(r"[xyXY][1-9]?", name) and len(sides) == 1:
             found.positions[name] = sides[0]
-        elif not _only_names(name, sides, names, set(values)):
+        elif not _only_names(name, sides, names, set(values)) and not all(
+            is_abbreviation(name, x, names) for x in sides
+        ):
             raise InvalidInput(f"{written[:30]} = … is said, and the {kind} does not need it: leave it out, or give it in a "
                                "field of its own (positions, kinetic, potential)")  # fmt: skip
     found.steps += [(side, found.value) for side in said[:-1] if _is_step(side, names, set(values))]
@@ -76,9 +80,14 @@ def energy(kind: str, statements: Sequence[Statement], names: Names) -> Energy:
 
 def _sorted(
     kind: str, statements: Sequence[Statement], names: Names
-) -> tuple[list[str], dict[str, tuple[str, list[str]]]]:
-    """All that the energy is said to be, and what names are: as they are written, and all that these are said to be."""
+) -> tuple[list[str], dict[str, tuple[str, list[str]]], list[Statement]]:
+    r"""All that the energy is said to be, and what names are: as they are written, and all that these are said to be.
+
+    And what the rates of such names come to, \dot x_1 = …, which are steps.
+    """
     said: list[str] = []
+    moved: list[Statement] = []
+    first = {alone(sides[0]) for sides in statements if len(sides) > 1}
     values: dict[str, tuple[str, list[str]]] = {}
     bare = any(len(sides) > 1 and _is_whole(kind, sides[0]) and not _has_index(sides[0]) for sides in statements)
     for sides in statements:
@@ -93,17 +102,19 @@ def _sorted(
         elif name and name not in names.all:
             written, before = values.get(name, (written_alone(sides[0]), []))
             values[name] = (written, [*before, *sides[1:]])
+        elif (of := derived(sides[0])) and of[0] in first and of[0] not in names.all:
+            moved.append(sides)
         else:
             raise InvalidInput(
                 f"{' = '.join(sides).strip()[:60]!r} is no name's value: give the energy, and what its letters are"
             )
     single = [sides[0] for sides in statements if len(sides) == 1]
     if not said and len(single) == 1:
-        return single, values
+        return single, values, moved
     if not said or single:
         raise InvalidInput(f"which of these is the {kind}{' energy' if kind in ('kinetic', 'potential') else ''}? Write it "
                            f"as {'TVLH'[list(LEFT).index(kind)]} = …")  # fmt: skip
-    return said, values
+    return said, values, moved
 
 
 def _has_index(side: str) -> bool:
@@ -151,7 +162,9 @@ def _of_speeds(side: str, names: Names) -> bool:
     half = r"(?:\\[dt]?frac\{?1\}?\{?2\}?|½|1/2|\(1/2\)|\{1\\over2\})"
     bare = re.sub(r"\\left|\\right|\\[,;:! ]|\\cdot|·|\*|\s", "", unfonted(side))
     masses = "|".join(spelling(q).pattern for q in names.quantities if re.match(r"[mM]", q)) or "m"
-    square = rf"(?:[vVu]{low}{two}|[vVu]{two}{low})"
+    bar = r"(?:\\[lr]?[vV]ert|\\\||\|)"
+    whole = rf"(?:\\dot\{{{{0,2}}[rRpP]\}}{{0,2}}{low}\}}?|[vVu]{low})"
+    square = rf"(?:[vVu]{low}{two}|[vVu]{two}{low}|{bar}{whole}{bar}{two}|{whole}{two})"
     dotted = r"\\dot(?:\{\s*[xyz](?:_\{?\w\}?)?\}|[xyz])(?:_\{?\w\}?)?"
     both = rf"[(\[](?:{dotted}{two}\+{dotted}{two}|v{low}{two}\+v{low}{two})[)\]]"
     motion = rf"{half}(?:{masses})(?:{square}|{both})"

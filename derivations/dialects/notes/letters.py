@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
+from unicodedata import normalize
 
 from ..given_names import ACCENT, OVER
 from ..names import GLYPHS, GREEK, LOWS, base_word, plain_name, spelling
@@ -26,6 +27,8 @@ WORDY = {"sin", "cos", "tan", "sgn", "sign", "abs", "sqrt", "d", "t", "g", "pi",
          "dot", "ddot", "cdot", "times", "begin", "end", "inv", "T", "top", "e", "partial", "big", "over"}  # fmt: skip
 USED = re.compile(rf"\\(?P<command>[A-Za-z]+)(?P<i>{_INDEX})|(?P<word>[A-Za-z]|[{''.join(GLYPHS)}])(?P<j>{_INDEX})")
 WAVE = re.compile(r"(?<![A-Za-z\\])(?:sin|cos|tan)(?![A-Za-z])")
+DOTS = re.compile("[\u0307\u0308]")  # above a letter, ẋ_1
+OF_WAVE = re.compile(r"^\s*\\?(?P<of>sin|cos)(?![A-Za-z])\s*(?P<inner>[^^]*)$")
 ENVIRONMENT = re.compile(r"\\(?:begin|end)\s*\{\w+\*?\}(?:\{[clr|]*\})?")
 
 
@@ -62,6 +65,20 @@ def alone(side: str) -> str | None:
     """The plain name that is all of a side, its arguments left out; None where there is more."""
     found = ALONE.match(unfonted(side))
     return plain_name(found["name"]) if found else None
+
+
+def is_abbreviation(name: str, side: str, names: Names) -> bool:
+    r"""Whether a side is a sum of coordinates, or the sine or cosine of one, and its name is of these: c_1 = cos θ_1."""
+    found = OF_WAVE.match(side)
+    inner = re.sub(r"\\(?:left|right|[,;:! ])|[()\s{}]", " ", found["inner"] if found else side)
+    inner = re.sub(r"_ (\w{1,4}) ", r"_{\1}", inner)
+    parts = [plain_name(part.strip()) or "" for part in re.split(r"[+−-]", inner) if part.strip()]
+    if not parts or not all(part in names.coordinates for part in parts) or (found is None and len(parts) < 2):
+        return False
+    if found and name[0].lower() in "sc" and name[0].lower() != found["of"][0]:
+        return False
+    figures = [re.sub("[^0-9]", "", x) for x in ("".join(parts), "".join(parts[::-1]), name)]
+    return figures[2] in ("", *figures[:2])
 
 
 def written_alone(side: str) -> str:
@@ -107,7 +124,7 @@ def spelled(name: str) -> str:
 def uses(name: str, texts: Iterable[str]) -> bool:
     """Whether a plain name stands in one of these texts."""
     pattern = re.compile(rf"(?<![A-Za-z\\]){spelling(name).pattern}|(?<=[A-Za-z]){spelling(name).pattern}")
-    return any(pattern.search(unfonted(text)) for text in texts)
+    return any(pattern.search(DOTS.sub("", normalize("NFD", unfonted(text)))) for text in texts)
 
 
 def with_accents(text: str) -> str:

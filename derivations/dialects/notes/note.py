@@ -21,11 +21,11 @@ from .declarations import plain_declarations
 from .derivatives import plain_derivatives
 from .displays import Statement, has_arrow, statements_of
 from .energies import Energy, energy, evident_rates
-from .entries import with_entries, without_arguments
+from .entries import with_columns_apart, with_entries, with_points, without_arguments
 from .letters import Names, alone, names_of, with_accents, with_bold_apart
 from .partial import rows_of_partial
 from .points import of_squared_speeds, of_unknown_points
-from .products import apart, index_first
+from .products import apart, index_first, with_transposes
 from .sorting import ACCELERATION, Sorted, is_abstract, sorted_statements
 from .states import with_states
 from .words import formulas_of
@@ -38,6 +38,10 @@ WORDED = re.compile(
     r"\$|\\[\[(]|```|(?<![^\W\d_])[^\W\d_]{3,40} [^\W\d_]{2,40} [^\W\d_]{2}|[\u3040-\u30ff\u4e00-\u9fff]{3}|(?<![\w)\]'])\*\*"
 )
 
+INITIAL = re.compile(  # θ(0) = θ_0
+    r"^\s*(?:\\dot\s*)?\{?\s*\\?[^\W\d_]+[\u0307]?\s*(?:_\s*(?:\{\w{1,4}\}|\w)|[₀-₉]|[0-9])?\s*\}?(?:_\w|_\{\w\})?['′]{0,2}\s*(?:\\left\s*)?\(\s*(?:t\s*=\s*)?0\s*(?:\\right\s*)?\)\s*$"
+)
+JOINED = re.compile(r"(?<!\\)\\\\(?=[A-Za-z])")  # a row's end at once before a letter
 DIFFERENCE = re.compile(
     r"(?:\\Delta|Δ|∆)\s*(?P<x>\\(?:var)?(?:theta|phi)(?![A-Za-z])|\\psi(?![A-Za-z])|[θϑφϕψ])(?:\s*_\s*(?:\{\s*(?P<i>\w{1,4})\s*\}|(?P<j>\w)))?"
 )
@@ -99,13 +103,13 @@ def is_fit_table(data: Mapping[str, Any]) -> bool:
 
 
 def _statements(text: str, names: Names) -> list[Statement]:
-    text = _with_differences(text.translate(FULL_WIDTH), names)
+    text = JOINED.sub(lambda m: f"{m[0]} ", _with_differences(text.translate(FULL_WIDTH), names))
     text = apart(index_first(plain_derivatives(text)), names)
     found: list[Statement] = []
     for formula in formulas_of(with_bold_apart(with_accents(text), names)):
         said = statements_of(formula.text)
         found += [s for s in said if not formula.inline or _is_said(s, names)]
-    return found
+    return [sides for sides in found if not (len(sides) == 2 and INITIAL.match(sides[0]))]
 
 
 def _with_differences(text: str, names: Names) -> str:
@@ -120,7 +124,7 @@ def _is_said(sides: Statement, names: Names) -> bool:
     if len(sides) < 2 or ("\\sum" in sides[0] and is_abstract(sides, set(), names)):
         return False
     name, value = alone(sides[0]), sides[-1].strip()
-    if name is None or name not in names.all:
+    if name is None or name not in names.all or (name in names.quantities and ACCELERATION.search(value)):
         return True
     if name in names.coordinates:
         raise InvalidInput(f"{' = '.join(sides).strip()[:40]}: a sentence says what a coordinate is; is that part of the "
@@ -143,7 +147,7 @@ def _with_energy(
             text = with_momenta(text, names)
         if kind == "lagrangian" and "L" in names.all:  # L is a length, and the letter in a font the Lagrangian
             text = IN_FONT.sub("ℒ ", text)
-        said = of_squared_speeds(by_rule(_statements(text, names)), names)
+        said = of_squared_speeds(with_points(by_rule(_statements(text, names)), names), names)
         found: Energy = energy(kind, of_unknown_points(said, names), names)
     except InvalidInput as error:
         raise InvalidInput(f"{kind}: {error}") from None
@@ -171,7 +175,9 @@ def _with_equations(data: dict[str, Any], names: Names, new: dict[str, str], ste
         except InvalidInput as error:
             raise InvalidInput(f"equations.{label:.40}: {error}") from None
     try:
-        statements = with_states(without_arguments(by_rule(statements), names), names, _texts(data.get("define")))
+        statements = with_transposes(with_columns_apart(dotted_columns(by_rule(statements), names), names), names)
+        statements = with_points(statements, names)
+        statements = with_states(without_arguments(statements, names), names, _texts(data.get("define")))
         statements = with_entries(of_unknown_points(dotted_columns(statements, names), names), names)
         found: Sorted = sorted_statements(with_columns(statements, names), names)
         more, equal = rows_of_partial(found.partial, names, data)

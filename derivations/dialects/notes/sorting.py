@@ -12,7 +12,7 @@ from typing import Any
 from ....models.errors import InvalidInput
 from ..names import plain_name, spelling
 from .displays import Statement
-from .letters import NAME, Names, alone, used, uses, written_alone
+from .letters import NAME, Names, alone, is_abbreviation, used, uses, written_alone
 from .partial import is_law
 from .points import derived, named_rate
 
@@ -108,13 +108,15 @@ class _Sorter:
 
     def definitions(self) -> None:
         """What names are, those that equations or stages need. Raises InvalidInput where nothing needs one."""
-        needed = _needed([" ".join(sides) for sides in self.left], self.values)
+        # a law of derivatives of L needs no L: what L is said to be is judged as a stage
+        texts = [side for sides in self.left for side in sides if not PARTIAL.search(side)]
+        needed = _needed(texts, self.values)
         stages = {name for name, (_, sides) in self.values.items() if name not in needed and _stage(name, sides)}
         below = _needed([" ".join(self.values[name][1]) for name in stages], self.values)
         for name, (written, sides) in self.values.items():
             if name in needed | below:
                 self.found.defined[written] = sides[-1]
-            elif name not in stages:
+            elif name not in stages and not all(is_abbreviation(name, side, self.names) for side in sides):
                 raise InvalidInput(
                     f"{written[:30]} = … is said, and no equation needs it: leave it out, or give it in a field of its "
                     "own (positions, kinetic, potential, lagrangian)"
@@ -169,7 +171,7 @@ def _is_derived(sides: Statement, values: Values, found: Sorted) -> bool:
 
 
 STAGES = (
-    ("positions", re.compile(r"[xyXY][1-9]?")), ("velocities", re.compile(r"v[1-9]?")),
+    ("positions", re.compile(r"[xyXY][1-8]?")), ("velocities", re.compile(r"v[1-9]?")),
     ("kinetic", re.compile(r"T|K|Ek|Ekin|KE|Ttot|Ec")), ("potential", re.compile(r"V|U|Ep|Epot|PE")), ("lagrangian", re.compile(r"L")),
 )  # fmt: skip
 

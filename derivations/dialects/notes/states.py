@@ -47,6 +47,7 @@ def with_states(statements: Sequence[Statement], names: Names, define: Mapping[s
 
     ``define``: what the file itself says of names. A text without such a derivative stays as it is.
     """
+    statements = _by_entries(statements, names, {p for name in define if (p := plain_name(name))})
     said = {plain: value for name, value in define.items() if (plain := plain_name(name)) and _motion(value, names)}
     kept: list[Statement] = []
     for sides in statements:
@@ -64,6 +65,47 @@ def with_states(statements: Sequence[Statement], names: Names, define: Mapping[s
     texts = [" ".join(sides) for sides in made]
     own = {plain_name(name) for name in define}
     return made + [(spelled(name), value) for name, value in said.items() if name not in own and uses(name, texts)]
+
+
+def _by_entries(statements: Sequence[Statement], names: Names, own: set[str]) -> list[Statement]:
+    r"""The statements with \dot x = v, \dot v = … for d/dt (x, v)^T = (v, …)^T, where nothing else says what v is."""
+    said = own | {of for sides in statements if (of := _named(sides, names))}
+    orders = {name: listed for sides in statements if len(sides) == 2 and (name := alone(sides[0]))
+              and (listed := [alone(x) or "" for x in entries(sides[1])]) and all(listed)}  # fmt: skip
+    made: list[Statement] = []
+    used: set[str] = set()
+    for sides in statements:
+        listed, values = _listed(sides, orders) if len(sides) == 2 else [], entries(sides[-1])
+        free = [name for name in listed if name not in names.all and name not in said]
+        if len(listed) != len(values) or not free or set(names.coordinates) - set(listed):
+            made.append(sides)
+            continue
+        used |= {name for name, order in orders.items() if order == listed}
+        made += [(f"\\dot{{{spelled(name)}}}", value) for name, value in zip(listed, values, strict=True)]
+    return [sides for sides in made if alone(sides[0]) not in used or len(sides) != 2]
+
+
+def _named(sides: Statement, names: Names) -> str:
+    """The name that a statement gives to a coordinate or a rate."""
+    pairs = (sides, sides[::-1]) if len(sides) == 2 else ()
+    return next(
+        (name for one, two in pairs if (name := alone(one)) and name not in names.all and _motion(two, names)), ""
+    )
+
+
+def _listed(sides: Statement, orders: Mapping[str, list[str]]) -> list[str]:
+    """The names whose derivatives the left side is, in order."""
+    side = sides[0]
+    by_time = BY_TIME.match(side)
+    if by_time:
+        return [alone(x) or "" for x in entries(side[by_time.end() :])] or orders.get(
+            alone(side[by_time.end() :]) or "", []
+        )
+    of = [derived(x) for x in entries(side)]
+    if of:
+        return [m[0] if m and m[1] == 1 else "" for m in of]
+    whole = derived(BOLD_WHOLE.sub(r" \g<x> ", re.sub(r"\{\s*\{([^{}]*)\}\s*\}", r"{\1}", BOLD.sub(" ", side))))
+    return orders.get(whole[0], []) if whole and whole[1] == 1 else []
 
 
 def _motion(side: str, names: Names) -> tuple[str, int] | None:
@@ -94,6 +136,9 @@ def _said(sides: Statement, names: Names) -> dict[str, str]:
 
 def _derived(sides: Statement, said: Mapping[str, str], names: Names) -> Statement:
     """The statement with what a state's derivative is in place of all its names."""
+    of = derived(sides[0])
+    if len(sides) == 2 and of and of[1] == 1 and of[0] in said:
+        return _rate(said[of[0]], names), sides[1]
     order = list(said)
     meant = [_state(side, order, names) for side in sides[:-1]]
     if len(sides) < 2 or not all(meant) or not ("\\begin" in sides[-1] or entries(sides[-1])):

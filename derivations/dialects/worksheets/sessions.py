@@ -115,7 +115,9 @@ def _kind(text: str) -> str:  # noqa: PLR0911 -- one for each
         rf"(?m)^\s*{_NAME}\s*:[^=]", bare
     ):
         return "maxima"
-    if re.search(r"\(%i[0-9]", text) or (re.search(r"\$\s*(?:$|\n)", text) and re.match(rf"{_NAME}\s*:[^=]", bare)):
+    if re.search(r"\(%i[0-9]", text) or (
+        "\\" not in bare and re.search(r"\$\s*(?:$|\n)", text) and re.match(rf"{_NAME}\s*:[^=]", bare)
+    ):
         return "maxima"
     if re.match(rf"{_NAME}\s*:=", bare) and not re.search(r"\w\[|==|\\", bare):
         return "maple"

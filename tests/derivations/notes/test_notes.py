@@ -47,7 +47,7 @@ from furiko.models.errors import InvalidInput
 HERE = Path(__file__).parent
 NOTES = {
     name: note
-    for file in ("notes.toml", "printed.toml")
+    for file in ("notes.toml", "printed.toml", "sites.toml", "kinds.toml", "more_kinds.toml")
     for name, note in tomllib.loads((HERE / file).read_text(encoding="utf-8")).items()
 }
 DECLARED = tomllib.loads((HERE / "mechanisms.toml").read_text(encoding="utf-8"))
@@ -153,7 +153,7 @@ def written(name, changed=None):
 
 
 def quoted(text):
-    return '"""' + text.replace("\\", "\\\\") + '"""'
+    return '"""' + text.replace("\\", "\\\\").replace('"', '\\"') + '"""'
 
 
 def outcome(text):
