@@ -3,8 +3,9 @@
     python benchmarks/rollouts.py [n ...]
 
 Sixty-four starts of a chain of n rods on one thread. MuJoCo's step is shortened until the median error, over the
-starts, is the one asked for; furiko's tolerance is the first of its list that reaches it. Errors are the largest angle's
-difference from a run of furiko's at higher order and smaller steps. Times are processor time, the least of a few runs.
+starts, is the one asked for; furiko's tolerance is the first of its list that reaches it. Errors are the largest
+angle's difference from a run of furiko's at higher order and smaller steps. Times are processor time, the least of a
+few runs.
 Exit status 1 where what is asked for is missed.
 """
 
