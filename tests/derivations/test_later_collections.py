@@ -50,7 +50,7 @@ ENTRIES = {(collection, name): entry for collection, index in INDEX.items() for 
 # not hidden; of the third's 55 that describe a planar open mechanism, 50; of the fourth's 63, 61.
 READ_AS_PRINTED = 0.9
 # Of the seventh's 49 programs, 12 were read at first, of the eighth's 35, 20; what is read now is not to become less.
-READ_SO_FAR = {"seventh_programs": 46, "eighth_programs": 31}
+READ_SO_FAR = {"seventh_programs": 46, "eighth_programs": 33}
 
 
 def each(entries):
