@@ -8,7 +8,7 @@ names; that is refused. Cosines in a drive, which may be any function of time, a
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 from ...models.errors import InvalidInput
@@ -49,11 +49,13 @@ def with_times(data: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
         return data, []
     if not isinstance(define, dict) or any(plain_name(str(b.get("coordinate", ""))) == "t" for b in bodies):
         return data, []  # a coordinate that is called t is no time
-    if any(b.get("motion") == "given" for b in bodies):
-        data = data | {f: _apart(data[f]) for f in (*FIELDS, *ENERGIES) if f in data}
+    given = {plain_name(str(b.get("coordinate", ""))): b for b in bodies if b.get("motion") == "given"}
+    if given:
+        own = [line for name, line in define.items() if plain_name(str(name).removesuffix("(t)")) in given]
+        said = {_key(m)[1:] for line in own if _is_plain(line) for m in PHASE.finditer(line)}
+        data = data | {f: _apart(data[f], said) for f in (*FIELDS, *ENERGIES) if f in data}
     if not _has_phase([data.get(f) for f in (*FIELDS, *ENERGIES)]):
         return data, []
-    given = {plain_name(str(b.get("coordinate", ""))): b for b in bodies if b.get("motion") == "given"}
     waves: dict[Wave, str] = {}
     places: dict[Wave, str] = {}  # in a Lagrangian: what moves so, itself
     slower: list[tuple[Wave, str, str]] = []
@@ -181,13 +183,18 @@ def _mapped(value: Any, waves: Mapping[Wave, str], where: str) -> Any:
     return PHASE.sub(one, value) if _is_plain(value) else value
 
 
-def _apart(value: Any) -> Any:
-    """sin(φ - γt) as sin φ cos γt - cos φ sin γt."""
+def _apart(value: Any, said: Collection[tuple[str, str]]) -> Any:
+    """sin(φ - γt) as sin φ cos γt - cos φ sin γt; not where that is the phase of a motion (``said``)."""
     if isinstance(value, dict):
-        return {k: _apart(v) for k, v in value.items()}
+        return {k: _apart(v, said) for k, v in value.items()}
     if isinstance(value, list):
-        return [_apart(v) for v in value]
-    return TOGETHER.sub(_of_two, value) if _is_plain(value) and "t" in value else value
+        return [_apart(v, said) for v in value]
+
+    def one(found: re.Match[str]) -> str:
+        whole = PHASE.fullmatch(found[0])
+        return found[0] if whole is not None and _key(whole)[1:] in said else _of_two(found)
+
+    return TOGETHER.sub(one, value) if _is_plain(value) and "t" in value else value
 
 
 def _of_two(found: re.Match[str]) -> str:

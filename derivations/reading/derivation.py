@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from typing import Any
 from unicodedata import normalize
 
@@ -33,6 +34,7 @@ from ..dialects.markup.pages import from_pages
 from ..dialects.markup.printed import plainly_printed
 from ..dialects.markup.prose import FormulasInWords
 from ..dialects.markup.wrapped import unwrapped
+from ..dialects.notes.declarations import without_sums_below
 from ..dialects.notes.note import as_note, is_worded
 from ..dialects.parsers.rows import from_parsers
 from ..dialects.table import translated
@@ -48,6 +50,7 @@ from .forms.stages import is_staged, read_stages
 from .submission import Submission, known_fields, opened, read_fields
 
 MOST_POSITIONS, MOST_NAMED = 16, 8
+SUM_BELOW = "a sum in a denominator"
 ANGLES = {  # letters of angles, the likeliest first, and how they are written
     "theta": r"theta|θ|ϑ", "varphi": r"varphi|φ", "phi": r"phi|ϕ", "psi": r"psi|ψ",
     "alpha": r"\\ddot\s*\{?\s*\\alpha|α̈", "q": r"\\ddot\s*\{?\s*q|\bq",
@@ -112,15 +115,24 @@ def _of_one_text(data: dict[str, Any]) -> dict[str, Any]:
 def _as_program(data: dict[str, Any], lines: Mapping[str, str], slashes: int) -> Submission:
     """Read a program that is followed line by line. ``lines``: what definitions of ours stand for."""
     try:
-        data, odd = with_odd_waves(data, known(data).written)
-        plain, constants, count = _plain(data)
-        return _meant(plain, [*constants, *odd], count, slashes)
+        try:
+            return _of_program(data, slashes)
+        except InvalidInput as error:
+            if not str(error).endswith(SUM_BELOW):
+                raise
+            return _of_program(without_sums_below(data), slashes)
     except InvalidInput as error:
         found = re.match(r"define\.(\w+): (?:column [0-9]+: )?(.*)", str(error), re.DOTALL)
         line = lines.get(found[1]) if found else None
         if found is None or line is None:  # a column of ours says nothing
             raise InvalidInput(re.sub(r"column [0-9]+: ", "", str(error))) from None
         raise InvalidInput(f"equations.1: {line!r:.80}: {found[2]}") from None
+
+
+def _of_program(data: dict[str, Any], slashes: int) -> Submission:
+    data, odd = with_odd_waves(data, known(data).written)
+    plain, constants, count = _plain(data)
+    return _meant(plain, [*constants, *odd], count, slashes)
 
 
 def _rows_or_note(data: dict[str, Any], spelled: dict[str, Any], slashes: int, *, notes: bool) -> Submission:
@@ -137,6 +149,9 @@ def _rows_or_note(data: dict[str, Any], spelled: dict[str, Any], slashes: int, *
             return _meant(*plain, slashes)
         except InvalidInput as refusal:
             first = refusal
+        if str(first).endswith(SUM_BELOW):
+            with suppress(InvalidInput):
+                return _meant(*_plain(without_sums_below(spelled)), slashes)
     if not notes:
         raise first
     note = _as_note(data, first)
@@ -154,7 +169,7 @@ def _as_note(data: dict[str, Any], first: InvalidInput) -> dict[str, Any]:
         note = as_note(data, _bodies(data))
     except InvalidInput as error:
         # of a sum below the line in a quantity, a note's reading can make a name
-        if is_worded(data) or str(error).startswith("bodies: ") or str(first).endswith("a sum in a denominator"):
+        if is_worded(data) or str(error).startswith("bodies: ") or str(first).endswith(SUM_BELOW):
             raise
         raise first from None
     if note is None:

@@ -86,8 +86,16 @@ def trees_of(text: str) -> list[tuple[tuple[nodes.Statement, ...], bool]]:
         tree = read(text)
         if tree is not None:
             return [(tree, False)]
-    made = [(python_tree(text), False), (matlab_tree(text), True)]
+    made = [(_of_start(python_tree(text)), False), (matlab_tree(text), True)]
     return [(tree, matlab) for tree, matlab in made if tree is not None]
+
+
+def _of_start(tree: tuple[nodes.Statement, ...] | None) -> tuple[nodes.Statement, ...] | None:
+    """The statements of a class whose only function is __init__, as if they stood alone; any other text as it is."""
+    functions = [s for s in tree or () if isinstance(s, nodes.Define)]
+    if tree is None or [f.name for f in functions] != ["__init__"]:
+        return tree
+    return (*(s for s in tree if not isinstance(s, nodes.Define)), *functions[0].body)
 
 
 def _only_text(data: dict[str, Any]) -> tuple[str, str, str]:

@@ -353,7 +353,11 @@ class Functions(Control):
                 if parts[-1].type not in ("compound_statement", "begin_statement")
                 else self.with_last(self.parts(parts[-1]))
             )
-        return self.with_last([p for p in parts if p.type not in ("signature", "identifier")])
+        body = [p for p in parts if p.type != "signature"]
+        if not body or body[-1].type not in FUNCTIONS:
+            return self.with_last(body)
+        name = self.name_of(body[-1])  # a function that stands last is what is given back
+        return [*self.with_last(body), nodes.Return(nodes.Word(name), self.line(body[-1]))]
 
     def value(self, node: Node) -> list[nodes.Statement]:
         """An expression that is what a function gives back."""
@@ -374,7 +378,7 @@ class Functions(Control):
             if last.type == "expression_statement" and not self.text(last).rstrip().endswith(";")
             else last
         )
-        is_value = bare.type not in (*ASSIGNED, *DECLARED, "for_statement", "for_expression", "while_statement", "macro_invocation",
+        is_value = bare.type not in (*ASSIGNED, *DECLARED, *FUNCTIONS, "for_statement", "for_expression", "while_statement", "macro_invocation",
                                      "return_statement", "return_expression", "expression_statement", "macrocall_expression")  # fmt: skip
         if bare.type in ("if_expression", "match_expression", "if_statement"):
             return [*made, *self.returned([last], last=True)]

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 from ..traced import nodes
 from ..traced.values import NotFollowed
-from .expressions import CLOSURES, Expressions
+from .declared import Declared
+from .expressions import CLOSURES
 from .patterns import FIELDS
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ NOTHING = frozenset((
 HARMLESS_MACROS = frozenset(("assert", "debug_assert", "println", "print", "eprintln"))
 
 
-class Statements(Expressions):
+class Statements(Declared):
     """The statements of a text. ``in_class``: how many classes are around."""
 
     in_class = 0
@@ -328,60 +329,6 @@ class Statements(Expressions):
             listed = nodes.Listed(tuple(nodes.Word(self.text(n)) for n in names))
             made = [nodes.Assign(listed, self.expression(values[0]), self.line(node))]
         return made
-
-    def unfilled(self, name: Node, kind: str, kind_node: Node | None) -> nodes.Node | None:
-        """What a name stands for that is declared without a value: an array of a known size, or nothing yet."""
-        sizes = self.sizes_of(name) or (self.sizes_of(kind_node) if kind_node is not None else [])
-        if sizes:
-            return self.filled(sizes)
-        made = self.of_type(kind, kind_node)
-        if made is not None:
-            return made
-        if kind_node is not None and self.last(kind_node) in self.structs:
-            return nodes.Fields((), ())
-        return None
-
-    def of_type(self, kind: str, kind_node: Node | None) -> nodes.Node | None:
-        """Eigen's Matrix2d and Vector3d, std::array<double, 4>."""
-        found = re.search(r"\b(?P<what>Matrix|Vector|mat|vec|dvec)(?P<n>[2-9])[df]?\b", kind)
-        if found:
-            n = nodes.Number(found["n"])
-            if found["what"] in ("Matrix", "mat"):
-                zeros = nodes.Call(nodes.Word("zeros"), (nodes.Listed((n, n)),))
-                return nodes.Call(nodes.Word("matrix"), (zeros,))
-            return self.filled([n])
-        found = re.search(r"\b(?:Matrix|SMatrix)\s*<\s*\w+\s*,\s*(\d)\s*,\s*(\d)\s*>", kind)
-        if found and found[2] == "1":
-            return self.filled([nodes.Number(found[1])])
-        if found:
-            zeros = nodes.Call(nodes.Word("zeros"), (nodes.Listed((nodes.Number(found[1]), nodes.Number(found[2]))),))
-            return nodes.Call(nodes.Word("matrix"), (zeros,))
-        found = re.search(r"\barray\s*<\s*[\w:]+\s*,\s*(\d)\s*>", kind)
-        return self.filled([nodes.Number(found[1])]) if found else None
-
-    def initial(self, kind: str, kind_node: Node | None, value: Node) -> nodes.Node | None:
-        """State s{1, 2}, Vector2d v(a, b), double x{1}, std::vector<double> v(4)."""
-        values = tuple(self.expression(v) for v in self.parts(value) if v.type != "initializer_pair")
-        name = self.last(kind_node) if kind_node is not None else ""
-        if name in self.structs and values:
-            return self.struct(name, values, (), value)
-        pairs = self.listed(value)
-        if isinstance(pairs, nodes.Fields):
-            return pairs
-        if not values:
-            return self.unfilled(value, kind, kind_node)
-        if name in ("vector", "VectorXd", "valarray", "ArrayXd") and value.type == "argument_list":
-            return self.filled([values[0]])
-        if name in ("MatrixXd",) or name.startswith("Matrix"):
-            return self.matrix(values, name)
-        if len(values) == 1 and value.type == "argument_list":
-            return values[0]
-        is_list = value.type == "initializer_list" and len(values) > 1
-        return (
-            nodes.Listed(values)
-            if is_list or name.startswith(("Vector", "vec", "array", "RowVector"))
-            else next(iter(values))
-        )
 
     def comma(self, node: Node) -> list[nodes.Statement]:
         """a = 1, b = 2, and Eigen's M << a, b, c, d."""

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass
+from functools import cached_property
 
 from ..traced import nodes
 from ..traced.names import Scope
@@ -13,6 +16,18 @@ STEP = re.compile(
     r"(?:self\.)?(?:dt|h|delta|deltaTime|timestep|timeStep|time_step|DT|dT|step|STEP|Time\.deltaTime|Time\.fixedDeltaTime|deltatime|elapsed|dt_|DELTA)"
 )
 STALE = "{0} is computed from what was changed before; compute first, step then"
+
+
+def assigned_in(part: object) -> Iterator[nodes.Assign]:
+    """All assignments of a text, of its functions and branches too."""
+    if isinstance(part, tuple | list):
+        for one in part:
+            yield from assigned_in(one)
+    elif is_dataclass(part) and not isinstance(part, type):
+        if isinstance(part, nodes.Assign):
+            yield part
+        for one in fields(part):
+            yield from assigned_in(getattr(part, one.name))
 
 
 class Steps(Places):
@@ -111,13 +126,39 @@ class Steps(Places):
         if isinstance(of, Outside) and isinstance(target, nodes.Member):
             self.expressions.changed[(*of.path, target.name)] = value
 
+    @cached_property
+    def _own_steps(self) -> set[str]:
+        """Other names of the step: H where x += v*H and v += a*H are there, and nothing sets H from there on."""
+        factors: dict[str, set[str]] = {}
+        set_later: set[str] = set()
+        for one in assigned_in(self.statements):
+            target = nodes.dotted(one.target) or ""
+            added = self._added(one, one.target) if target else None
+            if added is not None and isinstance(added[1], nodes.Binary) and added[1].sign == "*":
+                factors[target] = {nodes.dotted(added[1].left) or "", nodes.dotted(added[1].right) or ""}
+            if factors:
+                set_later |= set(nodes.set_by(one.target))
+        found = {
+            step for two in factors.values() for rate in two & factors.keys() for step in (two - {rate}) & factors[rate]
+        }
+        return {step for step in found - set_later if step and not self._is_declared(step)}
+
+    def _is_declared(self, name: str) -> bool:
+        """Whether a name, or a field's, is a quantity of the mechanism."""
+        last = name.rpartition(".")[2]
+        return self.known.is_quantity(last) or last in self.known.drives or self.known.of_rate(last, 1) is not None
+
+    def _is_step(self, node: nodes.Node) -> bool:
+        name = nodes.dotted(node) or ""
+        return (STEP.fullmatch(name) is not None and not self.known.is_quantity(name)) or name in self._own_steps
+
     def _per_step(self, node: nodes.Node) -> nodes.Node:
         """omega of omega*dt. Raises NotFollowed for a sum, of which not every part may have the step."""
         match node:
             case nodes.Binary(sign="*", left=left, right=right):
-                if STEP.fullmatch(nodes.dotted(right) or "") and not self.known.is_quantity(nodes.dotted(right) or ""):
+                if self._is_step(right):
                     return left
-                if STEP.fullmatch(nodes.dotted(left) or "") and not self.known.is_quantity(nodes.dotted(left) or ""):
+                if self._is_step(left):
                     return right
             case nodes.Unary(sign="-", of=of):
                 return nodes.Unary("-", self._per_step(of))

@@ -24,7 +24,7 @@ def plain_declarations(data: dict[str, Any]) -> dict[str, Any]:
     if not isinstance(bodies, list) or not all(isinstance(b, dict) for b in bodies):
         return data
     made = [{k: _without_time(k, v, bodies) for k, v in b.items()} for b in bodies]
-    return _without_sums(data | {"bodies": made})
+    return without_sums_below(data | {"bodies": made})
 
 
 def _without_time(field: str, value: Any, bodies: list[dict[str, Any]]) -> Any:
@@ -35,8 +35,11 @@ def _without_time(field: str, value: Any, bodies: list[dict[str, Any]]) -> Any:
     return bare
 
 
-def _without_sums(data: dict[str, Any]) -> dict[str, Any]:
-    """With s = a + b for a sum in a denominator, and a = s - b wherever a stands: the same, said otherwise."""
+def without_sums_below(data: dict[str, Any]) -> dict[str, Any]:
+    """With s = a + b for a sum in a denominator, and a = s - b wherever a stands: the same, said otherwise.
+
+    Raises InvalidInput where no part of the sum is a quantity alone that the file does not define itself.
+    """
     define = data.get("define", {})
     if not isinstance(define, dict):
         return data
@@ -49,7 +52,7 @@ def _without_sums(data: dict[str, Any]) -> dict[str, Any]:
     new: dict[str, str] = {}
     for k, inner in enumerate(sums, 1):
         name = f"sigma_{{{k}}}"
-        part, rest = _solved(name, inner, list(new))
+        part, rest = _solved(name, inner, [*new, *map(str, define)])
         new[part] = rest
         bodies = [_changed(b, partial(_put, name, inner, part, rest)) for b in bodies]
     return data | {"bodies": bodies, "define": {**new, **define}} if new else data
@@ -72,7 +75,7 @@ def _solved(name: str, inner: str, taken: list[str]) -> tuple[str, str]:
     parts = inner.split("+")
     for k, part in enumerate(parts):
         own = plain_name(part)
-        if own is None or WRITTEN.fullmatch(part) is None or part in taken:
+        if own is None or WRITTEN.fullmatch(part) is None or own in map(plain_name, taken):
             continue
         others = [p for j, p in enumerate(parts) if j != k]
         if any("-" in p for p in others) or any(spelling(own).search(p) for p in others):

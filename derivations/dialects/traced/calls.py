@@ -57,10 +57,19 @@ class Calls:
                 return self.follow(self.functions[of.name], self.given(node, scope), self.named(node, scope))
             if self.is_entry(of.name, node, scope):
                 return self.expressions.entry(Outside((of.name,)), self.given(node, scope), 1)
-            return self.known(of.name, self.given(node, scope), node, scope)
+            return self.of_time(of.name, node) or self.known(of.name, self.given(node, scope), node, scope)
         if isinstance(of, nodes.Member):
             return self.method(of, name, path, node, scope)
         return self.of_value(self.expressions.value(of, scope), node, scope)
+
+    def of_time(self, name: str, node: nodes.Call) -> Value | None:
+        """f(t) of a drive f, or of what [define] says: whatever it is of time, it is that quantity."""
+        if len(node.arguments) != 1 or node.arguments[0] not in (nodes.Word("t"), nodes.Word("time")):
+            return None
+        known = self.expressions.names.known
+        if known.defined.get(f"{name}(t)", name).strip() != name:
+            return Outside((f"{name}(t)",))
+        return Outside((name,)) if name in known.drives else None
 
     def is_entry(self, name: str, node: nodes.Call, scope: Scope) -> bool:
         """Whether q(1) is an entry of what comes from outside."""

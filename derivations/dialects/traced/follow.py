@@ -124,9 +124,9 @@ class Follower:
 
     def followed(self, local: Local, given: list[Value], named: dict[str, Value]) -> Value:
         """What a function of the text gives back for these arguments."""
-        self.depth += 1
-        if self.depth > DEEPEST:
+        if self.depth >= DEEPEST:
             raise NotFollowed("functions call each other more than twelve deep; write out what they come to")
+        self.depth += 1
         try:
             scope = self._scope(local, given, named)
             if isinstance(local.of, nodes.Nameless):
@@ -276,6 +276,8 @@ class Follower:
             return
         path = dotted(value.of) or ""
         name = path.split(".")[-1]
+        if name == "__init__":
+            return  # of the class that this one is made of: the text's own is followed at its start
         if isinstance(value.of, nodes.Member) and name in ("append", "extend"):
             self._grow(value, name, scope)
         elif name in self.functions:

@@ -193,10 +193,11 @@ class Forms:
         n = self.count
         if n == 1:
             return [0]
+        meaning.by_names(self._declared_entries(parameters))
         places = {o[1]: path for path, o in meaning.order.items() if o[0] == 0}
-        vectors = {path[:-1] for path in places.values() if isinstance(path[-1], int)}
-        if len(places) == n and len(vectors) == 1 and all(isinstance(p[-1], int) for p in places.values()):
-            return sorted(range(n), key=lambda k: int(places[k][-1]))
+        entries = self._by_entries(meaning)
+        if entries is not None:
+            return entries
         if len(places) == n and all(len(p) == 1 and p[0] in parameters for p in places.values()):
             return sorted(range(n), key=lambda k: list(parameters).index(str(places[k][0])))
         for found in _all_names(scope).values():  # q = [x; theta]
@@ -210,6 +211,31 @@ class Forms:
         if self.known.is_vector("q") is not None:
             return list(range(n))
         raise NotFollowed(f"which acceleration is which coordinate's is not plain; {ADVICE}")
+
+    def _declared_entries(self, parameters: Sequence[str]) -> list[Path]:
+        """The entries of parameters that [define] says, v[0] or v(1), whether or not they are used."""
+        said = self.known.defined
+        return [(name, k) for name in parameters for k in range(2 * self.count)
+                if f"{name}[{k + self.follower.names.first}]" in said or f"{name}({k + 1})" in said]  # fmt: skip
+
+    def _by_entries(self, meaning: Meaning) -> list[int] | None:
+        """The coordinates as the entries of one vector come, of all coordinates or else of all rates.
+
+        Raises NotFollowed where another vector has them in another order.
+        """
+        vectors: dict[tuple[int, Path], dict[int, int]] = {}
+        for path, (order, k) in meaning.order.items():
+            if order in (0, 1) and isinstance(path[-1], int):
+                vectors.setdefault((order, path[:-1]), {})[k] = path[-1]
+        whole = [places for _, places in sorted(vectors.items(), key=lambda v: v[0][0]) if len(places) == self.count]
+        if not whole:
+            return None
+        made = sorted(whole[0], key=lambda k: whole[0][k])
+        for places in vectors.values():
+            kept = [places[k] for k in made if k in places]
+            if kept != sorted(kept):
+                raise NotFollowed(f"the angles and the rates come in two orders; {ADVICE}")
+        return made
 
     def _by_matrices(
         self, named: Mapping[str, Value], scope: Scope, parameters: Sequence[str]

@@ -56,6 +56,9 @@ SLIDING_TWICE = ("a", "acc", "accel", "acceleration", "dv", "vdot", "dvdt", "ax"
 TWINS = (("theta", "th"), ("th", "theta"), ("phi", "varphi"), ("varphi", "phi"))  # where only one is declared
 
 
+OF_MANY = re.compile(r"(?P<of>[\w.]+)\[\s*(?:\.\.\.|:)\s*,\s*(?P<k>[0-9]+)\s*(?::\s*(?P<last>[0-9]+)\s*)?\]")
+
+
 @dataclass
 class Known:
     """``coordinates``: as declared, plain; ``written``: as the rows name them; ``defined``: the file's own names."""
@@ -124,6 +127,7 @@ def known(data: Mapping[str, Any]) -> Known:
     written = tuple(readable(name, found.quantities) for name in named)
     define = data.get("define")
     defined = {str(k): v for k, v in define.items() if isinstance(v, str)} if isinstance(define, dict) else {}
+    defined |= {plain: v for k, v in defined.items() if (plain := _one_entry(k)) not in defined}
     slides = tuple(b.get("joint") == "slide" for b in moving)
     given = {str(b["drive"]).strip() for b in bodies if "drive" in b}
     drives = tuple(d for d in found.drives if d) if all(map(plain_name, given)) else ()
@@ -131,6 +135,14 @@ def known(data: Mapping[str, Any]) -> Known:
     said = [str(v) for v in (*defined.values(), *defined, *(b.get("coordinate", "") for b in bodies))]
     free = frozenset(w for text in said for w in re.findall(r"[^\W\d]\w*", text))
     return Known(coordinates, written, slides, found.quantities, drives, defined, found.relative, free)
+
+
+def _one_entry(name: str) -> str:
+    """q[0] of q[..., 0:1] and q[:, 0], entries along an axis of many states; any other name as it is."""
+    found = OF_MANY.fullmatch(name)
+    if found is None or (found["last"] and int(found["last"]) != int(found["k"]) + 1):
+        return name
+    return f"{found['of']}[{found['k']}]"
 
 
 def readable(name: str, taken: frozenset[str]) -> str:

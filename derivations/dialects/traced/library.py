@@ -36,6 +36,7 @@ SAME = frozenset((
     "numpy", "tolist", "item", "list", "tuple", "simplify", "asanyarray", "ascontiguousarray", "full", "vec", "evalf",
     "expand", "trigsimp", "as_tensor", "to", "contiguous", "requires_grad_", "Float", "DM", "evalc", "astype", "cpu",
     "requires_grad", "real", "SX", "MX", "nsimplify", "deepcopy", "toarray", "atleast_1d", "single", "collapse",
+    "Parameter",
 ))  # fmt: skip
 MADE = frozenset((
     "array", "tensor", "Tensor", "Matrix", "matrix", "mat", "ImmutableMatrix", "MutableDenseMatrix", "asmatrix",
@@ -60,7 +61,9 @@ SOLVES = frozenset((
 ))  # fmt: skip
 
 
-IMPORTED = re.compile(r"(?m)^\s*import\s+(?:sympy|numpy|casadi|torch|jax|math)[\w.]*\s+as\s+(?P<name>\w+)")
+IMPORTED = re.compile(
+    r"(?m)^\s*(?:import\s+(?:sympy|numpy|casadi|torch|jax|math)[\w.]*\s+as|from\s+torch\s+import(?=\s+nn\b))\s+(?P<name>\w+)"
+)
 
 
 def modules_of(text: str) -> frozenset[str]:

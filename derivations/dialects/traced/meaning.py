@@ -180,6 +180,8 @@ class Meaning:
     def _of_momentum(self, of: str) -> int | None:
         if self.count == 1:
             return 0
+        if of.isdigit() and not any(re.search(r"[0-9]", c) for c in self.known.coordinates):
+            return int(of) - 1 if 1 <= int(of) <= self.count else None  # p1 of alpha, beta
         for k, coordinate in enumerate(self.known.coordinates):
             index = (base_and_index(coordinate) or ("", ""))[1] or coordinate.lstrip("abcdefghijklmnopqrstuvwxyz")
             if plain_name(of) == coordinate or (index and of == index):

@@ -121,7 +121,7 @@ class Reader(Forms):
             if isinstance(value, Broken):
                 self.refused.append(value.why)
             if isinstance(value, Local):
-                found = self._try_nameless(value)
+                found = self._try_nameless(value, (name,))
                 if found is not None:
                     return found
                 continue
@@ -144,14 +144,16 @@ class Reader(Forms):
                         return self._try_nameless(Local(argument.parameters, argument))
         return None
 
-    def _try_nameless(self, value: Local) -> tuple[Rows, Meaning] | None:
+    def _try_nameless(self, value: Local, names: Sequence[str] = ()) -> tuple[Rows, Meaning] | None:
+        """``names``: what the text calls it."""
         if not isinstance(value.of, nodes.Nameless):
             return None
         define = value.of
 
         def read() -> tuple[Rows, Meaning] | None:
             scope = Scope(self.follower.top, parameters=frozenset(define.parameters))
-            return self._from_value(self.follower.expressions.value(define.value, scope), scope, define.parameters)
+            value = self.follower.expressions.value(define.value, scope)
+            return self._from_value(value, scope, define.parameters, names)
 
         return self._try(read)
 
@@ -292,6 +294,8 @@ class Reader(Forms):
     def _is_kept(self, name: str, value: Any, used: str) -> bool:
         if (re.search(r"[\[({]", name) and not name.endswith("(t)")) or name.endswith("_"):
             return False
+        if isinstance(value, str) and name == f"{value.strip()}(t)":
+            return False  # f(t) is f
         return not (isinstance(value, str) and "[" in value and not re.search(rf"(?<!\w){re.escape(name)}(?!\w)", used))
 
 
