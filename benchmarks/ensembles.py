@@ -1,12 +1,14 @@
 """Ensembles of trajectories: furiko.simulate beside heyoka's batch integrator, at equal error.
 
-    python benchmarks/ensembles.py [n ...]
+    python benchmarks/ensembles.py [--threads N] [n ...]
 
 Sixty-four starts of a chain of n rods, and of a pendulum with n - 1 legs. Both integrators run at several tolerances;
 the error is the median, over the starts, of the largest angle's difference from a run of furiko's at higher order and
 smaller steps. heyoka's time at furiko's error is read off its curve, between two tolerances by logarithms. Times are
 processor time of one thread, furiko and heyoka in turn, the median of several; neither's compilation is counted.
-heyoka is given the same elimination in O(n) that furiko uses, and as many lanes as it recommends.
+heyoka is given the same elimination in O(n) that furiko uses, and as many lanes as it recommends. With more than one
+thread the starts are shared out among as many integrators of heyoka's, and times are those of a clock: the machine has
+to be quiet.
 
 One link is left out: it is a single pendulum, for which heyoka's batch takes less time, and elliptic functions less
 still.
@@ -14,9 +16,11 @@ still.
 
 from __future__ import annotations
 
+import argparse
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from statistics import median
 from typing import Any
 
@@ -79,8 +83,15 @@ def leg_accelerations(system: System, theta: list[Any], omega: list[Any]) -> lis
     return [(G - gravity * heyoka.sin(theta[0])) / lengths[0], *legs]
 
 
-def heyokas(system: System, tolerance: float, theta: Array, omega: Array, end: float) -> Callable[[], Array]:
+def heyokas(
+    system: System, tolerance: float, theta: Array, omega: Array, end: float, threads: int
+) -> Callable[[], Array]:
     """A call that integrates all starts in lanes and returns the angles at the end, shape (B, n)."""
+    if threads > 1:
+        halves = zip(np.array_split(theta, threads), np.array_split(omega, threads), strict=True)
+        parts = [heyokas(system, tolerance, *half, end, 1) for half in halves]
+        pool = ThreadPoolExecutor(threads)
+        return lambda: np.concatenate(list(pool.map(lambda part: part(), parts)))
     lanes = heyoka.recommended_simd_size()
     n = system.n
     compact = n > 10  # its compiler would take minutes
@@ -101,23 +112,24 @@ def heyokas(system: System, tolerance: float, theta: Array, omega: Array, end: f
     return run
 
 
-def curves(system: System, end: float) -> tuple[list[tuple[float, float]], list[tuple[float, float]]]:
+def curves(system: System, end: float, threads: int) -> tuple[list[tuple[float, float]], list[tuple[float, float]]]:
     """Error [rad] and milliseconds a trajectory, of furiko and of heyoka, at each tolerance."""
     rng = np.random.default_rng(1)
     theta, omega = rng.uniform(-1, 1, (STARTS, system.n)), 0.3 * rng.normal(size=(STARTS, system.n))
     exact = simulate(system, theta, omega, [0.0, end], threads=1)._finer()[0][:, -1]
 
     def ours(tolerance: float) -> Callable[[], Array]:
-        return lambda: simulate(system, theta, omega, [0.0, end], tolerance, threads=1).theta[:, -1]
+        return lambda: simulate(system, theta, omega, [0.0, end], tolerance, threads=threads).theta[:, -1]
 
-    calls = [ours(each) for each in TOLERANCES] + [heyokas(system, each, theta, omega, end) for each in THEIRS]
+    calls = [ours(each) for each in TOLERANCES] + [heyokas(system, each, theta, omega, end, threads) for each in THEIRS]
     errors = [float(np.median(np.abs(call() - exact).max(-1))) for call in calls]
+    clock = time.thread_time if threads == 1 else time.perf_counter
     taken: list[list[float]] = [[] for _ in calls]
     for _ in range(RUNS_OF_FEW if system.n <= 10 else RUNS):
         for call, times in zip(calls, taken, strict=True):
-            begun = time.thread_time()
+            begun = clock()
             call()
-            times.append(1000 * (time.thread_time() - begun) / STARTS)
+            times.append(1000 * (clock() - begun) / STARTS)
     found = [(error, median(times)) for error, times in zip(errors, taken, strict=True)]
     return found[: len(TOLERANCES)], found[len(TOLERANCES) :]
 
@@ -128,7 +140,7 @@ def time_at(error: float, curve: list[tuple[float, float]]) -> float:
     return float(np.exp(np.interp(np.log(error), errors, times)))
 
 
-def main(numbers: list[int]) -> int:
+def main(numbers: Sequence[int], threads: int) -> int:
     """Print the table; 1 where heyoka takes less than ASKED times furiko's time."""
     print("system   n    error    furiko     heyoka  ratio")
     missed = 0
@@ -137,7 +149,7 @@ def main(numbers: list[int]) -> int:
             lengths = [1.0 / n] * n if kind == "rods" else [1.0 - 0.3 * j / n for j in range(n)]
             masses = [1.0 + 0.1 * j / n for j in range(n)]
             system = RodChain(lengths) if kind == "rods" else NLegPendulum(lengths, masses)
-            ours, theirs = curves(system, {2: 10.0, 3: 3.0}.get(n, 1.0 if n < 30 else 0.2))
+            ours, theirs = curves(system, {2: 10.0, 3: 3.0}.get(n, 1.0 if n < 30 else 0.2), threads)
             for error, taken in ours:
                 other = time_at(error, theirs)
                 missed += other < ASKED * taken
@@ -147,4 +159,8 @@ def main(numbers: list[int]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main([int(argument) for argument in sys.argv[1:]]))
+    parser = argparse.ArgumentParser()
+    parser.add_argument("numbers", nargs="*", type=int, help="of links; 2 to 100 if left out")
+    parser.add_argument("--threads", type=int, default=1)
+    given = parser.parse_args()
+    sys.exit(main(given.numbers, given.threads))

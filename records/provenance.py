@@ -60,6 +60,6 @@ def installed_version(package: str) -> str:
         found = distribution(package)
     except PackageNotFoundError:
         return ""
-    head = (found.read_text("METADATA") or "").partition("\n\n")[0]
+    head = (found.read_text("METADATA") or found.read_text("PKG-INFO") or "").partition("\n\n")[0]
     lines = (line.partition(":") for line in head.splitlines())
-    return next((value.strip() for name, _, value in lines if name == "Version"), None) or found.version or ""
+    return next((value.strip() for name, _, value in lines if name == "Version"), "")
