@@ -5,7 +5,8 @@
 Sixty-four starts of a chain of n rods, and of a pendulum with n - 1 legs. Both integrators run at several tolerances;
 the error is the median, over the starts, of the largest angle's difference from a run of furiko's at higher order and
 smaller steps. heyoka's time at furiko's error is read off its curve, between two tolerances by logarithms. Times are
-processor time of one thread, furiko and heyoka in turn, the median of several; neither's compilation is counted.
+processor time of one thread, furiko and heyoka in turn, each after a run of its own that is not timed, the median of
+several; neither's compilation is counted.
 heyoka is given the same elimination in O(n) that furiko uses, and as many lanes as it recommends. With more than one
 thread the starts are shared out among as many integrators of heyoka's, and times are those of a clock: the machine has
 to be quiet.
@@ -36,7 +37,7 @@ from furiko.reference.kernels import elimination
 Array = NDArray[np.float64]
 
 LINKS = (2, 3, 5, 10, 30, 100)
-STARTS = 64
+STARTS, STARTS_OF_THREADS = 64, 1024  # of one thread; of several, which share them out
 TOLERANCES = (1e-14, 1e-10, 1e-7, 1e-4)  # furiko's
 THEIRS = (2.2e-16, 1e-13, 1e-11, 1e-9, 1e-7, 1e-5, 1e-3)
 RUNS, RUNS_OF_FEW = 7, 41  # of ten links and fewer, where other work on the machine shows
@@ -115,7 +116,8 @@ def heyokas(
 def curves(system: System, end: float, threads: int) -> tuple[list[tuple[float, float]], list[tuple[float, float]]]:
     """Error [rad] and milliseconds a trajectory, of furiko and of heyoka, at each tolerance."""
     rng = np.random.default_rng(1)
-    theta, omega = rng.uniform(-1, 1, (STARTS, system.n)), 0.3 * rng.normal(size=(STARTS, system.n))
+    count = STARTS if threads == 1 else STARTS_OF_THREADS
+    theta, omega = rng.uniform(-1, 1, (count, system.n)), 0.3 * rng.normal(size=(count, system.n))
     exact = simulate(system, theta, omega, [0.0, end], threads=1)._finer()[0][:, -1]
 
     def ours(tolerance: float) -> Callable[[], Array]:
@@ -127,9 +129,10 @@ def curves(system: System, end: float, threads: int) -> tuple[list[tuple[float, 
     taken: list[list[float]] = [[] for _ in calls]
     for _ in range(RUNS_OF_FEW if system.n <= 10 else RUNS):
         for call, times in zip(calls, taken, strict=True):
+            call()  # so that the cache, and the processor's state for wide vectors, are its own
             begun = clock()
             call()
-            times.append(1000 * (clock() - begun) / STARTS)
+            times.append(1000 * (clock() - begun) / count)
     found = [(error, median(times)) for error, times in zip(errors, taken, strict=True)]
     return found[: len(TOLERANCES)], found[len(TOLERANCES) :]
 
