@@ -15,7 +15,6 @@ from ..reference import literal_accelerations
 from ..reference.rounding.bounds import EPSILON, SMALLEST, amplitudes, condition
 from ..reference.truth import enclosures, newton_euler
 from ..reference.truth.derivatives import Derivatives, enclosed_derivatives
-from .true_path import true_path
 
 Array = NDArray[np.float64]
 
@@ -108,6 +107,8 @@ def scene_facts(scene: Scene, states: States, *, slopes: bool = True, followed: 
 
 def _path(scene: Scene) -> tuple[Array, Array]:
     """The true motion; no rows where it cannot be had, which the check that needs it finds out, and says."""
+    from .true_path import true_path  # compiled tangents and quadruple precision, which few runs need
+
     try:
         return true_path(scene)
     except (LibraryMissing, ArithmeticError):

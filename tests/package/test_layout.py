@@ -85,6 +85,7 @@ ROOMS = {
             ("dialects.traced",),
             ("dialects.grammars.languages",),
             ("dialects.grammars",),
+            ("dialects.parsers",),
             ("dialects.notes",),
             ("dialects",),
             ("steps",),

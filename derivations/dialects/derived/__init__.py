@@ -2,5 +2,5 @@
 
 sympy and casadi in Python, MATLAB's symbols, Maxima and Mathematica. Nothing is run.
 
-May import models (for its errors), and letters, names, statements and traced of dialects.
+May import models (for its errors), and letters, names, parsers, statements and traced of dialects.
 """

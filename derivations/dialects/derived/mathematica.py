@@ -4,8 +4,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 
+from ..parsers.parser import MOST_TOKENS, NoProgram, Parser, Token, counted, from_one
 from ..traced import nodes
 
 TOKEN = re.compile(
@@ -29,21 +29,7 @@ FUNCTIONS = {
     "DiagonalMatrix": "diag", "Dot": "dot",
 }  # fmt: skip
 SCOPES = ("Module", "With", "Block")
-MOST_TOKENS, DEEPEST = 8000, 60
-
-
-class NoMathematica(ValueError):
-    """The text is none."""
-
-
-@dataclass(frozen=True)
-class Token:
-    """``kind``: number, word, text, sign or end; ``gap``: a blank stands before it."""
-
-    kind: str
-    text: str
-    at: int
-    gap: bool
+DEEPEST = 60
 
 
 def plain_letters(text: str) -> str:
@@ -58,30 +44,30 @@ def mathematica_tree(text: str) -> tuple[nodes.Statement, ...] | None:
     if not CUE.search(text) or OTHERS.search(text):
         return None
     try:
-        return _Parser(LABEL.sub("", REMARK.sub(" ", plain_letters(text)))).text_of()
-    except (NoMathematica, RecursionError):
+        plain = LABEL.sub("", REMARK.sub(" ", plain_letters(text)))
+        return _Parser(plain, tokens_of(plain)).text_of()
+    except (NoProgram, RecursionError):
         return None
 
 
 def tokens_of(text: str) -> list[Token]:
-    """The tokens; line ends within brackets are none. Raises NoMathematica where the text is none."""
+    """The tokens; line ends within brackets are none. Raises NoProgram where the text is none."""
     found: list[Token] = []
     at = depth = 0
     while True:
-        start = at
         while at < len(text) and text[at].isspace() and not (text[at] == "\n" and depth == 0):
             at += 1
         if at >= len(text):
-            return [*found, Token("end", "", at, True)]
+            return [*found, Token("end", "", at)]
         match = TOKEN.match(text, at)
         if match is None or len(found) > MOST_TOKENS:
-            raise NoMathematica
+            raise NoProgram
         sign = match[0]
         if sign == "]]" and not _opened_twice(found):
             sign = "]"
         depth += sign in ("[", "(", "{") or 2 * (sign == "[[")
         depth -= sign in ("]", ")", "}") or 2 * (sign == "]]")
-        found.append(Token(match.lastgroup or "sign", sign, at, at > start))
+        found.append(Token(match.lastgroup or "sign", sign, at))
         at += len(sign)
 
 
@@ -99,31 +85,7 @@ def _opened_twice(found: list[Token]) -> bool:
     return False
 
 
-class _Parser:
-    def __init__(self, text: str) -> None:
-        self.source = text
-        self.tokens = tokens_of(text)
-        self.at = self.depth = 0
-
-    @property
-    def token(self) -> Token:
-        return self.tokens[self.at]
-
-    def next(self) -> Token:
-        self.at += 1
-        return self.tokens[self.at - 1]
-
-    def is_sign(self, *signs: str) -> bool:
-        return self.token.kind == "sign" and self.token.text in signs
-
-    def expect(self, sign: str) -> None:
-        if not self.is_sign(sign):
-            raise NoMathematica
-        self.at += 1
-
-    def line(self, start: int) -> str:
-        return " ".join(self.source[self.tokens[start].at : self.token.at].split())[:60]
-
+class _Parser(Parser):
     # statements
 
     def text_of(self) -> tuple[nodes.Statement, ...]:
@@ -134,7 +96,7 @@ class _Parser:
                 continue
             made += self.statement()
             if not self.is_sign(";", "\n") and self.token.kind != "end":
-                raise NoMathematica
+                raise NoProgram
         return tuple(made)
 
     def statement(self) -> list[nodes.Statement]:
@@ -167,12 +129,12 @@ class _Parser:
                     return nodes.Define(name, ("t",), (), self.body(start))
             case nodes.Word() | nodes.Listed():
                 return nodes.Assign(target, self.value_of_assignment(), self.line(start))
-        raise NoMathematica
+        raise NoProgram
 
     def value_of_assignment(self) -> nodes.Node:
         value = self.postfixed()
         if self.is_sign("=", ":="):
-            raise NoMathematica
+            raise NoProgram
         return value
 
     def body(self, start: int) -> tuple[nodes.Statement, ...]:
@@ -188,7 +150,7 @@ class _Parser:
             if not self.is_sign(";") or self.depth:
                 return (nodes.Return(value, self.line(start)),)
             self.at = at
-            raise NoMathematica
+            raise NoProgram
         else:
             return (nodes.Return(self.postfixed(), self.line(start)),)
         *before, last = made or [nodes.Return(None, "")]
@@ -215,7 +177,7 @@ class _Parser:
                 self.at += 1
                 continue
             if self.token.kind == "end":
-                raise NoMathematica
+                raise NoProgram
             made += self.statement()
         self.at += 1
         return made
@@ -238,7 +200,7 @@ class _Parser:
     def expression(self, least: int = 0) -> nodes.Node:
         self.depth += 1
         if self.depth > DEEPEST:
-            raise NoMathematica
+            raise NoProgram
         left = self.signed(least)
         while True:
             if self.is_sign("&") and least <= 1:
@@ -299,7 +261,7 @@ class _Parser:
             if self.is_sign(","):
                 self.at += 1
             elif not self.is_sign(closing):
-                raise NoMathematica
+                raise NoProgram
         self.at += 1
         return tuple(made)
 
@@ -307,7 +269,7 @@ class _Parser:
         token = self.token
         if token.kind == "number":
             if "*^" in token.text:
-                raise NoMathematica
+                raise NoProgram
             return nodes.Number(self.next().text)
         if token.kind == "text":
             return nodes.Text(self.next().text[1:-1])
@@ -322,14 +284,7 @@ class _Parser:
             items = self.arguments(")")
             if len(items) == 1:
                 return items[0]
-        raise NoMathematica
-
-
-def from_one(place: nodes.Node) -> nodes.Node:
-    """A place that is counted from 1, counted from 0."""
-    if isinstance(place, nodes.Number) and place.text.isdigit():
-        return nodes.Number(str(int(place.text) - 1))
-    return nodes.Binary("-", place, nodes.Number("1"))
+        raise NoProgram
 
 
 def combined(sign: str, left: nodes.Node, right: nodes.Node) -> nodes.Node:  # noqa: PLR0911 -- one for each sign
@@ -383,11 +338,7 @@ def _each(value: nodes.Node, of: nodes.Node) -> nodes.Node:
         case nodes.Listed(items=(nodes.Word(name=name), nodes.Listed() as over)):
             return nodes.Each(value, name, over)
         case nodes.Listed(items=(nodes.Word(name=name), last)):
-            return nodes.Each(value, name, _counted(nodes.Number("1"), last))
+            return nodes.Each(value, name, counted(nodes.Number("1"), last))
         case nodes.Listed(items=(nodes.Word(name=name), first, last)):
-            return nodes.Each(value, name, _counted(first, last))
-    raise NoMathematica
-
-
-def _counted(first: nodes.Node, last: nodes.Node) -> nodes.Node:
-    return nodes.Call(nodes.Word("range"), (first, nodes.Binary("+", last, nodes.Number("1"))))
+            return nodes.Each(value, name, counted(first, last))
+    raise NoProgram

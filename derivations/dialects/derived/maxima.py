@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 
+from ..parsers.parser import NoProgram, Parser, from_one, tokens_of
 from ..traced import nodes
 
 TOKEN = re.compile(
@@ -20,20 +20,7 @@ CUE = re.compile(r"(?m)^\s*(?:\(%i[0-9]+\)\s*)?[^\W\d]\w*(?:\[\w+\])?\s*:(?![:=]
 ENDS = re.compile(r"[$;]\s*(?:\n|$)")
 BINDS = {"=": 3, "#": 3, "<": 3, ">": 3, "<=": 3, ">=": 3, "+": 4, "-": 4, "*": 5, "/": 5, ".": 6, "^": 8, "**": 8}
 COUNTED = {"sum": "sum", "makelist": "", "create_list": "", "lsum": "sum"}
-MOST_TOKENS, DEEPEST = 8000, 40
-
-
-class NoMaxima(ValueError):
-    """The text is none."""
-
-
-@dataclass(frozen=True)
-class Token:
-    """``kind``: number, word, text, sign or end."""
-
-    kind: str
-    text: str
-    at: int
+DEEPEST = 40
 
 
 def maxima_tree(text: str) -> tuple[nodes.Statement, ...] | None:
@@ -41,58 +28,13 @@ def maxima_tree(text: str) -> tuple[nodes.Statement, ...] | None:
     if "\\begin" in text or not CUE.search(text) or not ENDS.search(text):
         return None
     try:
-        parser = _Parser(LABEL.sub("", REMARK.sub(lambda m: " " * len(m[0]), text)))
-        return parser.text_of()
-    except (NoMaxima, RecursionError):
+        plain = LABEL.sub("", REMARK.sub(lambda m: " " * len(m[0]), text))
+        return _Parser(plain, tokens_of(plain, TOKEN)).text_of()
+    except (NoProgram, RecursionError):
         return None
 
 
-def tokens_of(text: str) -> list[Token]:
-    """The tokens. Raises NoMaxima where the text is none."""
-    found: list[Token] = []
-    at = 0
-    while True:
-        while at < len(text) and text[at].isspace():
-            at += 1
-        if at >= len(text):
-            return [*found, Token("end", "", len(text))]
-        match = TOKEN.match(text, at)
-        if match is None or len(found) > MOST_TOKENS:
-            raise NoMaxima
-        found.append(Token(match.lastgroup or "sign", match[0], at))
-        at = match.end()
-
-
-class _Parser:
-    def __init__(self, text: str) -> None:
-        self.source = text
-        self.tokens = tokens_of(text)
-        self.at = 0
-        self.depth = 0
-
-    @property
-    def token(self) -> Token:
-        return self.tokens[self.at]
-
-    def next(self) -> Token:
-        self.at += 1
-        return self.tokens[self.at - 1]
-
-    def is_sign(self, *signs: str) -> bool:
-        return self.token.kind == "sign" and self.token.text in signs
-
-    def is_word(self, *words: str) -> bool:
-        return self.token.kind == "word" and self.token.text in words
-
-    def expect(self, sign: str) -> None:
-        if not self.is_sign(sign):
-            raise NoMaxima
-        self.at += 1
-
-    def line(self, start: int) -> str:
-        begun, behind = self.tokens[start].at, self.token.at
-        return " ".join(self.source[begun:behind].split())[:60]
-
+class _Parser(Parser):
     # statements
 
     def text_of(self) -> tuple[nodes.Statement, ...]:
@@ -103,7 +45,7 @@ class _Parser:
                 continue
             made += self.statement()
             if not self.is_sign(";", "$") and self.token.kind != "end":
-                raise NoMaxima
+                raise NoProgram
         return tuple(made)
 
     def statement(self) -> list[nodes.Statement]:
@@ -126,7 +68,7 @@ class _Parser:
         """What stands behind the colon; a: b: c is not followed."""
         value = self.expression()
         if self.is_sign(":", ":="):
-            raise NoMaxima
+            raise NoProgram
         return value
 
     def definition(self, target: nodes.Node, start: int) -> nodes.Statement:
@@ -135,7 +77,7 @@ class _Parser:
                 names = tuple(p.name for p in parameters if isinstance(p, nodes.Word))
                 if len(names) == len(parameters):
                     return nodes.Define(name, names, (), self.body(start))
-        raise NoMaxima
+        raise NoProgram
 
     def body(self, start: int) -> tuple[nodes.Statement, ...]:
         """What a function gives back: an expression, or the last of a block."""
@@ -162,7 +104,7 @@ class _Parser:
             if self.is_sign(","):
                 self.at += 1
             elif not self.is_sign(")"):
-                raise NoMaxima
+                raise NoProgram
         self.at += 1
         return made
 
@@ -179,11 +121,11 @@ class _Parser:
                 self.at += 1
                 first = self.expression()
             if not self.is_word("thru"):
-                raise NoMaxima
+                raise NoProgram
             self.at += 1
             over = counted(first, self.expression())
         if name.kind != "word" or not self.is_word("do"):
-            raise NoMaxima
+            raise NoProgram
         self.at += 1
         if self.is_sign("("):
             self.at += 1
@@ -207,7 +149,7 @@ class _Parser:
     def expression(self, least: int = 0) -> nodes.Node:
         self.depth += 1
         if self.depth > DEEPEST:
-            raise NoMaxima
+            raise NoProgram
         left = self.signed(least)
         while self.token.kind == "sign" and BINDS.get(self.token.text, -1) >= max(least, 1):
             sign = self.next().text
@@ -244,7 +186,7 @@ class _Parser:
             if self.is_sign(","):
                 self.at += 1
             elif not self.is_sign(closing):
-                raise NoMaxima
+                raise NoProgram
         self.at += 1
         return tuple(made)
 
@@ -256,7 +198,7 @@ class _Parser:
             return nodes.Text(self.next().text[1:-1])
         if token.kind == "word":
             if token.text in ("if", "for", "while", "do", "then", "else", "thru", "lambda") or token.text == "%":
-                raise NoMaxima
+                raise NoProgram
             self.at += 1
             return nodes.Word("pi" if token.text == "%pi" else token.text)
         if self.is_sign("["):
@@ -264,16 +206,9 @@ class _Parser:
         if self.is_sign("("):
             items = self.arguments(")")
             if len(items) != 1:
-                raise NoMaxima
+                raise NoProgram
             return items[0]
-        raise NoMaxima
-
-
-def from_one(place: nodes.Node) -> nodes.Node:
-    """A place that is counted from 1, counted from 0."""
-    if isinstance(place, nodes.Number) and place.text.isdigit():
-        return nodes.Number(str(int(place.text) - 1))
-    return nodes.Binary("-", place, nodes.Number("1"))
+        raise NoProgram
 
 
 def counted(first: nodes.Node, last: nodes.Node) -> nodes.Node:
