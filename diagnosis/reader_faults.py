@@ -11,9 +11,9 @@ from collections.abc import Callable, Iterator, Mapping
 import numpy as np
 
 from ..models import Link
-from ..models.projection import Body
 from ..models.readers.model_file import ModelFile
 from ..models.spatial import IDENTITY, ZERO_INERTIAL, Inertial, Pose
+from ..models.spatial_mechanism import RigidBody
 from .finding import Finding, joint_label
 from .measurement import Array
 
@@ -78,7 +78,7 @@ def _near(a: PlanarInertial, b: PlanarInertial) -> bool:
     )
 
 
-def _without_tensor_rotation(file: ModelFile, body: Body) -> Inertial:
+def _without_tensor_rotation(file: ModelFile, body: RigidBody) -> Inertial:
     right = body.inertial
     if body.name not in file.tensors:
         return right
@@ -86,7 +86,7 @@ def _without_tensor_rotation(file: ModelFile, body: Body) -> Inertial:
     return Inertial(right.mass, right.centre, unturned.tensor)
 
 
-def _with_centre_rotated(file: ModelFile, body: Body) -> Inertial:
+def _with_centre_rotated(file: ModelFile, body: RigidBody) -> Inertial:
     right = body.inertial
     if body.name not in file.tensors:
         return right
@@ -95,7 +95,7 @@ def _with_centre_rotated(file: ModelFile, body: Body) -> Inertial:
 
 
 def _planar_inertials(
-    file: ModelFile, inertial: Callable[[Body], Inertial], turn_fixed: bool = True
+    file: ModelFile, inertial: Callable[[RigidBody], Inertial], turn_fixed: bool = True
 ) -> dict[int, PlanarInertial]:
     """Mass, centre and inertia of each link, with ``inertial(body)`` for each body.
 
@@ -107,16 +107,16 @@ def _planar_inertials(
     totals: list[Inertial] = []
     anchors: list[Array] = []
     assumed_poses: list[Pose] = []
-    for body in file.bodies:
+    for body in file.spatial.bodies:
         carrier, carrying, at = (
             (poses[body.parent], link_of[body.parent], assumed_poses[body.parent])
             if body.parent >= 0
             else (IDENTITY, -1, IDENTITY)
         )
         pose = carrier @ body.pose
-        fixed = not body.hinges and carrying >= 0
+        fixed = not body.joints and carrying >= 0
         assumed = Pose(at.rotation, (at @ body.pose).translation) if fixed and not turn_fixed else at @ body.pose
-        for hinge in body.hinges:
+        for hinge in body.joints:
             totals.append(ZERO_INERTIAL)
             anchors.append(pose.point(hinge.anchor))
             carrying = len(totals) - 1

@@ -1,6 +1,6 @@
-"""The planar mechanism that bodies in space make up: bodies fixed together become one link, and hinges get signs.
+"""The planar mechanism that a mechanism in space is: bodies fixed together become one link, and hinges get signs.
 
-Every model file and every compiled model is read as bodies in space; they are projected here, by one rule, so that the
+Every model file and every compiled model is read as a mechanism in space, and projected here, by one rule, so that the
 same mechanism has the same angles wherever it comes from.
 """
 
@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from .errors import InvalidInput
 from .mechanism import Hinge, Mechanism
 from .spatial import IDENTITY, ZERO_INERTIAL, Inertial, Pose
+from .spatial_mechanism import Joint, SpatialMechanism
 from .tree import SUPPORT, Link
 
 Array = NDArray[np.float64]
@@ -29,43 +30,6 @@ ROUNDING = 2.0**-49
 LARGEST_OFFSET = 8  # sum of the links' offsets along the axes, over their size: beyond it, their rounding counts
 LARGEST = 1e9  # of any number of a link: engines fail beyond (MuJoCo at rates of 1e10)
 UNREACHED = 1e3  # rad; limits further away than this are taken for none
-
-
-@dataclass(frozen=True)
-class SpatialHinge:
-    """A hinge of a body in space: ``axis`` (3,) and ``anchor`` (3,) [m], a point on it, in the body's own frame.
-
-    The rest as :class:`Hinge` has it, in the hinge's own sense: of the file's coordinate less its value ``zero`` in the
-    reference configuration. ``where``: its place in the file, for messages.
-    """
-
-    name: str
-    axis: Array
-    anchor: Array
-    armature: float = 0.0
-    damping: float = 0.0
-    friction: float = 0.0
-    stiffness: float = 0.0
-    rest: float = 0.0
-    limits: tuple[float, float] | None = None
-    zero: float = 0.0
-    where: str = ""
-
-
-@dataclass(frozen=True)
-class Body:
-    """A body in space: index of its ``parent``, -1 for the world, and ``pose`` there in the reference configuration.
-
-    ``hinges``: those between the two, of which none means that it is fixed; ``inertial``: in its own frame; ``where``:
-    its place in the file, for messages.
-    """
-
-    name: str
-    parent: int
-    pose: Pose
-    hinges: tuple[SpatialHinge, ...] = ()
-    inertial: Inertial = ZERO_INERTIAL
-    where: str = ""
 
 
 @dataclass(frozen=True)
@@ -88,19 +52,19 @@ class _SpatialLink:
 
     parent: int
     anchor: Array
-    hinge: SpatialHinge
+    hinge: Joint
     axis: Array
     name: str
     inertial: Inertial = ZERO_INERTIAL
 
 
-def planar_mechanism(bodies: Sequence[Body], gravity: Array, plane: Plane | None = None) -> Mechanism:
-    """The planar mechanism that ``bodies`` (parents first) make up; those fixed together are one link.
+def planar_mechanism(mechanism: SpatialMechanism, plane: Plane | None = None) -> Mechanism:
+    """The planar mechanism that ``mechanism`` is; bodies fixed together are one link.
 
-    ``gravity`` (3,) [m/s²] in the world. ``plane``: found by :func:`find_plane` where it is not given. Raises
-    :class:`InvalidInput` naming the joint that is not parallel to the others, or the link without any inertia.
+    ``plane``: found by :func:`find_plane` where it is not given. Raises :class:`InvalidInput` naming the joint that is
+    no hinge or not parallel to the others, or the link without any inertia.
     """
-    found = _fused(bodies)
+    found, gravity = _fused(mechanism), mechanism.gravity
     if not found:
         raise InvalidInput("no hinge: at least one body must be on a hinge")
     if len(found) > MOST_LINKS:
@@ -129,7 +93,7 @@ def planar_mechanism(bodies: Sequence[Body], gravity: Array, plane: Plane | None
     )
 
 
-def _fused(bodies: Sequence[Body]) -> list[_SpatialLink]:
+def _fused(mechanism: SpatialMechanism) -> list[_SpatialLink]:
     """Links in the bodies' order, in world axes; bodies fixed to the world are left out.
 
     Points are relative to the hinge of their link, never to the world's origin: so no digits are lost far from it, and
@@ -138,10 +102,12 @@ def _fused(bodies: Sequence[Body]) -> list[_SpatialLink]:
     found: list[_SpatialLink] = []
     poses: list[Pose] = []
     link_of_body: list[int] = []
-    for body in bodies:
+    for body in mechanism.bodies:
         parent_pose, link = (poses[body.parent], link_of_body[body.parent]) if body.parent >= 0 else (IDENTITY, SUPPORT)
         pose = parent_pose @ body.pose
-        for hinge in body.hinges:
+        for hinge in body.joints:
+            if hinge.kind != "hinge":
+                raise InvalidInput(f"{hinge.where}: a joint of type {hinge.kind!r}: not a planar tree of hinges")
             axis = pose.rotation @ hinge.axis
             arm = pose.rotation @ hinge.anchor
             found.append(_SpatialLink(link, pose.translation + arm, hinge, axis / np.linalg.norm(axis), body.name))
@@ -211,8 +177,9 @@ def _hinge(link: _SpatialLink, plane: Plane) -> Hinge:
         )
     sense = math.copysign(1.0, parallel)
     limits = None
-    if given.limits is not None and min(map(abs, given.limits)) < UNREACHED:
-        low, high = sorted(sense * limit for limit in given.limits)
+    turns = () if given.limits is None else tuple(limit - given.ref for limit in given.limits)
+    if turns and min(map(abs, turns)) < UNREACHED:
+        low, high = sorted(sense * turn for turn in turns)
         limits = (low, high)
     return Hinge(
         name=given.name,
@@ -220,10 +187,10 @@ def _hinge(link: _SpatialLink, plane: Plane) -> Hinge:
         damping=given.damping,
         friction=given.friction,
         stiffness=given.stiffness,
-        rest=sense * given.rest,
+        rest=sense * (given.springref - given.ref),
         limits=limits,
         sense=sense,
-        zero=given.zero,
+        zero=given.ref,
     )
 
 

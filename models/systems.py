@@ -10,10 +10,13 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from numbers import Real
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from .errors import InvalidInput
 from .tree import SUPPORT, Link, PlanarTree
+
+if TYPE_CHECKING:
+    from .spatial_mechanism import SpatialMechanism
 
 # Lengths, masses and densities outside this range are refused: inside it a product such as m l² ω², and the
 # square of it, stays clear of double precision's overflow and underflow.
@@ -50,6 +53,10 @@ class System(Protocol):
 
     def tree(self) -> PlanarTree:
         """The same mechanism as a planar tree of links."""
+        ...
+
+    def mechanism(self) -> SpatialMechanism:
+        """The same mechanism in space, as every mechanism of furiko has it."""
         ...
 
 
@@ -92,6 +99,12 @@ class NLegPendulum:
             for i, (l, m) in enumerate(zip(self.lengths, self.masses, strict=True))
         )
         return PlanarTree(links, self.gravity)
+
+    def mechanism(self) -> SpatialMechanism:
+        """The same in space: its joints' coordinates are each link's angle less its parent's [rad]."""
+        from .planar_in_space import spatial_mechanism_of  # with numpy, which a system of plain numbers does not need
+
+        return spatial_mechanism_of(self.tree())
 
 
 @dataclass(frozen=True)
@@ -139,6 +152,12 @@ class RodChain:
             for j, (l, m) in enumerate(zip(self.lengths, self.masses, strict=True))
         )
         return PlanarTree(links, self.gravity)
+
+    def mechanism(self) -> SpatialMechanism:
+        """The same in space: its joints' coordinates are each link's angle less its parent's [rad]."""
+        from .planar_in_space import spatial_mechanism_of  # with numpy, which a system of plain numbers does not need
+
+        return spatial_mechanism_of(self.tree())
 
 
 DocumentSystem = NLegPendulum | RodChain  # the mechanisms of the two documents

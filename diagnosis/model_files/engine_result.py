@@ -12,7 +12,6 @@ from ...engines.model_files.robot import ROBOT_READERS
 from ...engines.quiet import silenced
 from ...engines.workers.isolated import Call, NotReturned, call_isolated
 from ...models.projection import planar_mechanism
-from ...models.readers.hinged import hinged
 from ...models.readers.model_file import ModelFile
 from ..finding import Finding
 from ..robots.answer import Question, RobotAnswer, ask_robot
@@ -176,7 +175,7 @@ def _as_rounded(file: ModelFile, own: RobotAnswer | None) -> ModelFile:
     """The file, whose planar mechanism is as the engine rounds it where that is known, so that rounding is no cause."""
     if own is None or own.rounded is None or file.planar is None:
         return file
-    planar = planar_mechanism(hinged(own.rounded.bodies), own.rounded.gravity)
+    planar = planar_mechanism(own.rounded)
     old = file.planar  # whose gravity may be a scene's, for a URDF
     return replace(file, planar=replace(planar, gravity=old.gravity, gravity_vector=old.gravity_vector))
 

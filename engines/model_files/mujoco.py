@@ -14,9 +14,10 @@ from typing import Any
 import numpy as np
 
 from ...models.mechanism import Mechanism
-from ...models.projection import Body, SpatialHinge, planar_mechanism
+from ...models.projection import planar_mechanism
 from ...models.readers.model_file import ModelFile
 from ...models.spatial import Inertial, Pose, from_quaternion
+from ...models.spatial_mechanism import Joint, RigidBody, SpatialMechanism
 from ..info import Integrator
 from ..mujoco import quiet_data
 from ..protocol import Array
@@ -63,7 +64,7 @@ class MujocoFile:
             if not any(words in str(error) for words in REFUSED):
                 raise
             compiled = self._with_least_inertia(file)
-        for body in file.bodies:
+        for body in file.spatial.bodies:
             found = mujoco.mj_name2id(compiled, mujoco.mjtObj.mjOBJ_BODY, body.name)
             if found > 0 and not body.inertial.tensor.any():
                 compiled.body_inertia[found] = 0.0
@@ -87,36 +88,38 @@ class MujocoFile:
         for b in range(1, model.nbody):
             first = int(model.body_jntadr[b])
             hinges = tuple(self._hinge(j, names) for j in range(first, first + int(model.body_jntnum[b])))
-            pose = Pose(from_quaternion(model.body_quat[b]), model.body_pos[b].copy())
+            place = model.body_pos[b].copy(), model.body_quat[b].copy()
             turned = Pose(from_quaternion(model.body_iquat[b]), model.body_ipos[b].copy())
             unturned = Inertial(float(model.body_mass[b]), np.zeros(3), np.diag(model.body_inertia[b]))
             name = model.body(b).name
-            bodies.append(Body(name, int(model.body_parentid[b]) - 1, pose, hinges, unturned.transformed(turned)))
+            inertial = unturned.transformed(turned)
+            bodies.append(RigidBody(name, int(model.body_parentid[b]) - 1, *place, hinges, inertial))
         off = model.opt.disableflags & int(SWITCHES["gravity"])
         gravity = np.zeros(3) if off else model.opt.gravity.copy()
-        return in_order(planar_mechanism(bodies, gravity, self._file.plane), self._file.mechanism)
+        return in_order(
+            planar_mechanism(SpatialMechanism(tuple(bodies), gravity), self._file.plane), self._file.mechanism
+        )
 
-    def _hinge(self, joint: int, names: Mapping[str, Any]) -> SpatialHinge:
+    def _hinge(self, joint: int, names: Mapping[str, Any]) -> Joint:
         model = self._model
         dof, position = int(model.jnt_dofadr[joint]), int(model.jnt_qposadr[joint])
         name = model.joint(joint).name
         off = model.opt.disableflags
         no_constraint = bool(off & int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT))
-        zero = float(model.qpos0[position])
         limited = bool(model.jnt_limited[joint]) and not no_constraint and not off & int(SWITCHES["limit"])
-        low, high = (float(end) - zero for end in model.jnt_range[joint])
+        low, high = map(float, model.jnt_range[joint])
         frictionless = no_constraint or bool(off & int(SWITCHES["frictionloss"]))
-        return SpatialHinge(
+        return Joint(
             name=name,
             axis=model.jnt_axis[joint].copy(),
             anchor=model.jnt_pos[joint].copy(),
+            ref=float(model.qpos0[position]),
             armature=float(model.dof_armature[dof]),
             damping=0.0 if off & int(SWITCHES["damper"]) else _linear(model.dof_damping[dof]),
             friction=0.0 if frictionless else float(model.dof_frictionloss[dof]),
             stiffness=0.0 if off & int(SWITCHES["spring"]) else _linear(model.jnt_stiffness[joint]),
-            rest=float(model.qpos_spring[position]) - zero,
+            springref=float(model.qpos_spring[position]),
             limits=(low, high) if limited else None,
-            zero=zero,
         )
 
     def notes(self) -> tuple[str, ...]:

@@ -16,9 +16,10 @@ from typing import Any
 import numpy as np
 
 from ...models.mechanism import Mechanism
-from ...models.projection import Body, SpatialHinge, planar_mechanism
+from ...models.projection import planar_mechanism
 from ...models.readers.model_file import ModelFile
-from ...models.spatial import Inertial, Pose, from_axis_angle
+from ...models.spatial import Inertial, from_axis_angle, to_quaternion
+from ...models.spatial_mechanism import Joint, RigidBody, SpatialMechanism
 from ..protocol import Array
 from .adapter import FileCoordinates, in_order
 
@@ -61,21 +62,25 @@ class PinocchioFile:
             axis = np.asarray(self._data.joints[j].S, dtype=np.float64).ravel()[3:]
             zero = zeros.get(name, 0.0)
             placement = model.jointPlacements[j]
-            pose = Pose(placement.rotation @ from_axis_angle(axis, zero), placement.translation.copy())
+            turn = to_quaternion(placement.rotation @ from_axis_angle(axis, zero))
             inertia = model.inertias[j]
-            hinge = SpatialHinge(
+            hinge = Joint(
                 name=name,
                 axis=axis,
-                anchor=np.zeros(3),
+                ref=zero,
+                springref=zero,
                 armature=float(model.armature[column]),
                 damping=float(model.damping[column]),
                 friction=float(model.friction[column]),
-                zero=zero,
             )
             inertial = Inertial(float(inertia.mass), inertia.lever.copy(), inertia.inertia.copy())
-            bodies.append(Body(_link_of(self._file, name), int(model.parents[j]) - 1, pose, (hinge,), inertial))
+            place = placement.translation.copy(), turn
+            body = _link_of(self._file, name)
+            bodies.append(RigidBody(body, int(model.parents[j]) - 1, *place, (hinge,), inertial))
         gravity = model.gravity.linear.copy()
-        return in_order(planar_mechanism(bodies, gravity, self._file.plane), self._file.mechanism)
+        return in_order(
+            planar_mechanism(SpatialMechanism(tuple(bodies), gravity), self._file.plane), self._file.mechanism
+        )
 
     def notes(self) -> tuple[str, ...]:
         said = (
@@ -126,12 +131,12 @@ def _refuse(file: ModelFile) -> None:
     """Refuse what its MJCF reader is known to drop silently."""
     if file.language != "mjcf":
         return
-    if sum(body.parent < 0 for body in file.bodies) > 1:
+    if sum(body.parent < 0 for body in file.spatial.bodies) > 1:
         raise ValueError("of several bodies in the world Pinocchio's MJCF reader takes only the first")
-    several = next((body for body in file.bodies if len(body.hinges) > 1), None)
+    several = next((body for body in file.spatial.bodies if len(body.joints) > 1), None)
     if several is not None:
         raise ValueError(
-            f"body {several.name!r} has {len(several.hinges)} hinges, which Pinocchio joins into one joint"
+            f"body {several.name!r} has {len(several.joints)} hinges, which Pinocchio joins into one joint"
         )
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -12,11 +11,10 @@ import numpy as np
 
 from ..errors import InvalidInput
 from ..mechanism import Mechanism
-from ..projection import Body, Plane, planar_mechanism
+from ..projection import Plane, planar_mechanism
 from ..spatial import Inertial
 from ..spatial_mechanism import SpatialMechanism
 from .attributes import Array
-from .hinged import hinged
 from .mjcf.document import Mjcf, read_mjcf
 from .rules import AS_DOCUMENTED, Rules
 from .urdf.document import Urdf, read_urdf
@@ -68,11 +66,6 @@ class ModelFile:
             raise InvalidInput(self.not_planar)
         return self.planar
 
-    @cached_property
-    def bodies(self) -> tuple[Body, ...]:
-        """The bodies of a planar tree in space. Raises :class:`InvalidInput` for a joint that is no hinge."""
-        return tuple(hinged(self.spatial.bodies))
-
     @property
     def plane(self) -> Plane:
         """The plane of a planar tree. Raises :class:`InvalidInput` where the file is none."""
@@ -119,7 +112,7 @@ def _model(language: str, file: Mjcf | Urdf, path: Path, rules: Rules, more: Map
     try:
         if isinstance(file, Mjcf) and file.attaches:
             raise InvalidInput("parts of other documents are attached: engines get the file itself alone")
-        planar = planar_mechanism(hinged(spatial.bodies), spatial.gravity)
+        planar = planar_mechanism(spatial)
     except InvalidInput as error:
         not_planar = _with_path(path, error)
     return ModelFile(

@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from furiko.models import InvalidInput, NLegPendulum, RodChain
+from furiko.models import InvalidInput, NLegPendulum, RodChain, document_catalogue, find_scene
+from furiko.models.projection import planar_mechanism
 from furiko.models.tree import SUPPORT, Link, PlanarTree
 
 BAD_NUMBERS = [0, 0.0, -1.0, math.nan, math.inf, -math.inf, 1e400, 10**400, True, "1", None, 1e-60, 1e60, 1j]
@@ -98,3 +99,19 @@ def test_systems_are_frozen_and_hashable():
     with pytest.raises(AttributeError):
         system.density = 2.0
     assert hash(system) == hash(RodChain((1.0, 2.0)))
+
+
+@pytest.mark.parametrize("name", document_catalogue())
+def test_a_document_s_system_is_a_mechanism_in_space(name):
+    """Which is projected to the same planar tree, to the last bit, on free hinges."""
+    system = find_scene(name).system
+    mechanism = system.mechanism()
+    assert mechanism.nq == mechanism.nv == system.n
+    found, tree = planar_mechanism(mechanism), system.tree()
+    for got, asked in zip(found.links, tree.links, strict=True):
+        assert (got.parent, got.hinge, got.com) == (asked.parent, asked.hinge, asked.com)
+        assert (got.mass, got.inertia) == (asked.mass, asked.inertia)
+    assert found.gravity == (tree.gravity, 0.0)
+    assert found.link_names == tree.names("link")
+    assert tuple(hinge.name for hinge in found.hinges) == tree.names("hinge")
+    assert all(hinge.ideal and hinge.sense == 1.0 for hinge in found.hinges)

@@ -10,7 +10,6 @@ import spatial_trees
 import furiko
 from furiko.models import InvalidInput, NLegPendulum, RodChain, find_scene
 from furiko.models.coordinates import to_absolute, to_relative
-from furiko.models.planar_in_space import spatial_mechanism_of
 from furiko.models.spatial import Inertial, from_quaternion
 from furiko.models.spatial_mechanism import Joint, RigidBody, SpatialMechanism
 from furiko.reference.kernels.trees import dynamics, plain
@@ -138,7 +137,7 @@ def test_the_documents_mechanisms_move_as_the_documents_have_it(system, form):
     theta, omega = rng.uniform(-3, 3, (9, system.n)), rng.uniform(-3, 3, (9, system.n))
     tree = system.tree()
     q, v = to_relative(tree.parents, theta), to_relative(tree.parents, omega)
-    found = to_absolute(tree.parents, accelerations(form, spatial_mechanism_of(tree), q, v))
+    found = to_absolute(tree.parents, accelerations(form, system.mechanism(), q, v))
     wanted = furiko.accelerations(system, theta, omega)
     assert np.abs(found - wanted).max() <= 1e-13 * np.abs(wanted).max()
 

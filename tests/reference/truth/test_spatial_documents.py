@@ -9,7 +9,6 @@ from flint import arb
 
 from furiko.models import NLegPendulum, RodChain
 from furiko.models.coordinates import absolute_from_relative, to_relative
-from furiko.models.planar_in_space import spatial_mechanism_of
 from furiko.reference import centrifugal_matrix, energies, gravity_vector, mass_matrix
 from furiko.reference.arithmetic import balls
 from furiko.reference.truth import newton_euler
@@ -57,7 +56,7 @@ def test_each_moment_of_inertia_is_exact(system):
 @pytest.mark.parametrize("system", SYSTEMS, ids=IDS)
 def test_equations_of_motion(system):
     theta, omega, q, v = drawn(system)
-    truth = spatial_truth(spatial_mechanism_of(system.tree()), q, v)
+    truth = spatial_truth(system.mechanism(), q, v)
     S = absolute_from_relative(system.tree().parents).astype(int).astype(object)
     with precision(192):
         angles, rates = balls().array(theta), balls().array(omega)
@@ -70,7 +69,7 @@ def test_equations_of_motion(system):
 def test_accelerations(system):
     theta, omega, q, v = drawn(system)
     parents = system.tree().parents
-    truth = spatial_truth(spatial_mechanism_of(system.tree()), q, v)
+    truth = spatial_truth(system.mechanism(), q, v)
     with precision(192):
         literal = accelerations_in_balls(system, balls().array(theta)[None], balls().array(omega)[None])[0]
         overlap(truth.accelerations, to_relative(parents, literal))
@@ -85,4 +84,4 @@ def test_energies(system):
     theta, omega, q, v = drawn(system)
     with precision(192):
         literal = energies(system, balls().array(theta), balls().array(omega))
-        overlap(energy(spatial_mechanism_of(system.tree()), q, v), [part.item() for part in literal])
+        overlap(energy(system.mechanism(), q, v), [part.item() for part in literal])

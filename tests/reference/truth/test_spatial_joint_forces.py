@@ -5,7 +5,6 @@ import pytest
 from spatial_trees import tree
 
 from furiko.models import RodChain
-from furiko.models.planar_in_space import spatial_mechanism_of
 from furiko.models.spatial import Inertial
 from furiko.models.spatial_mechanism import Joint, RigidBody, SpatialMechanism
 from furiko.reference import spatial_kinematics
@@ -57,7 +56,7 @@ def test_the_documents_rods_pull_at_their_joints_as_takenos_equation_8_has_it():
     theta, omega = np.array([[0.4, -1.1, 2.0]]), np.array([[1.5, -0.7, 2.2]])
     alpha = newton_euler.enclosed_accelerations(system, theta, omega).high
     expected = newton_euler.enclosed_joint_forces(system, theta, omega).high[0]
-    mechanism = spatial_mechanism_of(system.tree())
+    mechanism = system.mechanism()
     q, v, a = (np.diff(row[0], prepend=0.0) for row in (theta, omega, alpha))
     found = forces(mechanism, q, v, a)
     assert found[:, [0, 2]] == pytest.approx(expected, rel=1e-13)
