@@ -10,7 +10,7 @@ from typing import Any
 import msgspec
 
 from .derivations.classroom.assess import unread
-from .derivations.classroom.folder import Handed, assess_all, handed_in
+from .derivations.classroom.folder import ENDINGS, Handed, assess_all, handed_in
 from .derivations.classroom.problem import problem_fields, problem_of, read_problem
 from .models.errors import InvalidInput
 from .models.writers.whole_file import make_folder, write_whole
@@ -51,7 +51,8 @@ def assess_one(problem: Path, path: Path, *, hints: int | None = None) -> ClassD
     if found == 1:
         return assess_class(problem, [path], hints=hints)
     pinned = problem_of(fields)
-    why = f"hand in one file that ends in .toml; here {'is none' if not found else f'are {found}'}"
+    endings = f"one file that ends in {ENDINGS[0]}, or else one text ({', '.join(ENDINGS[1:6])}, …)"
+    why = f"hand in {endings}; here {'is none' if not found else f'are {found}'}"
     alone = msgspec.convert(unread(pinned, path.name, "not read", why).to_dict(), Assessed)
     return ClassDocument(
         title=pinned.title, rule=pinned.points.sentence(), hints=pinned.hints, submissions=[alone], mistakes=[]

@@ -14,7 +14,7 @@ from ..grading.differences import authors
 from ..grading.grade import graded
 from ..grading.grade_record import Grade
 from ..reading.derivation import read_derivation
-from ..reading.submission import Submission, table_of
+from ..reading.submission import Submission, fields_of
 from .feedback import feedback
 from .marks import Part, marks
 from .problem import Problem
@@ -51,11 +51,14 @@ class Assessment:
         return asdict(self)
 
 
-def assess_text(problem: Problem, who: str, toml: str) -> Assessment:
-    """Assess the text of a submission. One that cannot be read has the outcome "not read"; nothing is raised for it."""
+def assess_text(problem: Problem, who: str, text: str, suffix: str = ".toml") -> Assessment:
+    """Assess the text of a submission, whose file's name ends in ``suffix``.
+
+    One that cannot be read has the outcome "not read"; nothing is raised for it.
+    """
     started = time.perf_counter()
     try:
-        found = assess(problem, who, table_of(toml))
+        found = assess(problem, who, fields_of(text, suffix))
     except InvalidInput as error:
         found = unread(problem, who, "not read", str(error))
     return replace(found, seconds=round(time.perf_counter() - started, 4))

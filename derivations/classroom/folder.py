@@ -19,12 +19,17 @@ from typing import Any
 
 from ...models.errors import InvalidInput
 from ...models.readers.bounded_file import read_text, shown
-from ..reading.submission import LARGEST_FILE
+from ..reading.submission import LARGEST_FILE, is_toml
 from .assess import Outcome, unread
 from .problem import Problem
 from .worker import answer_in
 
 MOST_SUBMISSIONS = 5000
+# What a derivation is handed in as: its fields, a text, or a program's text.
+ENDINGS = (
+    ".toml", ".tex", ".md", ".txt", ".html", ".py", ".m", ".jl", ".c", ".cpp", ".js", ".ts", ".java", ".cs", ".rs",
+    ".go", ".f90", ".r", ".lua", ".wl", ".mac", ".mo", ".hs", ".swift", ".kt",
+)  # fmt: skip
 START = 60.0  # [s] in which a process must be ready
 
 
@@ -39,7 +44,8 @@ class Handed:
 def handed_in(paths: Sequence[Path]) -> list[Handed]:
     """The submissions in these files and folders, in the order of their names.
 
-    In a folder each ``*.toml`` is one, named by its file; in a folder of folders, by the folder it is in. Raises
+    In a folder each file that may be a derivation (``ENDINGS``) is one, named by its file; in a folder of folders, by
+    the folder it is in. Where a student has a TOML file, that is the submission, and texts beside it are not. Raises
     InvalidInput where there is none.
     """
     found: list[Handed] = []
@@ -47,22 +53,32 @@ def handed_in(paths: Sequence[Path]) -> list[Handed]:
         if not path.is_dir():
             found.append(Handed(path.stem, path))
             continue
-        inside = sorted(p for p in (*path.glob("*.toml"), *path.glob("*/*.toml")))
-        folders: dict[Path, int] = {}
-        for p in inside:
-            folders[p.parent] = folders.get(p.parent, 0) + 1
-        for p in inside:
-            in_folder = p.parent != path
-            who = f"{p.parent.name}/{p.stem}" if in_folder and folders[p.parent] > 1 else p.parent.name
-            found.append(Handed(who if in_folder else p.stem, p))
+        alone = _written_in(path)
+        stems = {p.stem for p in alone if is_toml(p.suffix)}
+        inside = [Handed(p.stem, p) for p in alone if is_toml(p.suffix) or p.stem not in stems]
+        for folder in sorted(p for p in path.iterdir() if p.is_dir() and not p.name.startswith(".")):
+            files = _written_in(folder)
+            files = [p for p in files if is_toml(p.suffix)] or files
+            name = folder.name
+            inside += [Handed(name if len(files) == 1 else f"{name}/{p.stem}", p) for p in files]
         if not inside:
             raise InvalidInput(
-                f"{shown(path)}: no submission; a folder with *.toml, or of folders with one each, is needed"
+                f"{shown(path)}: no submission; a folder with files that end in {', '.join(ENDINGS)}, or of folders "
+                "with one each, is needed"
             )
+        found += sorted(inside, key=lambda one: one.path)
     if len(found) > MOST_SUBMISSIONS:
         raise InvalidInput(f"{len(found)} submissions; at most {MOST_SUBMISSIONS} at a time")
     names = [x.who for x in found]
     return [x if names.count(x.who) == 1 else Handed(str(x.path), x.path) for x in found]
+
+
+def _written_in(folder: Path) -> list[Path]:
+    """The files of a folder that may be derivations, in the order of their names."""
+    return sorted(
+        p for p in folder.iterdir()
+        if p.suffix.lower() in ENDINGS and not p.name.startswith(".") and p.stem.lower() != "readme" and p.is_file()
+    )  # fmt: skip
 
 
 def assess_all(
@@ -109,13 +125,13 @@ def assess_all(
 def _alone(problem: Problem, handed: Handed) -> dict[str, Any]:
     """One submission in a fork of this process, which has no threads: that starts at once."""
 
-    def assess(who: str, text: str) -> dict[str, Any]:
+    def assess(who: str, text: str, suffix: str) -> dict[str, Any]:
         reads, writes = os.pipe()
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", DeprecationWarning)  # of threads that numpy's library may have
             child = os.fork()
         if not child:
-            answer_in(writes, problem, who, text)
+            answer_in(writes, problem, who, text, suffix)
         os.close(writes)
         content, late = b"", False
         with os.fdopen(reads, "rb") as stream:
@@ -142,7 +158,7 @@ def _answer(problem: Problem, who: str, answer: str | None, late: bool) -> dict[
     return unread(problem, who, "not graded", why).to_dict()
 
 
-def _one(assess: Callable[[str, str], dict[str, Any]], problem: Problem, handed: Handed) -> dict[str, Any]:
+def _one(assess: Callable[[str, str, str], dict[str, Any]], problem: Problem, handed: Handed) -> dict[str, Any]:
     outcome: Outcome = "not read"
     try:
         if handed.path.is_symlink():
@@ -150,7 +166,7 @@ def _one(assess: Callable[[str, str], dict[str, Any]], problem: Problem, handed:
         text = read_text(handed.path, 4 * LARGEST_FILE)
     except InvalidInput as error:
         return unread(problem, handed.who, outcome, str(error)).to_dict()
-    return assess(handed.who, text)
+    return assess(handed.who, text, handed.path.suffix)
 
 
 class Worker:
@@ -160,12 +176,12 @@ class Worker:
         self.problem, self.fields = problem, fields
         self.process: subprocess.Popen[str] | None = None
 
-    def assess(self, who: str, text: str) -> dict[str, Any]:
+    def assess(self, who: str, text: str, suffix: str) -> dict[str, Any]:
         """The assessment of one text, as JSON has it; "not graded" where it takes too long or the process ends."""
         if self.process is None and self._ask(json.dumps(self.fields), START) is None:
             self.end()
             return unread(self.problem, who, "not graded", "the process that grades could not be started").to_dict()
-        answer = self._ask(json.dumps({"who": who, "text": text}), self.problem.seconds)
+        answer = self._ask(json.dumps({"who": who, "text": text, "suffix": suffix}), self.problem.seconds)
         if answer is None:
             self.end()
         return _answer(self.problem, who, answer, self.late)

@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any, overload
 
 from ...models.errors import InvalidInput
-from ..grading.grade import graded
+from ..grading.grade import grade_fields
 from ..grading.grade_record import Grade
-from ..reading.derivation import read_derivation
 from ..reading.pinned import Pinned
-from ..reading.submission import Submission, table_of
+from ..reading.submission import FIELDS, fields_of
 from .assess import Assessment, assess
 from .problem import Problem, problem_of, read_problem
+
+# A line that only a TOML file has: a table, a field with a text, a number or a list, or a row in quotes.
+_FIELD = f"(?:{'|'.join(FIELDS)})"
+_TABLE = rf"\[\[?{_FIELD}\]\]?\s*(?:#.*)?$"
+IS_TOML = re.compile(rf"^\s*(?:{_TABLE}|{_FIELD}\s*=\s*[\"'\[{{0-9]|[0-9]+\s*=\s*[\"'])", re.MULTILINE)
 
 AnyProblem = Problem | Mapping[str, Any] | str | os.PathLike[str]
 
@@ -29,7 +34,7 @@ def grade_text(source: Any, problem: AnyProblem, *, pinned: Pinned | None = None
 def grade_text(
     source: Any, problem: AnyProblem | None = None, *, pinned: Pinned | None = None, **fields: Any
 ) -> Grade | Assessment:
-    """Grade the text of a derivation's TOML file, its fields as a dictionary, or what sympy has.
+    """Grade the text of a derivation's TOML file, its fields, a text (LaTeX, a program), or what sympy has.
 
     sympy: ``Eq``, or a list of them, or a list or a matrix of expressions that are zero, are equations of motion; one
     expression alone is a Lagrangian. ``fields``: of the file, as in ``system="n-leg", links=2``. ``problem``: a
@@ -40,13 +45,7 @@ def grade_text(
     if problem is not None:
         return assess(_problem(problem), "", data)
 
-    def read(slashes: int) -> Submission:
-        s = read_derivation(data, slashes)
-        if pinned is not None:
-            pinned.check(s)
-        return s
-
-    return graded(read, pinned=pinned is not None)[0]
+    return grade_fields(data, pinned=pinned)
 
 
 def _problem(problem: AnyProblem) -> Problem:
@@ -57,7 +56,7 @@ def _problem(problem: AnyProblem) -> Problem:
 
 def _fields(source: Any) -> dict[str, Any]:
     if isinstance(source, str):
-        return table_of(source)
+        return fields_of(source, ".toml" if IS_TOML.search(source) else "")
     if isinstance(source, Mapping):
         return dict(source)
     if _is_sympy(source) and hasattr(source, "tolist"):  # a matrix

@@ -28,17 +28,17 @@ def main() -> None:
     print("ready", file=answer_to, flush=True)
     for line in sys.stdin:
         task = json.loads(line)
-        print(_assessed(problem, task["who"], task["text"]), file=answer_to, flush=True)
+        print(_assessed(problem, task["who"], task["text"], task["suffix"]), file=answer_to, flush=True)
 
 
-def answer_in(descriptor: int, problem: Problem, who: str, text: str) -> NoReturn:
+def answer_in(descriptor: int, problem: Problem, who: str, text: str, suffix: str) -> NoReturn:
     """Write the assessment to a pipe and end this process, which is a fork."""
     try:
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGALRM):
             signal.signal(number, signal.SIG_DFL)
         _limit()
         with os.fdopen(descriptor, "w", encoding="utf-8") as answer_to:
-            answer_to.write(_assessed(problem, who, text))
+            answer_to.write(_assessed(problem, who, text, suffix))
     finally:
         os._exit(0)
 
@@ -57,10 +57,10 @@ def _alarm(seconds: int) -> None:
         signal.alarm(seconds)
 
 
-def _assessed(problem: Problem, who: str, text: str) -> str:
+def _assessed(problem: Problem, who: str, text: str, suffix: str) -> str:
     _alarm(int(problem.seconds) + STUCK)
     try:
-        found = assess_text(problem, who, text)
+        found = assess_text(problem, who, text, suffix)
     except MemoryError:
         found = unread(problem, who, "not graded", f"it needs more than {MEGABYTES} MB of memory")
     except Exception as error:

@@ -6,49 +6,98 @@ import os
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from ...models.errors import InvalidInput
 from ...models.readers.bounded_file import read_text, shown
 from ..algebra.fingerprint import RandomPoint
 from ..reading.derivation import read_derivation
 from ..reading.pinned import Pinned
-from ..reading.submission import LARGEST_FILE, Submission, table_of
+from ..reading.submission import LARGEST_FILE, Submission, fields_of, is_toml, table_of
 from ..steps.families import family
 from .differences import row_differences
 from .forms.hamilton import scale_note
 from .forms.stages import StageJudge
 from .forms.units import units_notes
+from .forms.unnamed import USUAL, is_unnamed, refusal, said_of
 from .grade_record import Grade, Verdict
 from .hypotheses import Hypothesis, Said, hypotheses, merged
 from .judge import Judgement, judge
 from .readback import readback
 from .wrong import if_as_declared, named_in_stages, wrong
 
+MOST_NEAR = 3  # usual mechanisms that mistakes are looked for in, where a derivation does not say which it is about
+
 
 def grade(source: str | os.PathLike[str], *, pinned: Pinned | None = None) -> Grade:
-    """Grade the derivation in a TOML file. Raises InvalidInput, with the place, where it is not one.
+    """Grade the derivation in a file. Raises InvalidInput, with the place, where it is not one.
 
-    ``pinned``: what a teacher fixes; the file is held to it, and then nothing is assumed.
+    A file that ends in .toml has a derivation's fields; any other is the text itself: LaTeX, Markdown, a program.
+    ``pinned``: what a teacher fixes; a TOML file is held to it, and then nothing is assumed. It says what a text is
+    about.
     """
     path = Path(source)
     text = read_text(path, 4 * LARGEST_FILE)
     try:
-        return grade_text(text, pinned=pinned)
+        data = fields_of(text, path.suffix)
+        if not is_toml(path.suffix) and pinned is not None:
+            data, pinned = data | pinned.fields(), None
+        return grade_fields(data, pinned=pinned)
     except InvalidInput as error:
         raise InvalidInput(f"{shown(path)}: {error}") from None
 
 
 def grade_text(toml: str, *, pinned: Pinned | None = None) -> Grade:
-    """Grade the text of such a file."""
-    data = table_of(toml)
+    """Grade the text of a TOML file."""
+    return grade_fields(table_of(toml), pinned=pinned)
 
+
+def grade_fields(data: dict[str, Any], *, pinned: Pinned | None = None) -> Grade:
+    """Grade a derivation's fields. Where they name no mechanism, it is right for the usual one that is said then."""
+    if "bodies" in data and is_unnamed(data):
+        data = data | {"system": "mechanism"}
+    if pinned is None and is_unnamed(data):
+        return _unnamed(data)
+    return graded(_reader(data, pinned), pinned=pinned is not None)[0]
+
+
+def _reader(data: dict[str, Any], pinned: Pinned | None = None) -> Callable[[int], Submission]:
     def read(slashes: int) -> Submission:
         s = read_derivation(data, slashes)
         if pinned is not None:
             pinned.check(s)
         return s
 
-    return graded(read, pinned=pinned is not None)[0]
+    return read
+
+
+def _unnamed(data: dict[str, Any]) -> Grade:
+    """The grade for the usual mechanism that the derivation is right for. Raises InvalidInput where that is none."""
+    found: list[Grade] = []
+    fitting: list[tuple[str, Submission]] = []
+    refused: list[str] = []
+    for about in USUAL:
+        read = _reader({**data, **about})
+        try:
+            first = read(0)
+            right = _if_right(read, first, pinned=False)
+        except InvalidInput as error:
+            refused.append(str(error))
+            continue
+        if right is None:
+            fitting.append((about["system"], first))
+        elif right[0].verdict == "correct":
+            found.append(right[0])
+            if not right[0].assumes:
+                break
+    if found:
+        best = min(found, key=lambda one: len(one.assumes))
+        said, said_ja = said_of(best)
+        return replace(best, assumes=(said, *best.assumes), assumes_ja=(said_ja, *best.assumes_ja))
+    whole = [(name, s) for name, s in fitting if s.stages is not None or s.lagrangian or len(s.rows) == s.space.n]
+    wrongs = [(name, _wrong(s, pinned=False)) for name, s in whole[:MOST_NEAR]]
+    name, nearest = min(wrongs, key=lambda one: len(one[1].findings), default=("", None))
+    raise refusal(nearest, name, refused)
 
 
 def graded(read: Callable[[int], Submission], *, pinned: bool) -> tuple[Grade, Submission]:
@@ -57,38 +106,53 @@ def graded(read: Callable[[int], Submission], *, pinned: bool) -> tuple[Grade, S
     ``read``: reads it, with slashes as in :class:`Slashes`; ``pinned``: nothing is assumed.
     """
     first = read(0)
+    found = _if_right(read, first, pinned=pinned)
+    return found if found is not None else (_wrong(first, pinned=pinned), first)
+
+
+def _if_right(read: Callable[[int], Submission], first: Submission, *, pinned: bool) -> tuple[Grade, Submission] | None:
+    """The grade of a derivation that is right, or right as far as it goes; ``first``: it as it was read. Else None."""
     if first.stages is not None:
-        return _staged(read, first, pinned=pinned)
+        return _if_stages_right(read, first, pinned=pinned)
     readings = [(first, judge(first, pinned=pinned))]
     if first.doubtful and readings[0][1].hypothesis is None:
         for mode in (1, 2, 3):
             s = read(mode)
             readings.append((s, judge(s, pinned=pinned)))
     right = [(s, j) for s, j in readings if j.hypothesis is not None]
-    if right:
-        s, judgement = min(right, key=lambda pair: len(pair[1].assumes))
-        return _right(s, judgement, slashes=s is not first, pinned=pinned), s
-    return wrong(first, pinned=pinned), first
+    if not right:
+        return None
+    s, judgement = min(right, key=lambda pair: len(pair[1].assumes))
+    return _right(s, judgement, slashes=s is not first, pinned=pinned), s
 
 
-def _staged(read: Callable[[int], Submission], first: Submission, *, pinned: bool) -> tuple[Grade, Submission]:
-    """A derivation that is stated stage by stage, in the meaning in which no stage is wrong, else in the declared."""
+def _if_stages_right(
+    read: Callable[[int], Submission], first: Submission, *, pinned: bool
+) -> tuple[Grade, Submission] | None:
+    """A derivation that is stated stage by stage, in the meaning in which no stage is wrong; None if there is none."""
     readings = [first, *(read(mode) for mode in (1, 2, 3) if first.doubtful)]
     for s in readings:
         for h in hypotheses(s, pinned=pinned):
             found = StageJudge(s, h)
             if found.is_right():
                 return _right_stages(s, h, found, slashes=s is not first), s
-    h = next(hypotheses(first, pinned=True))
-    found = StageJudge(first, h)
+    return None
+
+
+def _wrong(s: Submission, *, pinned: bool) -> Grade:
+    """What is wrong, in the declared meaning: of stages the first, else terms and mistakes."""
+    if s.stages is None:
+        return wrong(s, pinned=pinned)
+    h = next(hypotheses(s, pinned=True))
+    found = StageJudge(s, h)
     marks = found.marks()
     findings = tuple(term for mark in marks for term in mark.findings)
-    notes = [*units_notes(first), *([found.frame_note] if found.frame_note else [])]
+    notes = [*units_notes(s), *([found.frame_note] if found.frame_note else [])]
     return Grade(
-        verdict="wrong", findings=findings, mistakes=named_in_stages(first, h, found, marks), system=first.kind,
-        links=first.space.n, reading=readback(first, h), stages=marks,
+        verdict="wrong", findings=findings, mistakes=named_in_stages(s, h, found, marks), system=s.kind,
+        links=s.space.n, reading=readback(s, h), stages=marks,
         notes=tuple(en for en, _ in notes), notes_ja=tuple(ja for _, ja in notes),
-    ), first  # fmt: skip
+    )  # fmt: skip
 
 
 def _right_stages(s: Submission, h: Hypothesis, found: StageJudge, *, slashes: bool) -> Grade:

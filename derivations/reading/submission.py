@@ -1,16 +1,13 @@
-"""Reads a derivation: a TOML file with the equations of motion, or the Lagrangian, of a planar mechanism."""
+"""Reads a derivation: fields with the equations of motion, or the Lagrangian, of a planar mechanism."""
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 from typing import Any, TypeVar
 
 from ...models.errors import InvalidInput, nearest
-from ...models.readers.bounded_file import read_text, shown
 from ...models.readers.toml_text import parse_toml
 from ..algebra.quotient import Quotient
 from ..algebra.signs import without_squares
@@ -110,26 +107,30 @@ class Submission:
                           self.space.n)  # fmt: skip
 
 
-def read_submission(source: str | os.PathLike[str]) -> Submission:
-    """Read a file. Raises InvalidInput, with the place, where it is not a derivation."""
-    path = Path(source)
-    text = read_text(path, 4 * LARGEST_FILE)
-    try:
-        return parse_submission(text)
-    except InvalidInput as error:
-        raise InvalidInput(f"{shown(path)}: {error}") from None
-
-
 def parse_submission(text: str, slashes: int = 0) -> Submission:
-    """Read the text of such a file. ``slashes``: how 3g/2l is read, as in :class:`Slashes`."""
+    """Read the text of a TOML file. ``slashes``: how 3g/2l is read, as in :class:`Slashes`."""
     return read_table(table_of(text), slashes)
 
 
 def table_of(text: str) -> dict[str, Any]:
-    """The fields of such a text, as they stand there. Raises InvalidInput where it is too long, or no TOML."""
+    """The fields of a TOML text, as they stand there. Raises InvalidInput where it is too long, or no TOML."""
     if len(text) > LARGEST_FILE:
         raise InvalidInput(f"longer than {LARGEST_FILE} characters; a derivation is not")
     return parse_toml(text)
+
+
+def is_toml(suffix: str) -> bool:
+    """Whether a file with this ending has the fields of a derivation; any other is the text itself."""
+    return suffix.lower() == ".toml"
+
+
+def fields_of(text: str, suffix: str) -> dict[str, Any]:
+    """The fields of a derivation's file, whose name ends in ``suffix``: of any but TOML, its text as the equations."""
+    if is_toml(suffix):
+        return table_of(text)
+    if len(text) > LARGEST_FILE:
+        raise InvalidInput(f"longer than {LARGEST_FILE} characters; a derivation is not")
+    return {"equations": text}
 
 
 def read_table(data: dict[str, Any], slashes: int = 0) -> Submission:

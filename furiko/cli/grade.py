@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 @click.option("--autograder", type=click.Path(path_type=Path), help="With --problem: write a zip for Gradescope.")
 @click.option("--jobs", "-j", type=click.IntRange(1, 256), help="With --problem: how many are graded at once.")
 @click.option("--callable", "function", metavar="MODULE:FUNCTION", help="Grade a function that you trust.")
-@click.option("--system", help="The mechanism of a --callable, or the one that a FILE must be about.")
+@click.option("--system", help="The mechanism of a text or a --callable, or the one that a TOML file must be about.")
 @click.option("--links", type=click.IntRange(1, 20), help="The number of angles, likewise.")
 @click.option("--japanese", is_flag=True, help="Print the result in Japanese.")
 @json_option
@@ -43,11 +43,15 @@ def grade(
 ) -> int:
     """Grade a derivation: correct, or which term is wrong and why.
 
+    A FILE is what you have: LaTeX, Markdown, plain text, a program's text (nothing of it is run); or a TOML file, which
+    can say more. Of a text, --system and --links say what it is about; without, the usual mechanisms are tried, and the
+    one that it is right for is said.
+
     With --callable the function is called as f(theta, omega, parameters), where parameters has lengths, masses,
     gravity and, for rods, density; it returns the accelerations. It runs in a process of its own, with limits of time
     and memory. That is no sandbox: grade only code that you would run yourself.
 
-    With --system or --links a file about another problem is refused, and a derivation that is right only on some
+    With --system or --links a TOML file about another problem is refused, and a derivation that is right only on some
     condition counts as wrong.
 
     With --problem any number of files, or folders with one file per student, are graded by a problem file: points for

@@ -27,6 +27,13 @@ RIGHT = """[equations]
 2 = "m2*l2*a2 + m2*l1*a1*cos(t1-t2) = -m2*g*sin(t2) + m2*l1*w1^2*sin(t1-t2)"
 """
 WRONG = RIGHT.replace("+ m2*l1*w1^2", "- m2*l1*w1^2")
+LATEX = r"""\begin{align}
+(m_1+m_2) l_1 \ddot\theta_1 + m_2 l_2 \ddot\theta_2 \cos(\theta_1-\theta_2)
+  + m_2 l_2 \dot\theta_2^2 \sin(\theta_1-\theta_2) + (m_1+m_2) g \sin\theta_1 &= 0 \\
+l_2 \ddot\theta_2 + l_1 \ddot\theta_1 \cos(\theta_1-\theta_2)
+  SIGN l_1 \dot\theta_1^2 \sin(\theta_1-\theta_2) + g \sin\theta_2 &= 0
+\end{align}
+"""
 
 
 @pytest.fixture
@@ -145,3 +152,24 @@ def test_bad_usage_is_one_line(folder, arguments):
     done = furiko(folder, *arguments)
     assert done.returncode == (1 if arguments == ["nowhere.toml"] else 2)
     assert len(done.stderr.splitlines()) == (0 if arguments == ["nowhere.toml"] else 1)
+
+
+def test_students_hand_in_what_they_have(folder):
+    """A text or a program, about the problem's mechanism; beside a TOML file it is a draft."""
+    latex = LATEX
+    there = folder / "texts"
+    (there / "eve").mkdir(parents=True)
+    (there / "fay").mkdir()
+    (there / "ann.tex").write_text(latex.replace("SIGN", "-"))
+    (there / "bob.md").write_text(f"My answer is\n\n$${latex.replace('SIGN', '+')}$$\n")
+    (there / "README.md").write_text("Hand in until Friday.")
+    (there / "picture.png").write_bytes(b"no text")
+    (there / "eve" / "answer.toml").write_text(RIGHT)
+    (there / "eve" / "draft.tex").write_text(latex.replace("SIGN", "+"))
+    (there / "fay" / "answer.txt").write_text("theta'' = 0")  # of one angle, where there are two
+    done = furiko(folder, "texts", "--json")
+    found = {s["who"]: (s["outcome"], s["points"]) for s in json.loads(done.stdout)["submissions"]}
+    assert found == {"ann": ("correct", 10), "bob": ("wrong", 8.5), "eve": ("correct", 10), "fay": ("not read", 0)}
+    alone = furiko(folder, "texts/bob.md")
+    assert (alone.returncode, alone.stderr) == (1, "")
+    assert "Row 2: wrong (4.5 of 6)" in alone.stdout

@@ -1,9 +1,9 @@
 """Every snippet of the documentation does what it shows: files are written, commands run, Python's answers compared.
 
-In a page, in order: a toml, xml or python block whose first line is a comment with a file's name is written as that
-file; of a console block each command is run and what it prints compared, where "…" stands for any text, and on a line
-of its own for any lines; a command without output must succeed; python with >>> is a doctest, without it is run. What a
-page tells a reader to do to his machine (sh) is not done.
+In a page, in order: a toml, xml, tex or python block whose first line is a comment with a file's name is written as
+that file; of a console block each command is run and what it prints compared, where "…" stands for any text, and on a
+line of its own for any lines; a command without output must succeed; python with >>> is a doctest, without it is run.
+What a page tells a reader to do to his machine (sh) is not done.
 """
 
 import doctest
@@ -23,7 +23,7 @@ PAGES = [ROOT / "README.md", ROOT / "README.ja.md", *sorted((ROOT / "docs").rglo
 OWN = {"add-an-engine.md", "my-equations-my-robot.md", "engines.md"}
 PAGES = [page for page in PAGES if "generated" not in page.parts and page.name not in OWN]
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
-NAMED = re.compile(r"(?:# |<!-- )([\w./-]+\.(?:toml|py|xml|urdf))(?: -->)?\n")
+NAMED = re.compile(r"(?:# |% |<!-- )([\w./-]+\.(?:toml|py|xml|urdf|tex))(?: -->)?\n")
 LEFT_ALONE = {"sh", "text", "mermaid"}
 # Over 5 s: engines' processes, and what compiles.
 SLOW = {

@@ -168,15 +168,15 @@ def test_a_process_that_was_ended_is_started_again(tmp_path):
     ann.write_text(RIGHT)
     fields = parse_toml(PROBLEM)
     worker = Worker(replace(problem_of(fields), seconds=1e-4), fields)
-    late = worker.assess("ann", RIGHT)
+    late = worker.assess("ann", RIGHT, ".toml")
     assert (late["outcome"], late["why"]) == ("not graded", "it takes longer than 0.0001 s")
     worker.problem = replace(worker.problem, seconds=30.0)
-    assert worker.assess("ann", RIGHT)["outcome"] == "correct"
+    assert worker.assess("ann", RIGHT, ".toml")["outcome"] == "correct"
     assert worker.process is not None
     worker.process.kill()
-    ended = worker.assess("ann", RIGHT)
+    ended = worker.assess("ann", RIGHT, ".toml")
     assert (ended["outcome"], ended["why"]) == ("not graded", "the process that graded it ended")
-    assert worker.assess("ann", RIGHT)["outcome"] == "correct"
+    assert worker.assess("ann", RIGHT, ".toml")["outcome"] == "correct"
     worker.end()
 
 

@@ -1,0 +1,108 @@
+"""Derivations as they are written, in no TOML file: LaTeX, plain text, programs; and such as name no mechanism."""
+
+import pytest
+
+from furiko import grade_text
+from furiko.derivations.grading.grade import grade
+from furiko.derivations.reading.pinned import Pinned
+from furiko.models import InvalidInput
+
+# Shiki (1.10), (1.11): two point masses on massless rods.
+RIGHT = """
+(m1+m2) l1 th1'' + m2 l2 th2'' cos(th1-th2) + m2 l2 th2'^2 sin(th1-th2) + (m1+m2) g sin th1 = 0
+l2 th2'' + l1 th1'' cos(th1-th2) - l1 th1'^2 sin(th1-th2) + g sin th2 = 0
+"""
+WRONG = RIGHT.replace("+ m2 l2 th2'^2", "- m2 l2 th2'^2")
+CART = r"""
+The equations of motion of a pole on a cart are
+\begin{align}
+(M+m)\ddot{x} + m l\ddot\theta\cos\theta - m l \dot\theta^2\sin\theta &= 0\\
+l\ddot\theta + \ddot x\cos\theta - g\sin\theta &= 0
+\end{align}
+"""  # from m l² θ̈ + m l ẍ cos θ − m g l sin θ = 0, θ from above and towards +x
+PROGRAM = """
+def pendulum(t, y, g=9.81, l=1.0):
+    theta, omega = y
+    return [omega, -g/l*np.sin(theta)]
+"""
+RODS = "(m1/3 + m2) l1^2 a1 + m2 l1 l2/2 a2 cos(t1-t2) + m2 l1 l2/2 w2^2 sin(t1-t2) + (m1/2 + m2) g l1 sin t1 = 0\n\
+m2 l2^2/3 a2 + m2 l1 l2/2 a1 cos(t1-t2) - m2 l1 l2/2 w1^2 sin(t1-t2) + m2 g l2/2 sin t2 = 0"
+
+
+def graded(folder, name, text, **says):
+    (folder / name).write_text(text, encoding="utf-8")
+    return grade(folder / name, pinned=Pinned(**says) if says else None)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "about"),
+    [
+        ("mine.txt", RIGHT, "a chain of 2 massless rods with a point mass at the end of each"),
+        ("cart.tex", CART, "cart sliding to the right"),
+        ("pendulum.py", PROGRAM, "a point mass on a massless rod"),
+        ("rods.md", RODS, "a chain of 2 uniform rods"),
+    ],
+)
+def test_a_text_is_right_for_the_mechanism_that_is_said(tmp_path, name, text, about):
+    found = graded(tmp_path, name, text)
+    assert found.verdict == "correct"
+    assert found.assumes[0].startswith(f"it is about {about}")
+    assert found.text().splitlines()[0].startswith("Read: ")
+    assert f"Right if it is about {about}" in found.text()
+
+
+def test_what_is_right_for_no_usual_mechanism_is_not_judged_but_told_the_nearest(tmp_path):
+    with pytest.raises(InvalidInput, match=r"mine\.txt: system: which mechanism it is about is not said") as refusal:
+        graded(tmp_path, "mine.txt", WRONG)
+    words = str(refusal.value)
+    assert "(--system double-pendulum), it is wrong: Row 1, the θ̇₂² term" in words
+    assert "the sign is wrong" in words
+    assert "--system simple-pendulum" in words
+
+
+def test_what_can_be_read_as_no_usual_mechanism_says_why(tmp_path):
+    with pytest.raises(InvalidInput, match=r"as none of the usual ones it can be read: .*Say which: --system"):
+        graded(tmp_path, "mine.txt", "y = 2 x + @")
+
+
+def test_a_text_may_be_told_what_it_is_about(tmp_path):
+    assert graded(tmp_path, "mine.txt", RIGHT, system="double-pendulum").assumes == ()
+    assert graded(tmp_path, "wrong.txt", WRONG, system="point-masses", links=2).verdict == "wrong"
+    # and what it does not say is found as in a file that names its mechanism
+    (only,) = graded(tmp_path, "cart.tex", CART, system="cart-pole").assumes
+    assert "from the upward vertical" in only
+
+
+def test_a_file_may_name_its_mechanism_by_a_usual_word_and_be_held_to_it(tmp_path):
+    text = f'system = "double-pendulum"\nequations = """{RIGHT}"""'
+    assert graded(tmp_path, "mine.toml", text, system="double-pendulum").verdict == "correct"
+    with pytest.raises(InvalidInput, match="it cannot change that"):
+        graded(tmp_path, "mine.toml", text, system="triple-pendulum")
+
+
+def test_fields_without_a_mechanism_are_fields_too():
+    assert grade_text({"equations": RIGHT}).assumes == (
+        "it is about a chain of 2 massless rods with a point mass at the end of each",
+    )
+    bodies = [{"coordinate": "theta", "mass": "m", "length": "l"}]
+    assert grade_text({"bodies": bodies, "equations": ["l θ'' + g sin θ = 0"]}).assumes == ()
+
+
+def test_a_condition_more_is_said_behind_the_mechanism():
+    """Only where l = 1."""
+    found = grade_text({"equations": "theta'' = -g sin theta"})
+    assert found.assumes[0] == "it is about a point mass on a massless rod"
+    assert "l1 = 1" in found.assumes[1]
+
+
+@pytest.mark.parametrize("text", [RIGHT, CART, PROGRAM, RODS])
+def test_a_text_is_taken_in_python_too(text):
+    assert grade_text(text).verdict == "correct"
+
+
+@pytest.mark.parametrize(
+    "text", ["[equations]\n1 = 'l1*a1", "system = 'n-leg\nlinks = 2", "equations = [", "links = 2.2.2"]
+)
+def test_a_toml_file_with_a_slip_is_told_the_slip(text):
+    with pytest.raises(InvalidInput, match="TOML"):
+        grade_text(text)
