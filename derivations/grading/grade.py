@@ -20,6 +20,7 @@ from .forms.hamilton import scale_note
 from .forms.stages import StageJudge
 from .forms.units import units_notes
 from .forms.unnamed import USUAL, is_unnamed, refusal, said_of
+from .forms.usual_bodies import said_of_bodies, usual_bodies
 from .grade_record import Grade, Verdict
 from .hypotheses import Hypothesis, Said, hypotheses, merged
 from .judge import Judgement, judge
@@ -73,10 +74,11 @@ def _reader(data: dict[str, Any], pinned: Pinned | None = None) -> Callable[[int
 
 def _unnamed(data: dict[str, Any]) -> Grade:
     """The grade for the usual mechanism that the derivation is right for. Raises InvalidInput where that is none."""
-    found: list[Grade] = []
+    found: list[tuple[Grade, Said]] = []
     fitting: list[tuple[str, Submission]] = []
     refused: list[str] = []
-    for about in USUAL:
+    named = [{"system": "mechanism", "bodies": bodies} for bodies in usual_bodies(data)]
+    for about in (*USUAL, *named):
         read = _reader({**data, **about})
         try:
             first = read(0)
@@ -84,16 +86,16 @@ def _unnamed(data: dict[str, Any]) -> Grade:
         except InvalidInput as error:
             refused.append(str(error))
             continue
-        if right is None:
+        if right is None and "bodies" not in about:
             fitting.append((about["system"], first))
-        elif right[0].verdict == "correct":
-            found.append(right[0])
+        elif right is not None and right[0].verdict == "correct":
+            said = said_of_bodies(about["bodies"]) if "bodies" in about else said_of(right[0])
+            found.append((right[0], said))
             if not right[0].assumes:
                 break
     if found:
-        best = min(found, key=lambda one: len(one.assumes))
-        said, said_ja = said_of(best)
-        return replace(best, assumes=(said, *best.assumes), assumes_ja=(said_ja, *best.assumes_ja))
+        best, (said_en, said_ja) = min(found, key=lambda one: len(one[0].assumes))
+        return replace(best, assumes=(said_en, *best.assumes), assumes_ja=(said_ja, *best.assumes_ja))
     whole = [(name, s) for name, s in fitting if s.stages is not None or s.lagrangian or len(s.rows) == s.space.n]
     wrongs = [(name, _wrong(s, pinned=False)) for name, s in whole[:MOST_NEAR]]
     name, nearest = min(wrongs, key=lambda one: len(one[1].findings), default=("", None))

@@ -130,7 +130,9 @@ def fields_of(text: str, suffix: str) -> dict[str, Any]:
         return table_of(text)
     if len(text) > LARGEST_FILE:
         raise InvalidInput(f"longer than {LARGEST_FILE} characters; a derivation is not")
-    return {"equations": text}
+    has_accelerations = re.search(r"\\ddot|''|″|[¨\u0308]|dd|''|def |return", text)
+    alone = re.search(r"(?<![A-Za-z])(?:L|\\mathcal\s*\{?\s*L\}?|\\mathscr\s*\{?\s*L\}?)\s*&?=", text)
+    return {"lagrangian": text} if alone and not has_accelerations else {"equations": text}
 
 
 def read_table(data: dict[str, Any], slashes: int = 0) -> Submission:

@@ -25,6 +25,14 @@ def pendulum(t, y, g=9.81, l=1.0):
     theta, omega = y
     return [omega, -g/l*np.sin(theta)]
 """
+DAMPED = r"\ddot\theta + \frac{b}{m l^2}\dot\theta + \frac{g}{l}\sin\theta = 0"
+# Lagrange's equations of a cart, pulled by F against b ẋ, with a pole whose centre is at l.
+DRIVEN = r"""
+$$(M+m)\ddot{x}+b\dot{x}+ml\ddot{\theta}\cos\theta-ml\dot{\theta}^2\sin\theta=F$$
+$$(I+ml^2)\ddot{\theta}+mgl\sin\theta=-ml\ddot{x}\cos\theta$$
+"""
+NAMED = """(m_c + m_p) x'' + m_p l theta'' cos(theta) - m_p l theta'^2 sin(theta) = f
+m_p l x'' cos(theta) + m_p l^2 theta'' + m_p g l sin(theta) = 0"""
 RODS = "(m1/3 + m2) l1^2 a1 + m2 l1 l2/2 a2 cos(t1-t2) + m2 l1 l2/2 w2^2 sin(t1-t2) + (m1/2 + m2) g l1 sin t1 = 0\n\
 m2 l2^2/3 a2 + m2 l1 l2/2 a1 cos(t1-t2) - m2 l1 l2/2 w1^2 sin(t1-t2) + m2 g l2/2 sin t2 = 0"
 
@@ -41,6 +49,18 @@ def graded(folder, name, text, **says):
         ("cart.tex", CART, "cart sliding to the right"),
         ("pendulum.py", PROGRAM, "a point mass on a massless rod"),
         ("rods.md", RODS, "a chain of 2 uniform rods"),
+        ("damped.tex", DAMPED, "a pendulum (theta) with mass m, length l, damping b"),
+        (
+            "driven.md",
+            DRIVEN,
+            "a cart (x) with mass M, damping b, drive F; pole (theta) with mass m, length l, inertia I about",
+        ),
+        ("named.txt", NAMED, "a cart (x) with mass m_c, drive f; pole (theta) with mass m_p, length l"),
+        (
+            "lagrangian.tex",
+            r"\[ L = \frac12 m \ell^2 \dot\phi^2 + m g \ell \cos\phi \]",
+            "a point mass on a massless rod",
+        ),
     ],
 )
 def test_a_text_is_right_for_the_mechanism_that_is_said(tmp_path, name, text, about):
@@ -58,6 +78,21 @@ def test_what_is_right_for_no_usual_mechanism_is_not_judged_but_told_the_nearest
     assert "(--system double-pendulum), it is wrong: Row 1, the θ̇₂² term" in words
     assert "the sign is wrong" in words
     assert "--system simple-pendulum" in words
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        DAMPED.replace("l^2", "l"),  # b θ̇ is a torque
+        DRIVEN.replace("+b", "-b"),  # a motor, not a loss: no damping is negative
+        DRIVEN.replace("(I+ml^2)", "(I-ml^2)"),
+        NAMED.replace("(m_c + m_p)", "m_c"),
+        r"\[ L = \frac12 m \ell^2 \dot\phi^2 - 2 m g \ell \cos\phi \]",
+    ],
+)
+def test_a_slip_makes_no_text_right(text):
+    with pytest.raises(InvalidInput, match="which mechanism it is about is not said"):
+        grade_text(text)
 
 
 def test_what_can_be_read_as_no_usual_mechanism_says_why(tmp_path):
