@@ -28,7 +28,7 @@ PARALLEL = 2e-6
 ROUNDING = 2.0**-49
 LARGEST_OFFSET = 8  # sum of the links' offsets along the axes, over their size: beyond it, their rounding counts
 LARGEST = 1e9  # of any number of a link: engines fail beyond (MuJoCo at rates of 1e10)
-UNREACHED = 1e3  # rad; limits further away than this are taken for none
+UNREACHED = 1e3  # rad; limits further away than this on both sides are taken for none
 
 
 @dataclass(frozen=True)
@@ -211,7 +211,7 @@ def _hinge(link: _SpatialLink, plane: Plane) -> Hinge:
         )
     sense = math.copysign(1.0, parallel)
     limits = None
-    if given.limits is not None and min(map(abs, given.limits)) < UNREACHED:
+    if given.limits is not None and not (given.limits[0] <= -UNREACHED and given.limits[1] >= UNREACHED):
         low, high = sorted(sense * limit for limit in given.limits)
         limits = (low, high)
     return Hinge(

@@ -21,7 +21,7 @@ from ...models.spatial_mechanism import SpatialMechanism
 from ..finding import Finding
 from .fields import field_differences
 from .free_armature import armature_finding, armature_in_body_axes
-from .measures import MASS_MATRIX, Measured, measured, worst
+from .measures import MASS_MATRIX, Measured, measured, not_determined, worst
 from .misreadings import explain_reading
 from .numbering import lost_entry, lost_entry_finding
 from .numbers import FieldDifference, plain
@@ -34,6 +34,7 @@ NEARLY_IN_FRAME = (
     "{engine} has the inertials of {bodies}, which are within {reach:g} of the body's frame, in that frame"
 )
 NO_MECHANISM = "{engine} holds a body whose axes are not at right angles: no mechanism to hold its numbers against"
+NO_ACCELERATIONS = "{engine}: accelerations are not determined, and not compared: {why}"
 ALL_MEASURED = 4  # quantities: mass matrix, bias, accelerations without and with torques
 LONGEST_MESSAGE = 300  # characters of an engine's own message
 
@@ -182,7 +183,7 @@ def _compared(reader: RobotReader, engine: RobotEngine, question: Question) -> R
         )
         answer.findings += computing_findings(reader, bound, answer, places_in(question.file.spatial))
         if answer.measured and len(answer.measured) < ALL_MEASURED:
-            answer.notes = (f"{reader.name}: a joint moves no mass: its accelerations are not determined",)
+            answer.notes = (NO_ACCELERATIONS.format(engine=reader.name, why=not_determined(answer.holds)),)
     except (ValueError, RuntimeError, InvalidInput, np.linalg.LinAlgError) as error:
         return failed(answer, error)
     kept = frames_kept(answer.holds, question.file.spatial, reader.same_frame)
