@@ -35,6 +35,7 @@ NEARLY_IN_FRAME = (
 )
 NO_MECHANISM = "{engine} holds a body whose axes are not at right angles: no mechanism to hold its numbers against"
 NO_ACCELERATIONS = "{engine}: accelerations are not determined, and not compared: {why}"
+TOO_MANY = "{count} freedoms, more than the {most} for which {engine} is asked: it would need gigabytes, and minutes"
 ALL_MEASURED = 4  # quantities: mass matrix, bias, accelerations without and with torques
 LONGEST_MESSAGE = 300  # characters of an engine's own message
 
@@ -110,6 +111,8 @@ class RobotAnswer:
 def ask_robot(reader: RobotReader, question: Question) -> RobotAnswer:
     """What one engine makes of the user's own file."""
     with np.errstate(all="ignore"):
+        if too_many := _too_many_freedoms(reader, question):
+            return _refused(reader, too_many, question)
         try:
             engine = reader.load(question.path, question.file.language, question.meshes)
         except ImportError as error:
@@ -117,6 +120,19 @@ def ask_robot(reader: RobotReader, question: Question) -> RobotAnswer:
         except (ValueError, RuntimeError, LookupError) as error:  # LookupError: Pinocchio, of a class that it has not
             return _refused(reader, " ".join(str(error).split())[:LONGEST_MESSAGE], question)
         return _compared(reader, engine, question)
+
+
+def _too_many_freedoms(reader: RobotReader, question: Question) -> str:
+    """Why the engine is not asked to read so large a file, nothing where it is: some read only a part of it."""
+    language, most = question.file.language, reader.most_freedoms
+    if not most or question.file.spatial.nv <= most:
+        return ""
+    lost = [flag for flag in (*LOSING, BESIDE_LOSING) if flag in reader.mistakes.get(language, ())]
+    try:
+        count = question.read(with_mistakes(language, lost)).nv
+    except InvalidInput:
+        return ""
+    return TOO_MANY.format(engine=reader.name, count=count, most=most) if count > most else ""
 
 
 def _refused(reader: RobotReader, message: str, question: Question) -> RobotAnswer:
