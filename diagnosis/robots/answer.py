@@ -35,6 +35,9 @@ NEARLY_IN_FRAME = (
 )
 NO_MECHANISM = "{engine} holds a body whose axes are not at right angles: no mechanism to hold its numbers against"
 NO_ACCELERATIONS = "{engine}: accelerations are not determined, and not compared: {why}"
+NOT_UTF8 = (
+    "a name in it is not in UTF-8, the only encoding that the engine's names have. Instead, save the file in UTF-8"
+)
 TOO_MANY = "{count} freedoms, more than the {most} for which {engine} is asked: it would need gigabytes, and minutes"
 ALL_MEASURED = 4  # quantities: mass matrix, bias, accelerations without and with torques
 LONGEST_MESSAGE = 300  # characters of an engine's own message
@@ -117,6 +120,8 @@ def ask_robot(reader: RobotReader, question: Question) -> RobotAnswer:
             engine = reader.load(question.path, question.file.language, question.meshes)
         except ImportError as error:
             return RobotAnswer(reader.name, "missing", f"{installing(reader.package)} [{error}]")
+        except UnicodeDecodeError:
+            return _refused(reader, NOT_UTF8, question)
         except (ValueError, RuntimeError, LookupError) as error:  # LookupError: Pinocchio, of a class that it has not
             return _refused(reader, " ".join(str(error).split())[:LONGEST_MESSAGE], question)
         return _compared(reader, engine, question)
@@ -185,6 +190,8 @@ def _compared(reader: RobotReader, engine: RobotEngine, question: Question) -> R
     try:
         answer.holds = engine.compiled(question.file.spatial)
         bound = engine.bind(answer.holds)
+    except UnicodeDecodeError:
+        return _refused(reader, NOT_UTF8, question)
     except (ValueError, RuntimeError, InvalidInput) as error:
         return failed(answer, error)
     named, left = _reading(reader, question, answer.holds)

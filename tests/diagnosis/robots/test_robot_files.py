@@ -460,6 +460,27 @@ def test_damping_that_pinocchio_leaves_to_its_caller_is_said(tmp_path):
     assert any("damping in pinocchio-aba" in line for line in found.without)
 
 
+def test_a_limit_that_acts_well_before_its_range_ends_is_no_difference(tmp_path):
+    """Of a planar arm three quarters of the range are within the margin: MuJoCo's limit pushes in most states."""
+    joint = f'<joint name="j" axis="0 1 0" range="-10 10" limited="true" margin="0.13"/>{INERTIAL}'
+    path = saved(tmp_path, "arm.xml", f'<mujoco><worldbody><body name="a">{joint}</body></worldbody></mujoco>')
+    found = diagnose(path, engines=["mujoco"])
+    assert (found.verdict, "joint limits" in found.without) == ("agrees", True), found.text()
+    assert [f.cause for f in diagnose(path, engines=["mujoco"], limits=True).findings] == ["joint-limit", "joint-limit"]
+
+
+@pytest.mark.parametrize("engine", ["mujoco", "pinocchio-aba"])
+def test_a_name_in_another_encoding_is_said_and_no_failure(tmp_path, engine):
+    path = tmp_path / "arm.xml"
+    body = f'<body name="caf\xe9"><joint name="caf\xe9" axis="1 2 0"/>{INERTIAL}</body>'
+    text = f'<?xml version="1.0" encoding="iso-8859-1"?><mujoco><worldbody>{body}</worldbody></mujoco>'
+    path.write_bytes(text.encode("latin-1"))
+    found = diagnose(path, engines=[engine])
+    assert found.engines[engine]["status"] == "refused"
+    assert [finding.cause for finding in found.findings] == ["file-refused"]
+    assert "save the file in UTF-8" in found.findings[0].says
+
+
 def test_limits_count_where_they_are_asked_for(tmp_path):
     limited = SOUND["free.xml"].replace('axis="0 1 0" arm', 'axis="0 1 0" range="-30 30" arm')
     a, b = saved(tmp_path, "a.xml", limited), saved(tmp_path, "b.xml", SOUND["free.xml"])
