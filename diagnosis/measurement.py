@@ -83,15 +83,21 @@ def probe_states(mechanism: Mechanism, count: int = LEAST_STATES, seed: int = 1)
     n = mechanism.n
     phi = generator.uniform(-np.pi, np.pi, (count, n))
     for i, hinge in enumerate(mechanism.hinges):
-        if hinge.limits is not None:
-            low, high = hinge.limits
-            margin = 0.02 * (high - low)
-            phi[:, i] = generator.uniform(max(low + margin, -np.pi), min(high - margin, np.pi), count)
+        if hinge.limits is not None and hinge.limits[0] < hinge.limits[1]:
+            phi[:, i] = generator.uniform(*_within_a_turn(*hinge.limits), count)
     hinges = sum(float(np.hypot(*link.hinge)) for link in mechanism.links)
     centres = [float(np.hypot(*link.com)) for link in mechanism.links]
     natural = np.sqrt(max(float(np.hypot(*mechanism.gravity)), 1.0) / max(hinges, *centres, 1e-3))
     rates = natural * generator.uniform(0.5, 3.0, (count, n)) * generator.choice([-1.0, 1.0], (count, n))
     return to_absolute(mechanism.parents, _quantised(phi)), to_absolute(mechanism.parents, _quantised(rates))
+
+
+def _within_a_turn(low: float, high: float) -> tuple[float, float]:
+    """The part of a hinge's range that lies within half a turn of the angle in it that is nearest to zero [rad]."""
+    margin = 0.02 * (high - low)
+    low, high = low + margin, high - margin
+    middle = min(max(0.0, low), high)  # zero is outside many a range: degrees in a file whose angles are radians
+    return max(low, middle - np.pi), min(high, middle + np.pi)
 
 
 def _quantised(values: Array) -> Array:

@@ -1,10 +1,11 @@
-"""Silences engines that write warnings past Python, to the standard streams of the process."""
+"""Silences engines that write past Python, to the standard streams of the process, and overhears what they write."""
 
 from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator
+import tempfile
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 
@@ -28,3 +29,16 @@ def silenced() -> Iterator[None]:
             os.dup2(own, number)
             os.close(own)
         os.close(nowhere)
+
+
+@contextmanager
+def overheard() -> Iterator[Callable[[], str]]:
+    """Like :func:`silenced`; what is yielded gives what was written to standard error in this context so far."""
+    with silenced(), tempfile.TemporaryFile() as heard:
+        os.dup2(heard.fileno(), 2)
+
+        def written() -> str:
+            heard.seek(0)
+            return heard.read().decode(errors="replace")
+
+        yield written

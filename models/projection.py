@@ -29,7 +29,7 @@ PARALLEL = 2e-6
 ROUNDING = 2.0**-49
 LARGEST_OFFSET = 8  # sum of the links' offsets along the axes, over their size: beyond it, their rounding counts
 LARGEST = 1e9  # of any number of a link: engines fail beyond (MuJoCo at rates of 1e10)
-UNREACHED = 1e3  # rad; limits further away than this are taken for none
+UNREACHED = 1e3  # rad; limits further away than this on both sides are taken for none
 
 
 @dataclass(frozen=True)
@@ -177,10 +177,11 @@ def _hinge(link: _SpatialLink, plane: Plane) -> Hinge:
         )
     sense = math.copysign(1.0, parallel)
     limits = None
-    turns = () if given.limits is None else tuple(limit - given.ref for limit in given.limits)
-    if turns and min(map(abs, turns)) < UNREACHED:
-        low, high = sorted(sense * turn for turn in turns)
-        limits = (low, high)
+    if given.limits is not None:
+        turns = [limit - given.ref for limit in given.limits]
+        if turns[0] > -UNREACHED or turns[1] < UNREACHED:
+            low, high = sorted(sense * turn for turn in turns)
+            limits = (low, high)
     return Hinge(
         name=given.name,
         armature=given.armature,

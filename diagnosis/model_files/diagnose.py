@@ -71,10 +71,12 @@ def diagnose(
         question = Question(path, file, folders, limits, contacts=bool(wanted.name))
         results = ask_engines(question, readers, named=engines is not None, isolated=isolated)
     of_file = _of_file(file, wanted, limits)
+    why = "" if engines is not None else _why_not_built(file, results)
+    results = [result for result in results if not why or result.name != BUILT.name]
     findings = [*of_file, *vote(file, results)]
     notes = [*file.notes, *_tilt_notes(file.planar), *_not_ideal_notes(file.planar, wanted)]
     notes += [note for result in results for note in result.notes]
-    if engines is None and file.planar is None and (why := why_not_built(file.spatial)):
+    if why:
         notes.append(f"{BUILT.name} is not asked: {why}")
     return Diagnosis(
         model=file.path,
@@ -88,6 +90,14 @@ def diagnose(
         simulation=(*servo_findings(file.servos), *(said for result in results for said in result.simulation)),
         without=tuple(dict.fromkeys([*file.without, *(line for result in results for line in result.without)])),
     )
+
+
+def _why_not_built(file: ModelFile, results: Sequence[EngineResult]) -> str:
+    """Why Exudyn, which nobody named, has no answer about a mechanism in space; nothing where it has one."""
+    if file.planar is not None:
+        return ""
+    refused = (result.says for result in results if result.name == BUILT.name and result.status == "refused")
+    return why_not_built(file.spatial) or next(refused, "")
 
 
 def verdict(findings: Sequence[Finding], results: Sequence[EngineResult], *, named: bool) -> str:

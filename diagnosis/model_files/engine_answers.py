@@ -59,8 +59,11 @@ class EngineAnswer:
         return content
 
 
-def ask(reader: Reader, file: ModelFile) -> EngineAnswer:
-    """One engine's answer about the file, with the causes where it differs from furiko's reading of it."""
+def ask(reader: Reader, file: ModelFile, *, limits: bool = True) -> EngineAnswer:
+    """One engine's answer about the file, with the causes where it differs from furiko's reading of it.
+
+    ``limits``: whether the joints' ranges act; where they do not count, they are switched off if they can be.
+    """
     with np.errstate(all="ignore"):
         try:
             engine = reader.load(file)
@@ -68,7 +71,10 @@ def ask(reader: Reader, file: ModelFile) -> EngineAnswer:
             return EngineAnswer(reader.name, "missing", f"{installing(reader.package)} [{error}]", native=reader.native)
         except (ValueError, RuntimeError, LookupError) as error:  # LookupError: Pinocchio, of a class that it has not
             return _refused(reader, _one_line(error)[:LONGEST_MESSAGE])
-        return _compared(reader, engine, file)
+        view = view_for_comparison(engine, reader)
+        if not limits and "limit" in reader.features:
+            view = view.switched_off("limit")
+        return _compared(reader, engine, view, file)
 
 
 def _refused(reader: Reader, message: str) -> EngineAnswer:
@@ -78,10 +84,9 @@ def _refused(reader: Reader, message: str) -> EngineAnswer:
     return answer
 
 
-def _compared(reader: Reader, engine: FileEngine, file: ModelFile) -> EngineAnswer:
+def _compared(reader: Reader, engine: FileEngine, view: EngineView, file: ModelFile) -> EngineAnswer:
     """The engine's accelerations and inverse dynamics against what the file says."""
     answer = EngineAnswer(reader.name, "agrees", settings=engine.settings(), notes=engine.notes(), native=reader.native)
-    view = view_for_comparison(engine, reader)
     theory = theory_for(file.mechanism, reader, view)
     try:
         answer.compiled = engine.compiled()

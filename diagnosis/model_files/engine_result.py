@@ -167,7 +167,8 @@ def ask_both(name: str, planar: Reader | None, question: Question) -> EngineResu
     if planar is not None and question.file.planar is not None:
         from .engine_answers import ask  # and all hypotheses of the plane, which robots do not need
 
-        answer = ask(planar, _as_rounded(question.file, own))
+        limits = question.limits or question.contacts  # what a file is compared with has none
+        answer = ask(planar, _as_rounded(question.file, own), limits=limits)
     return EngineResult(name, own, answer, question.contacts)
 
 

@@ -49,7 +49,7 @@ def view_for_comparison(engine: FileEngine, reader: Reader) -> EngineView:
 def theory_for(mechanism: Mechanism, reader: Reader, view: EngineView) -> Mechanism:
     """The file's mechanism without what the engine was never given and what is switched off."""
     given = with_hinges_cleared(mechanism, reader.without)
-    return with_hinges_cleared(given, ("friction",)) if view.without else given
+    return with_hinges_cleared(given, ("friction",)) if "frictionloss" in view.without else given
 
 
 def with_hinges_cleared(mechanism: Mechanism, names: Iterable[str]) -> Mechanism:

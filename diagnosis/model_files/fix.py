@@ -8,6 +8,7 @@ from pathlib import Path
 from ...models import InvalidInput
 from ...models.readers.model_file import ModelFile
 from ...models.spatial_mechanism import WORLD, SpatialMechanism
+from ...models.writers.merged_links import without_weightless_links
 from ...models.writers.spatial_mjcf import spatial_mjcf
 from ...models.writers.spatial_urdf import spatial_urdf
 from ...models.writers.whole_file import write_whole
@@ -25,7 +26,7 @@ def write_fixed(model: ModelFile, out: Path) -> list[str]:
     """Write the mechanism of a file that was read to ``out``; its ending says in which format.
 
     Every number stands where it acts: inertials in place of geoms, no default classes, no includes, names on all. What
-    comes back are sentences on what the mechanism has that no file can say to all engines alike.
+    comes back are sentences on what is written otherwise, and on what no file can say to all engines alike.
     Raises :class:`InvalidInput` for another ending, for the file itself, and where the format cannot hold the
     mechanism.
     """
@@ -33,8 +34,10 @@ def write_fixed(model: ModelFile, out: Path) -> list[str]:
         raise InvalidInput(f"{out}: the name must end in .xml (MJCF) or .urdf (URDF)")
     if out.exists() and _same(out, model.path):
         raise InvalidInput(f"{out}: this is the file itself, which is not overwritten; give another name")
-    write_whole(out, WRITERS[out.suffix](model.spatial))
-    return list(_not_alike(model.spatial, out))
+    mechanism, left = without_weightless_links(model.spatial) if out.suffix != ".urdf" else (model.spatial, ())
+    write_whole(out, WRITERS[out.suffix](mechanism))
+    without = f"what weighs nothing and carries one link is left out, and that has its joints: {listed(left)}"
+    return [*([without] if left else ()), *_not_alike(mechanism, out)]
 
 
 def judged(out: Path, found: Diagnosis) -> Written:

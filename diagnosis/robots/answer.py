@@ -21,7 +21,7 @@ from ...models.spatial_mechanism import SpatialMechanism
 from ..finding import Finding
 from .fields import field_differences
 from .free_armature import armature_finding, armature_in_body_axes
-from .measures import MASS_MATRIX, Measured, measured, worst
+from .measures import MASS_MATRIX, Measured, measured, not_determined, worst
 from .misreadings import explain_reading
 from .numbering import lost_entry, lost_entry_finding
 from .numbers import FieldDifference, plain
@@ -34,6 +34,11 @@ NEARLY_IN_FRAME = (
     "{engine} has the inertials of {bodies}, which are within {reach:g} of the body's frame, in that frame"
 )
 NO_MECHANISM = "{engine} holds a body whose axes are not at right angles: no mechanism to hold its numbers against"
+NO_ACCELERATIONS = "{engine}: accelerations are not determined, and not compared: {why}"
+NOT_UTF8 = (
+    "a name in it is not in UTF-8, the only encoding that the engine's names have. Instead, save the file in UTF-8"
+)
+TOO_MANY = "{count} freedoms, more than the {most} for which {engine} is asked: it would need gigabytes, and minutes"
 ALL_MEASURED = 4  # quantities: mass matrix, bias, accelerations without and with torques
 LONGEST_MESSAGE = 300  # characters of an engine's own message
 
@@ -109,13 +114,30 @@ class RobotAnswer:
 def ask_robot(reader: RobotReader, question: Question) -> RobotAnswer:
     """What one engine makes of the user's own file."""
     with np.errstate(all="ignore"):
+        if too_many := _too_many_freedoms(reader, question):
+            return _refused(reader, too_many, question)
         try:
             engine = reader.load(question.path, question.file.language, question.meshes)
         except ImportError as error:
             return RobotAnswer(reader.name, "missing", f"{installing(reader.package)} [{error}]")
+        except UnicodeDecodeError:
+            return _refused(reader, NOT_UTF8, question)
         except (ValueError, RuntimeError, LookupError) as error:  # LookupError: Pinocchio, of a class that it has not
             return _refused(reader, " ".join(str(error).split())[:LONGEST_MESSAGE], question)
         return _compared(reader, engine, question)
+
+
+def _too_many_freedoms(reader: RobotReader, question: Question) -> str:
+    """Why the engine is not asked to read so large a file, nothing where it is: some read only a part of it."""
+    language, most = question.file.language, reader.most_freedoms
+    if not most or question.file.spatial.nv <= most:
+        return ""
+    lost = [flag for flag in (*LOSING, BESIDE_LOSING) if flag in reader.mistakes.get(language, ())]
+    try:
+        count = question.read(with_mistakes(language, lost)).nv
+    except InvalidInput:
+        return ""
+    return TOO_MANY.format(engine=reader.name, count=count, most=most) if count > most else ""
 
 
 def _refused(reader: RobotReader, message: str, question: Question) -> RobotAnswer:
@@ -168,6 +190,8 @@ def _compared(reader: RobotReader, engine: RobotEngine, question: Question) -> R
     try:
         answer.holds = engine.compiled(question.file.spatial)
         bound = engine.bind(answer.holds)
+    except UnicodeDecodeError:
+        return _refused(reader, NOT_UTF8, question)
     except (ValueError, RuntimeError, InvalidInput) as error:
         return failed(answer, error)
     named, left = _reading(reader, question, answer.holds)
@@ -182,7 +206,7 @@ def _compared(reader: RobotReader, engine: RobotEngine, question: Question) -> R
         )
         answer.findings += computing_findings(reader, bound, answer, places_in(question.file.spatial))
         if answer.measured and len(answer.measured) < ALL_MEASURED:
-            answer.notes = (f"{reader.name}: a joint moves no mass: its accelerations are not determined",)
+            answer.notes = (NO_ACCELERATIONS.format(engine=reader.name, why=not_determined(answer.holds)),)
     except (ValueError, RuntimeError, InvalidInput, np.linalg.LinAlgError) as error:
         return failed(answer, error)
     kept = frames_kept(answer.holds, question.file.spatial, reader.same_frame)

@@ -11,7 +11,7 @@ from ...models import InvalidInput
 from ...models.errors import installing
 from ...models.spatial_mechanism import SpatialMechanism
 from .answer import Question, RobotAnswer, acting, computing_findings, failed, places_in
-from .measures import measured
+from .measures import measured, not_determined
 
 HELD = ("hinge", "slide")
 MOST_FREEDOMS = 200  # its solver is dense, and each state is one more start of it
@@ -24,6 +24,7 @@ BUILT = RobotReader(
     not_held=("armature", "friction"),
     factorises=True,
 )
+NOT_DETERMINED = "its mass matrix comes from accelerations, which are not determined: {why}"
 NOTE = "Exudyn reads neither format: the mechanism was built by furiko's reader"
 
 
@@ -60,6 +61,9 @@ def ask_built(question: Question) -> RobotAnswer:
             answer.measured = tuple(measured(bound, answer.holds, factorised=BUILT.factorises))
             answer.findings = computing_findings(BUILT, bound, answer, places_in(mechanism))
     except (ValueError, RuntimeError, InvalidInput, np.linalg.LinAlgError) as error:
+        if why := not_determined(answer.holds):
+            answer.status, answer.says = "refused", NOT_DETERMINED.format(why=why)
+            return answer
         return failed(answer, error)
     if answer.findings:
         answer.status = "differs"

@@ -17,6 +17,7 @@ from .states import STATES, probe_states, random_torques
 
 # Of so many freedoms one state moves each in a posture of its own; what is wrong in all postures shows in three.
 MANY, STATES_OF_MANY = 300, 3
+INDEFINITE = 1e-10  # below rounding of eigenvalues of a matrix with ones on its diagonal
 MASS_MATRIX = "mass matrix"  # what it is called as a quantity
 
 
@@ -43,8 +44,8 @@ class Measured:
 def measured(bound: BoundRobot, mechanism: SpatialMechanism, *, factorised: bool = True) -> list[Measured]:
     """Each quantity of an engine against the truth of ``mechanism``, which is what the engine holds.
 
-    Without accelerations where a joint moves no mass. ``factorised``: whether its accelerations come from a factorised
-    mass matrix. Raises RuntimeError where an answer has the wrong shape, NaN or infinity.
+    Without accelerations where these are :func:`not_determined`. ``factorised``: whether its accelerations come from a
+    factorised mass matrix. Raises RuntimeError where an answer has the wrong shape, NaN or infinity.
     """
     if not mechanism.nv:
         return []
@@ -53,7 +54,7 @@ def measured(bound: BoundRobot, mechanism: SpatialMechanism, *, factorised: bool
     units = magnitudes(mechanism, q, v)
     rows = [*_terms(bound, mechanism, truths, units)]
     matrix, bias = (np.array([getattr(t, name).float for t in truths]) for name in ("mass_matrix", "bias"))
-    if weightless_freedom(mechanism, truths):
+    if not_determined(mechanism, truths):
         return rows
     for quantity, torque in (
         ("accelerations", np.zeros_like(v)),
@@ -63,15 +64,29 @@ def measured(bound: BoundRobot, mechanism: SpatialMechanism, *, factorised: bool
     return rows
 
 
-def weightless_freedom(mechanism: SpatialMechanism, truths: Sequence[SpatialTruth]) -> str:
-    """The first joint that moves no mass in one of the states, or nothing.
+def not_determined(mechanism: SpatialMechanism, truths: Sequence[SpatialTruth] | None = None) -> str:
+    """Why the accelerations of one of the states mean nothing, with the joint, or nothing where they do.
 
-    Its entry of the mass matrix' diagonal encloses zero, and then its row is zero, for no body has a negative inertia;
-    accelerations are not determined there: they are not looked at.
+    ``truths``: those of the states, by default of all in which a robot is looked at.
     """
+    if truths is None:
+        q, v = probe_states(mechanism)
+        truths = [spatial_truth(mechanism, q[k], v[k]) for k in range(len(q))]
+    return next((why for why in (_why_not_determined(mechanism, truth) for truth in truths) if why), "")
+
+
+def _why_not_determined(mechanism: SpatialMechanism, truth: SpatialTruth) -> str:
+    """An entry of the mass matrix' diagonal that encloses zero: its row is zero then, for no body has a negative
+    inertia. Where a file gives one, a freedom may be driven backwards by a force, and bounds rest on √M."""
     freedoms = [placed.joint.name for placed in mechanism.joints for _ in range(placed.joint.freedoms)]
-    diagonals = [truth.mass_matrix.balls.diagonal() for truth in truths]
-    return next((name for i, name in enumerate(freedoms) if any(0 in d[i] for d in diagonals)), "")
+    diagonal = truth.mass_matrix.balls.diagonal()
+    weightless = next((name for name, entry in zip(freedoms, diagonal, strict=True) if 0 in entry), "")
+    if weightless:
+        return f"joint {weightless!r} moves no mass"
+    matrix = truth.mass_matrix.float
+    scale = np.sqrt(np.abs(np.diag(matrix)))
+    least = float(np.linalg.eigvalsh(matrix / np.outer(scale, scale)).min(initial=1.0))
+    return "the mass matrix is not positive definite, for an inertia is negative" if least < -INDEFINITE else ""
 
 
 def worst(measurements: Sequence[Measured]) -> Measured | None:

@@ -128,7 +128,8 @@ class RobotReader:
     keeps in their principal axes, the largest product of inertia that these leave, over the largest moment.
     ``same_frame``: so near its body's frame, in m and as parts of a quaternion, an inertial is taken to be in it.
     ``mistakes``: by language the flags of :mod:`furiko.models.readers.rules` that it is known to make, the likelier
-    ones first.
+    ones first. ``most_freedoms``: of more than so many it is not asked to read the file; 0 where nothing speaks
+    against any number.
     """
 
     name: str
@@ -142,6 +143,7 @@ class RobotReader:
     mesh_axes: float = 0.0
     same_frame: float = 0.0
     mistakes: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    most_freedoms: int = 0
 
     def load(self, path: Path, language: str, folders: Sequence[Path] = ()) -> RobotEngine:
         """Import the engine and have it read the file. Exceptions of the engine are passed on."""
@@ -177,6 +179,7 @@ ROBOT_READERS: dict[str, RobotReader] = {
             "pin",
             not_held=("stiffness", "gravity"),
             leaves_to_caller=("damping", "stiffness"),
+            most_freedoms=400,  # its reader makes the workspace, of gigabytes beyond, and takes minutes
             mistakes={
                 "mjcf": PINOCCHIO_MJCF,
                 "urdf": (

@@ -83,11 +83,14 @@ def _pairs(mechanism: SpatialMechanism, held: Sequence[HeldJoint]) -> tuple[dict
         if len(ours) == len(theirs):
             found.update(zip(ours, theirs, strict=True))
             used.update(theirs)
-    ours = [i for i, p in enumerate(placed) if i not in found and _may_be_unnamed(mechanism, p)]
     theirs = [j for j in unnamed if j not in used]
-    if len(ours) >= len(theirs) and _same_kinds(mechanism, ours, [held[j] for j in theirs]):
-        found.update(zip(ours, theirs, strict=False))  # an engine that reads only the first bodies has the first joints
-        used.update(theirs)
+    further = [i for i, p in enumerate(placed) if i not in found and _may_be_unnamed(mechanism, p)]
+    without_name = [i for i in further if placed[i].joint.name.startswith(UNNAMED_JOINT)]
+    for ours in (further, without_name):
+        if len(ours) >= len(theirs) and _same_kinds(mechanism, ours, [held[j] for j in theirs]):
+            found.update(zip(ours, theirs, strict=False))  # one that reads only the first bodies has the first joints
+            used.update(theirs)
+            break
     lost = [i for i in range(len(placed)) if i not in found]
     return found, lost, [j for j in range(len(held)) if j not in used]
 

@@ -63,6 +63,7 @@ SET_TO_ZERO = (
     "tendon_armature",
     "body_gravcomp",
 )
+NAMES_READ = (".xml", ".urdf")
 
 
 class MujocoRobot:
@@ -233,7 +234,7 @@ def _loaded(path: Path, folders: Sequence[Path]) -> Any:
     packages = own_packages(path)
     if not packages and not folders:
         return mujoco.MjModel.from_xml_path(str(path))
-    spec = mujoco.MjSpec.from_file(str(path))
+    spec = _spec(path)
     contents: dict[str, bytes] = {}
     for asset, found in _elsewhere(spec, path, NamedFolders(path, [*folders, *packages])):
         asset.name = asset.name or PurePosixPath(asset.file).stem
@@ -243,6 +244,14 @@ def _loaded(path: Path, folders: Sequence[Path]) -> Any:
         return mujoco.MjModel.from_xml_path(str(path))
     spec.assets = contents
     return spec.compile()
+
+
+def _spec(path: Path) -> Any:
+    """The file's ``MjSpec``, which MuJoCo makes only of a file called ``.xml`` or ``.urdf``, unlike its ``MjModel``."""
+    if path.suffix in NAMES_READ:
+        return mujoco.MjSpec.from_file(str(path))
+    name = f"{path}.xml"  # in the same folder, for what the file names lies beside it
+    return mujoco.MjSpec.from_file(name, include={name: path.read_bytes()})
 
 
 def _elsewhere(spec: Any, path: Path, folders: NamedFolders) -> Iterator[tuple[Any, Path]]:

@@ -22,7 +22,7 @@ import numpy as np
 from ...models.spatial import IDENTITY, ZERO_INERTIAL, Inertial, Pose, to_quaternion
 from ...models.spatial_mechanism import WORLD, Joint, RigidBody, SpatialMechanism
 from ..protocol import Array
-from ..quiet import silenced
+from ..quiet import overheard
 from .robot_coordinates import Block, EngineState, RobotCoordinates
 from .robot_joints import HeldJoint, joints_of, match, named_alike, unique
 
@@ -34,6 +34,9 @@ WAYS = {"FreeFlyer": "free-in-body", "Spherical": "quaternion-last", "Planar": "
 # The workspace that Pinocchio makes for any algorithm has several numbers for each three freedoms, some 37 bytes:
 # 1.2 GB for 300 freedoms, 2.4 GB for 400, and minutes for 700.
 MOST_FREEDOMS = 400
+WRITTEN = re.compile(r"Error: +(.+)")
+LIMIT = ". Instead, give <limit> both effort= and velocity="
+ADVICE = {"effort": LIMIT, "velocity": LIMIT}  # by the last word of what the parser of URDF says
 UNLIMITED = 1e300  # the largest limit that Pinocchio has for no limit is a little more
 
 
@@ -58,11 +61,11 @@ class PinocchioRobot:
 
     def __init__(self, path: Path, language: str, folders: Sequence[Path] = ()) -> None:
         build = pinocchio.buildModelFromUrdf if language == "urdf" else pinocchio.buildModelFromMJCF
-        with silenced():
+        with overheard() as written:
             try:
                 self._model = build(str(path))
             except (ValueError, RuntimeError) as error:  # where in Pinocchio's sources says nothing of the file
-                raise ValueError(str(error).rpartition("message:")[2].strip()) from None
+                raise ValueError(_why(str(error).rpartition("message:")[2].strip(), written())) from None
         if self._model.nv > MOST_FREEDOMS:
             gigabytes = 37e-9 * self._model.nv**3
             raise ValueError(
@@ -271,6 +274,14 @@ def _pose(placement: Any) -> Pose:
 
 def _inverse(pose: Pose) -> Pose:
     return Pose(pose.rotation.T, -pose.rotation.T @ pose.translation)
+
+
+def _why(message: str, written: str) -> str:
+    """Why Pinocchio does not read the file: what its parser of URDF writes first, whose error names the file alone."""
+    said = WRITTEN.search(written)
+    if said is None or not message.endswith("a valid URDF model."):
+        return message
+    return f"no valid URDF for its parser: {said[1].strip()}{ADVICE.get(said[1].split()[-1], '')}"
 
 
 def _inertial(inertia: Any) -> Inertial:

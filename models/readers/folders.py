@@ -40,21 +40,21 @@ class Folders:
         self._below = NamedFolders(path, others)
         self._found: dict[str, Path] = {}  # the folders of files found so far, by what elements call these
 
-    def find(self, element: Element, name: str, folder: str = "", what: str = "file") -> Path:
+    def find(self, element: Element, name: str, folder: str = "", *, mesh: bool = False) -> Path:
         """The file ``name`` in the model's ``folder``, beside an included file that names it, or in the others.
 
-        In the others a mesh is looked for below, too, by the end of its path (:class:`NamedFolders`).
+        In the others a ``mesh`` is looked for below, too, by the end of its path (:class:`NamedFolders`).
         MuJoCo looks in this order too: what an included file names may lie beside it, whatever ``folder`` is. Raises
         :class:`InvalidInput`, at ``element``, where it is nowhere, or only where nothing may be read.
         """
-        named = f"{what}={name[:80]!r}"
+        named = f"file={name[:80]!r}"
         try:
             wanted = (self.own / folder / name).resolve()
             included = self._found.get(element.file)
             for path in (wanted, *(() if included is None else ((included / name).resolve(),))):
                 if _inside(path, (self.own, *self._others)) and os.path.isfile(path):
                     return self._kept(path)
-            elsewhere = self._below.find(f"{folder}/{name}") if what == "mesh" else self._beside(name)
+            elsewhere = self._below.find(f"{folder}/{name}") if mesh else self._beside(name)
             if elsewhere is not None:
                 return self._kept(elsewhere)
         except (OSError, ValueError, RuntimeError) as error:

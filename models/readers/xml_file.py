@@ -122,7 +122,7 @@ class _Builder:
         self._parser = parser = expat.ParserCreate()
         parser.StartElementHandler = self._start
         parser.EndElementHandler = self._end
-        parser.StartDoctypeDeclHandler = self._refuse_doctype
+        parser.StartDoctypeDeclHandler = self._doctype
         parser.EntityDeclHandler = self._refuse_doctype
 
     def build(self, content: bytes) -> Element:
@@ -160,6 +160,11 @@ class _Builder:
 
     def _end(self, tag: str) -> None:
         self._open.pop()
+
+    def _doctype(self, name: str, system: str | None, public: str | None, has_own_part: int) -> None:
+        """``<!DOCTYPE mujoco>`` alone declares nothing; other files and a part of its own may declare entities."""
+        if has_own_part or system or public:
+            self._refuse_doctype()
 
     def _refuse_doctype(self, *_: object) -> None:
         raise InvalidInput(

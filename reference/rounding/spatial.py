@@ -80,7 +80,7 @@ class Magnitudes:
         self.v = np.zeros(mechanism.nv) if v is None else np.asarray(v, dtype=np.float64)
         self.world, self.origin = world, origin
         self._known = moved
-        self._mass = np.array([body.inertial.mass for body in mechanism.bodies])
+        self._mass = np.abs([body.inertial.mass for body in mechanism.bodies])  # a file may have a negative one
         self._tensor = np.array([np.linalg.norm(body.inertial.tensor, 2) for body in mechanism.bodies])
 
     @cached_property

@@ -18,6 +18,13 @@ WEIGHTLESS = """<robot name="r"><link name="world"/><link name="a"><inertial><or
 <joint name="j" type="continuous"><parent link="world"/><child link="a"/><axis xyz="0 1 0"/></joint>
 <joint name="k" type="continuous"><parent link="a"/><child link="tool"/><axis xyz="1 0 0"/></joint></robot>"""
 
+BETWEEN = WEIGHTLESS.replace(
+    "</robot>",
+    """<link name="hand"><inertial><mass value="1"/><inertia ixx=".1" iyy=".1"
+izz=".1" ixy="0" ixz="0" iyz="0"/></inertial></link><joint name="l" type="continuous"><parent link="tool"/>
+<child link="hand"/><axis xyz="0 0 1"/></joint></robot>""",
+)
+
 pytestmark = [
     pytest.mark.slow,  # engines are asked in processes of their own, twice
     pytest.mark.skipif(not (engine_version("mujoco") and engine_version("pinocchio-aba")), reason="two engines"),
@@ -36,6 +43,14 @@ def test_a_file_that_all_read_alike_is_said_to_be_one(tmp_path):
     assert (status, f"  written: {out}\n" in text) == (0, True)
     status, text, out = fixed(tmp_path, HINGE, "--json")
     assert json.loads(text)["fix"] == {"path": out, "agrees": True, "why": []}
+
+
+def test_what_weighs_nothing_between_two_joints_is_written_so_that_mujoco_takes_it(tmp_path):
+    """In the file it is a link of its own, which MuJoCo refuses; in what is written the joints are one body's."""
+    status, text, _ = fixed(tmp_path, BETWEEN, "--json", name="model.urdf")
+    found = json.loads(text)
+    assert (status, found["engines"]["mujoco"]["status"], found["fix"]["agrees"]) == (1, "refused", True)
+    assert any("is left out, and that has its joints: 'tool'" in note for note in found["notes"])
 
 
 def test_a_misreading_that_is_mended_leaves_the_files_own_status(tmp_path):

@@ -13,6 +13,7 @@ from faults.model_files import IN_FILES, diagnosed, planted_in_file, sound_model
 from faults.writing import Style, written
 
 from furiko import Diagnosis, diagnose
+from furiko.diagnosis.measurement import probe_states
 from furiko.engines.model_files.adapter import READERS
 from furiko.models import InvalidInput, document_catalogue, find_scene, to_mjcf, to_urdf
 from furiko.models.readers.model_file import model_from_text
@@ -277,6 +278,31 @@ def test_a_limit_that_a_step_runs_into_is_no_fault_of_the_time_steps():
     text = text.replace('<geom name="floor" size="3 3 .2" type="plane"/>', "")
     mujoco = diagnose(model_from_text(text, "arm.xml"), engines={"mujoco": READERS["mujoco"]}).engines["mujoco"]
     assert (mujoco["status"], mujoco["motion"]) == ("agrees", [])
+
+
+# Degrees in a file whose angles are radians; a range that is a hundred turns away, on either side.
+@pytest.mark.parametrize("limits", ["-130 -60", "60 130", "600 600.5", "-0.2 100", "-1e6 -5e5"])
+def test_a_range_beyond_half_a_turn_is_looked_at_where_it_is(limits):
+    text = ACROBOT.replace('name="elbow" type="hinge"', f'name="elbow" type="hinge" limited="true" range="{limits}"')
+    text = text.replace("<default>", '<compiler angle="radian"/><default>', 1)
+    found = diagnose(model_from_text(text, "arm.xml"), engines=["mujoco", "exudyn-tree"])
+    assert {engine["status"] for engine in found.engines.values()} == {"agrees"}, found.text()
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_a_revolute_joint_without_ends_of_its_range_is_looked_at_all_round(sense):
+    """URDF has zero for both, which the other sense makes −0."""
+    link = '<link name="{}"><inertial><origin xyz="0.3 0 0"/><mass value="1"/><inertia {}/></inertial></link>'
+    moments = " ".join(f'i{axes}="{0.01 * (axes[0] == axes[1])}"' for axes in ("xx", "yy", "zz", "xy", "xz", "yz"))
+    joint = """<joint name="{0}" type="revolute"><parent link="{0}"/><child link="{1}"/><origin xyz="0.5 0 0"/>
+        <axis xyz="0 {2} 0"/><limit effort="1" velocity="1"/></joint>"""
+    links = "".join(link.format(name, moments) for name in "ab")
+    joints = joint.format("world", "a", 1) + joint.format("a", "b", sense)
+    file = model_from_text(f'<robot name="r"><link name="world"/>{links}{joints}</robot>', "arm.urdf")
+    assert [hinge.limits for hinge in file.mechanism.hinges] == [(0, 0), (0, 0)]
+    assert diagnose(file).verdict == "agrees"
+    theta, _ = probe_states(file.mechanism)
+    assert theta.std(axis=0).min() > 1
 
 
 PAIR = """<mujoco><worldbody><body name="cart"><joint name="slider" type="slide" axis="1 0 0"/>

@@ -82,7 +82,7 @@ class Assets:
         name = mesh.get("file").replace("\\", "/")
         if self._compiler.strip_path:
             name = Path(name).name
-        return self._folders.find(mesh, name, self._compiler.mesh_folder)
+        return self._folders.find(mesh, name, self._compiler.mesh_folder, mesh=True)
 
 
 @lru_cache(maxsize=512)

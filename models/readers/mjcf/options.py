@@ -52,7 +52,10 @@ class Compiler:
         if len(self.sequence) != 3 or set(self.sequence) - set("xyzXYZ"):
             raise element.wrong(f"eulerseq={self.sequence[:20]!r}: three letters out of xyzXYZ needed")
         if element.get("coordinate", "local") != "local":
-            raise element.wrong("coordinate: only 'local' is supported, as in MuJoCo itself since 2.3")
+            raise element.wrong(
+                "coordinate: only 'local' is supported, as in MuJoCo itself since 2.3.4; load the file in MuJoCo "
+                "2.3.3 or older, and save it"
+            )
         self.autolimits = yes(element, "autolimits", self.autolimits)
         self.from_geoms = word(element, "inertiafromgeom", ("true", "false", "auto"), self.from_geoms)
         low, high = numbers(element, "inertiagrouprange", 2, self.groups)

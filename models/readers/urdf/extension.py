@@ -45,7 +45,7 @@ class Extension:
 
     def bounded(self, inertial: Inertial) -> Inertial:
         """The inertial within the bounds, which act on its principal moments."""
-        mass = max(inertial.mass, self.least_mass)
+        mass = max(inertial.mass, self.least_mass) if self.least_mass else inertial.mass
         tensor = inertial.tensor
         if self.least_inertia > 0 or self.balance:
             moments, turn = np.linalg.eigh(tensor)

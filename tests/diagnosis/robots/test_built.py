@@ -87,3 +87,57 @@ def test_exudyn_that_is_not_installed_is_missing(saved, monkeypatch):
     monkeypatch.setattr(built, "BUILT", replace(built.BUILT, adapter="no_such_module:Nothing"))
     found = diagnose(saved(ARM.format("")), engines=["exudyn-tree"])
     assert found.engines["exudyn-tree"]["status"] == "missing"
+
+
+def link(name, mass, moments):
+    given = " ".join(f'i{axes}="{moment}"' for axes, moment in zip(("xx", "yy", "zz"), moments, strict=True))
+    return f"""<link name="{name}"><inertial><mass value="{mass}"/><inertia {given} ixy="0" ixz="0" iyz="0"/>
+        </inertial></link>"""
+
+
+def chain(*links):
+    """Joints about z and x in turn, each link 0.3 m from the one before."""
+    joint = """<joint name="j{0}" type="continuous"><parent link="{1}"/><child link="{2}"/><origin xyz="0.3 0 0"/>
+        <axis xyz="{3}"/></joint>"""
+    names = ["world", "a", "b", "c"]
+    rows = [joint.format(n, *names[n : n + 2], ("0 0 1", "1 0 0")[n % 2]) for n in range(len(links))]
+    return f'<robot name="r"><link name="world"/>{"".join(links)}{"".join(rows)}</robot>'
+
+
+def test_where_a_joint_moves_no_mass_it_is_not_asked_and_not_accused(tmp_path):
+    """Its mass matrix comes from accelerations, which are not determined there; two planar links, then two in space."""
+    path = tmp_path / "robot.urdf"
+    path.write_text(chain(link("a", 1, (0.1, 0.1, 0.1)), '<link name="b"/>'))
+    found = diagnose(path)
+    assert "exudyn-tree" not in found.engines
+    assert [finding.cause for finding in found.findings] == ["inertia-rejected"], found.text()  # by MuJoCo
+    assert any(note.startswith("exudyn-tree is not asked") and "'j1' moves no mass" in note for note in found.notes)
+    named = diagnose(path, engines=["exudyn-tree"])
+    assert (named.verdict, named.findings) == ("incomplete", ())
+
+
+WITHOUT_MUJOCO = {"mujoco": "refused", "pinocchio-aba": "agrees", "exudyn-tree": "agrees"}
+
+
+def statuses(found):
+    return {name: engine["status"] for name, engine in found.engines.items()}
+
+
+def test_a_negative_mass_is_read_alike_by_those_that_take_it(tmp_path):
+    """The bound of its mass matrix has the magnitude of what it adds up."""
+    path = tmp_path / "robot.urdf"
+    path.write_text(chain(link("a", 1, (0.1, 0.1, 0.1)), link("b", -0.2, (0.1, 0.1, 0.1))))
+    found = diagnose(path)
+    assert statuses(found) == WITHOUT_MUJOCO, found.text()
+    assert [body["mass"] for body in found.engines["pinocchio-aba"]["holds"]["bodies"]] == [0, 1, -0.2]
+
+
+def test_a_mass_matrix_that_no_mechanism_has_judges_no_accelerations(tmp_path):
+    """A negative moment: bounds of accelerations rest on its square root. Mass matrix and bias are judged."""
+    path = tmp_path / "robot.urdf"
+    path.write_text(chain(link("a", 1, (0.1, 0.1, -0.2)), link("b", 1, (0.1, 0.1, 0.1))))
+    found = diagnose(path)
+    assert statuses(found) == WITHOUT_MUJOCO, found.text()
+    assert any("not positive definite" in note for note in found.notes)
+    quantities = {one["quantity"] for one in found.engines["pinocchio-aba"]["measured"]}
+    assert quantities == {"mass matrix", "bias"}

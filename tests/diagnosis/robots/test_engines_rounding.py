@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from handwritten_robots import LINK
 
 from furiko import diagnose
 from furiko.diagnosis.finding import Finding
@@ -213,3 +214,21 @@ def test_a_joint_through_a_point_mass_moves_no_mass_whatever_the_angles(tmp_path
     found, answer = engine(tmp_path, text, "pinocchio-aba", "urdf")
     assert answer["status"] == "agrees"
     assert any("moves no mass" in note for note in found.notes)
+
+
+@pytest.mark.parametrize(
+    ("limit", "says"),
+    [
+        ('<limit lower="-1" upper="1" velocity="1"/>', "limit has no effort. Instead, give <limit> both effort= and"),
+        ('<limit lower="-1" upper="1" effort="1"/>', "limit has no velocity. Instead, give <limit> both effort= and"),
+        ("", "[j] is of type REVOLUTE but it does not specify limits"),
+    ],
+)
+def test_what_pinocchios_parser_of_urdf_says_is_passed_on(tmp_path, limit, says):
+    """Its error names the file alone; why is written to standard error."""
+    text = f"""<robot name="r"><link name="w"/>{LINK.format("a", 1)}<joint name="j" type="revolute"><parent link="w"/>
+        <child link="a"/><axis xyz="0 0 1"/>{limit}</joint></robot>"""
+    found, answer = engine(tmp_path, text, "pinocchio-aba", "urdf")
+    assert answer["status"] == "refused"
+    assert says in answer["says"]
+    assert [finding.cause for finding in found.findings] == ["file-refused"]

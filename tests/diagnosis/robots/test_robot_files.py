@@ -208,6 +208,20 @@ def test_joints_that_share_one_made_up_name_are_still_asked(tmp_path):
     assert found.engines["mujoco"]["status"] == "agrees"
 
 
+def test_an_unnamed_free_body_behind_named_ones_is_no_other_joint(tmp_path):
+    """Pinocchio calls its joint ``Bis_free``; the joints before it, one body's further ones too, it does not read."""
+    saved(
+        tmp_path,
+        "arm.xml",
+        f"""<mujoco><worldbody><body name="a"><joint name="x" axis="1 0 0"/>
+        <joint name="y" axis="0 1 0"/>{INERTIAL}</body></worldbody></mujoco>""",
+    )
+    dice = "".join(f'<body pos="{x} 0 0"><freejoint/>{INERTIAL}</body>' for x in (1, 2, 3))
+    text = f'<mujoco><include file="arm.xml"/><worldbody>{dice}</worldbody></mujoco>'
+    found = diagnose(saved(tmp_path, "scene.xml", text), engines=["pinocchio-aba"])
+    assert {finding.cause for finding in found.findings} == {"first-root-only", "include-not-followed"}, found.text()
+
+
 REFUSED_FOR = {
     "frame-ignored": (
         f"""<mujoco><worldbody><replicate count="2" offset="0 0 1"><body name="a"><joint/>{INERTIAL}</body></replicate>
@@ -428,9 +442,43 @@ def test_pinocchio_is_not_asked_for_a_workspace_that_fills_the_memory(tmp_path):
         ROBOT_READERS["pinocchio-aba"].load(many, "mjcf")
 
 
+def test_pinocchio_does_not_read_what_would_take_gigabytes(tmp_path, monkeypatch):
+    """Its reader makes the workspace. Of several bodies of the world it reads the first alone: that it is asked to."""
+    monkeypatch.setitem(ROBOT_READERS, "pinocchio-aba", replace(ROBOT_READERS["pinocchio-aba"], most_freedoms=2))
+    three = "".join(f'<body name="{n}"><joint type="slide"/>{INERTIAL}</body>' for n in "abc")
+    apart = saved(tmp_path, "apart.xml", f"<mujoco><worldbody>{three}</worldbody></mujoco>")
+    found = diagnose(apart, engines=["pinocchio-aba"])
+    assert [finding.cause for finding in found.findings] == ["first-root-only"]
+    together = f'<mujoco><worldbody><body name="w">{three}</body></worldbody></mujoco>'
+    found = diagnose(saved(tmp_path, "together.xml", together), engines=["pinocchio-aba"])
+    assert found.engines["pinocchio-aba"]["status"] == "refused"
+    assert "3 freedoms, more than the 2" in found.findings[0].says
+
+
 def test_damping_that_pinocchio_leaves_to_its_caller_is_said(tmp_path):
     found = diagnose(saved(tmp_path, "a.xml", SOUND["cart-pole.xml"]))
     assert any("damping in pinocchio-aba" in line for line in found.without)
+
+
+def test_a_limit_that_acts_well_before_its_range_ends_is_no_difference(tmp_path):
+    """Of a planar arm three quarters of the range are within the margin: MuJoCo's limit pushes in most states."""
+    joint = f'<joint name="j" axis="0 1 0" range="-10 10" limited="true" margin="0.13"/>{INERTIAL}'
+    path = saved(tmp_path, "arm.xml", f'<mujoco><worldbody><body name="a">{joint}</body></worldbody></mujoco>')
+    found = diagnose(path, engines=["mujoco"])
+    assert (found.verdict, "joint limits" in found.without) == ("agrees", True), found.text()
+    assert [f.cause for f in diagnose(path, engines=["mujoco"], limits=True).findings] == ["joint-limit", "joint-limit"]
+
+
+@pytest.mark.parametrize("engine", ["mujoco", "pinocchio-aba"])
+def test_a_name_in_another_encoding_is_said_and_no_failure(tmp_path, engine):
+    path = tmp_path / "arm.xml"
+    body = f'<body name="caf\xe9"><joint name="caf\xe9" axis="1 2 0"/>{INERTIAL}</body>'
+    text = f'<?xml version="1.0" encoding="iso-8859-1"?><mujoco><worldbody>{body}</worldbody></mujoco>'
+    path.write_bytes(text.encode("latin-1"))
+    found = diagnose(path, engines=[engine])
+    assert found.engines[engine]["status"] == "refused"
+    assert [finding.cause for finding in found.findings] == ["file-refused"]
+    assert "save the file in UTF-8" in found.findings[0].says
 
 
 def test_limits_count_where_they_are_asked_for(tmp_path):

@@ -7,6 +7,7 @@ import pytest
 from handwritten_robots import mjcf, urdf_joint
 
 from furiko.diagnosis.model_files.diagnose import diagnose
+from furiko.models.readers.model_file import read_model
 
 
 def tetrahedron(edge=1.0):
@@ -103,3 +104,29 @@ def test_an_unnamed_mesh_of_a_mjcf_below_the_folder_keeps_its_name(read, tmp_pat
     asset = '<compiler meshdir="assets"/><asset><mesh file="visual/t.stl"/></asset>'
     robot = read("mujoco", mjcf(body, asset), [tmp_path / "stock"])
     assert robot.compiled().bodies[0].inertial.mass == pytest.approx(8000 / 6, rel=1e-6)
+
+
+PART = '<body name="a"><joint name="j"/><geom size="0.1" mass="1"/></body>'
+
+
+@pytest.mark.parametrize("name", ["model.mjcf", "model.XML", "model"])
+def test_meshes_of_a_file_of_any_name(tmp_path, name):
+    """MuJoCo makes its ``MjSpec`` of ``.xml`` and ``.urdf`` alone; what is included lies beside the file."""
+    put(tmp_path / "stock", 2.0)
+    (tmp_path / "part.xml").write_text(f"<mujocoinclude>{PART}</mujocoinclude>")
+    body = '<include file="part.xml"/><body name="b"><joint name="k"/><geom type="mesh" mesh="t"/></body>'
+    path = tmp_path / name
+    path.write_text(mjcf(body, '<asset><mesh name="t" file="t.stl"/></asset>'))
+    found = diagnose(path, engines=["mujoco"], meshes=[tmp_path / "stock"])
+    assert found.verdict == "agrees", found.text()
+    assert [body["mass"] for body in found.engines["mujoco"]["holds"]["bodies"]] == pytest.approx([1, 8000 / 6])
+
+
+def test_furiko_weighs_a_mesh_of_a_mjcf_below_the_folder(tmp_path):
+    """As MuJoCo does, which is handed what furiko finds there."""
+    put(tmp_path / "stock" / "deep" / "visual", 2.0)
+    path = tmp_path / "model.xml"
+    body = '<body name="a"><joint/><geom type="mesh" mesh="t"/></body>'
+    path.write_text(mjcf(body, '<asset><mesh file="t.stl"/></asset>'))
+    assert read_model(path, meshes=[tmp_path / "stock"]).spatial.bodies[0].inertial.mass == pytest.approx(8000 / 6)
+    assert diagnose(path, engines=["mujoco"], meshes=[tmp_path / "stock"]).verdict == "agrees"

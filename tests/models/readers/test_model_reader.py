@@ -142,6 +142,10 @@ def test_a_plane_turned_in_space_is_the_same_mechanism():
         assert a.inertia == pytest.approx(b.inertia)
 
 
+def test_a_document_type_that_declares_nothing_is_passed_over():
+    assert model_from_text(f"<!DOCTYPE mujoco>{mjcf(body())}").mechanism.n == 1
+
+
 LONG = "".join(f'<body name="b{i}"/>' for i in range(100_000))
 BOMB = '<!DOCTYPE x [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;">]><mujoco>&b;</mujoco>'
 HOSTILE = {
@@ -150,6 +154,7 @@ HOSTILE = {
     "cut off": ("<mujoco><worldbody>", "not well-formed"),
     "another format": ("<sdf/>", "MJCF.*URDF.*needed"),
     "entities": (BOMB, "document type declaration"),
+    "outside document type": ('<!DOCTYPE r SYSTEM "r.dtd"><robot/>', "document type"),
     "outside entity": ('<!DOCTYPE r [<!ENTITY x SYSTEM "file:///etc/passwd">]><robot>&x;</robot>', "document type"),
     "100 000 links": (mjcf(LONG), "elements"),
     "2 001 bodies": (mjcf(LONG[: LONG.index("b2001") - 12]), "more than 2000 bodies"),

@@ -195,6 +195,11 @@ def test_what_is_passed_over_or_impossible_is_told_and_read(case):
     assert file.spatial.nv == 1
 
 
+def test_a_negative_mass_is_read_as_it_stands():
+    """``boundmass``, which no document asks for here, does not raise it to nothing."""
+    assert spatial(robot(arm=inertial(mass=-1))).bodies[1].inertial.mass == -1
+
+
 def test_nothing_is_told_of_a_plain_file():
     text = robot(inside='<axis xyz="1 0 0"/><limit lower="-1" upper="1" effort="1" velocity="1"/>')
     assert [note[:30] for note in model_from_text(text).notes] == ["URDF says nothing of gravity: "]
