@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import InvalidInput
-from .spatial import ZERO_INERTIAL, Inertial, Pose, from_quaternion
+from .spatial import ZERO_INERTIAL, Inertial, Pose, from_quaternion, unit
 
 Array = NDArray[np.float64]
 
@@ -180,7 +180,7 @@ class SpatialMechanism:
         for placed in self.joints:
             body, joint = self.bodies[placed.body], placed.joint
             if joint.kind == "free":
-                q += [*body.position, *(body.quaternion / np.linalg.norm(body.quaternion))]
+                q += [*body.position, *unit(body.quaternion)]
             elif joint.kind == "ball":
                 q += [1.0, 0.0, 0.0, 0.0]
             else:

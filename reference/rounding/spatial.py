@@ -21,7 +21,13 @@ multiplies what the length itself multiplies. The three degrees of freedom of a 
 joint, share one magnitude, the norm: an engine may have them in other axes than MuJoCo's.
 
 Accelerations are judged by the residual that they leave. Its unit is that of the mass matrix times |a|, the bias', the
-forces that are applied; and for engines that factorise M, √M_ii Σ √M_jj |a_j| (Higham, theorem 10.3).
+forces that are applied; and for engines that factorise M, √M_ii Σ √M_jj |a_j| (Higham, theorem 10.3). That bound is one
+of the first order: where M is nearer to a singular matrix than its own rounding, a factorisation may fail, and nothing
+is known of what it leaves (:meth:`Magnitudes.regular`).
+
+A product below the smallest normal number is off by up to η = ε × that number, as in :mod:`.bounds`: whatever it is
+still to be multiplied by is at most (1 + Σm + Σ|I|)(1 + A)², with A the longest u, times 1 + |g| + F² + the sum of the
+|a|, and in a solution the largest entry of its factors, at most √(max M_ii / min D) with D the pivots.
 """
 
 from __future__ import annotations
@@ -34,7 +40,7 @@ from numpy.typing import NDArray
 
 from ...models.spatial_mechanism import WORLD, Array, SpatialMechanism
 from .. import spatial_kinematics
-from .bounds import EPSILON, ROUNDINGS_PER_LINK
+from .bounds import EPSILON, ROUNDINGS_PER_LINK, SMALLEST
 
 FORCE_ROUNDINGS = 16  # of a spring's: quotient of quaternions, its norm, arc tangent, products
 
@@ -63,6 +69,7 @@ class Magnitudes:
     ``world``: whether the engine places bodies in the world and takes moments about the centre of mass of the whole.
     The lengths then are those of either way of computing, whichever is larger; otherwise those along the joints.
     ``origin``: whether it takes moments about the world's origin: the way from the joint there, and on to the centre.
+    ``together``: whether the joints of one body may be one joint of the engine's, whose block it inverts as a ball's.
     """
 
     def __init__(
@@ -73,12 +80,13 @@ class Magnitudes:
         *,
         world: bool = True,
         origin: bool = False,
+        together: bool = False,
         moved: spatial_kinematics.Motion | None = None,
     ) -> None:
         """``moved``: where all bodies are in this state, if that is known already."""
         self.mechanism, self.q = mechanism, np.asarray(q, dtype=np.float64)
         self.v = np.zeros(mechanism.nv) if v is None else np.asarray(v, dtype=np.float64)
-        self.world, self.origin = world, origin
+        self.world, self.origin, self.together = world, origin, together
         self._known = moved
         self._mass = np.array([body.inertial.mass for body in mechanism.bodies])
         self._tensor = np.array([np.linalg.norm(body.inertial.tensor, 2) for body in mechanism.bodies])
@@ -109,7 +117,7 @@ class Magnitudes:
         own, off = levers.own * np.sqrt(self._mass), levers.off * np.sqrt(self._mass)
         found = own @ own.T + own @ off.T + off @ own.T
         found += (turns * self._tensor) @ turns.T
-        return np.asarray(found + self._armature)
+        return np.asarray(found + self._armature + self._underflow)
 
     @cached_property
     def _armature(self) -> Array:
@@ -122,7 +130,7 @@ class Magnitudes:
     @cached_property
     def bias(self) -> Array:
         """The unit of each row of the bias, (nv,)."""
-        return np.asarray(self._bias.sum(axis=1))
+        return np.asarray(self._bias.sum(axis=1) + self._underflow_in_motion)
 
     @cached_property
     def _bias(self) -> Array:
@@ -137,7 +145,7 @@ class Magnitudes:
     @cached_property
     def gravity(self) -> Array:
         """The unit of each row of gravity's share of the bias, (nv,)."""
-        return np.asarray(self._weights.sum(axis=1))
+        return np.asarray(self._weights.sum(axis=1) + self._underflow * (1 + np.linalg.norm(self.mechanism.gravity)))
 
     @cached_property
     def _weights(self) -> Array:
@@ -147,7 +155,7 @@ class Magnitudes:
     @cached_property
     def passive(self) -> Array:
         """Σ|terms| of the dampers' and springs' forces, (nv,)."""
-        found = self.mechanism.per_freedom("damping") * self.rates(self.v)
+        found = self.mechanism.per_freedom("damping") * self.rates(self.v) + SMALLEST
         for one in self.mechanism.joints:
             here, joint = self.q[one.columns_q], one.joint
             if joint.kind in ("hinge", "slide"):
@@ -201,7 +209,19 @@ class Magnitudes:
                 squares[part] = squares[part].sum()  # whichever axes the engine has
             root = np.sqrt(squares)
             rows = rows + root * (root @ swings)
-        return np.asarray(rows)
+        return np.asarray(rows + self._growth(mass) * (self._underflow_in_motion + self._underflow * swings.sum()))
+
+    def regular(self, mass: Array, accuracy: float = EPSILON) -> bool:
+        """Whether M (nv, nv) is further from singular than its rounding: only then is :meth:`residual` a bound.
+
+        As :meth:`.bounds.Amplitudes.regular` has it: scaled by the roots of its unit's diagonal on both sides, M is off
+        by a matrix whose norm is at most its largest sum of a row. Where M's smallest eigenvalue is above that,
+        factorisations succeed (Higham, theorem 10.7).
+        """
+        root = np.sqrt(np.diag(self.mass_matrix))
+        scale = np.outer(root, root)
+        off = self.roundings * accuracy * float((self.mass_matrix / scale + 1.0).sum(axis=1).max(initial=0.0))
+        return bool(np.linalg.eigvalsh(mass / scale).min(initial=np.inf) > off)
 
     def joint_forces(self, accelerations: Array) -> Array:
         """The units of force [N] and moment [N m] of each moving link on what carries it, (links, 2).
@@ -246,12 +266,10 @@ class Magnitudes:
         large: the ``shares`` of the bodies that hang on the joint, in all rows that move them.
         """
         found = np.zeros_like(rows)
-        for one in self.mechanism.joints:
-            if one.joint.freedoms < 3:
-                continue
-            block, own = one.columns_v, slice(0, one.joint.freedoms)
-            below = self._below(one.body)
-            hanging = np.flatnonzero(below[self._first_moved] & (np.arange(len(rows)) >= one.at_v))
+        for body, block in self._blocks():
+            own = slice(0, block.stop - block.start)
+            below = self._below(body)
+            hanging = np.flatnonzero(below[self._first_moved] & (np.arange(len(rows)) >= block.start))
             try:
                 inverse = np.linalg.inv(mass[np.ix_(hanging, hanging)])[own, own]
                 scale = np.sqrt(np.abs(np.diag(np.linalg.inv(inverse))))
@@ -259,8 +277,43 @@ class Magnitudes:
                 continue  # a singular matrix has no accelerations that could be judged
             grown = float(np.linalg.norm(scale[:, None] * inverse * scale, 2))
             found[block] += scale * grown * np.linalg.norm(rows[block] / scale)
-            found += grown * self._moves[:, one.body] * shares[:, below].sum(axis=1)
+            found += grown * self._moves[:, body] * shares[:, below].sum(axis=1)
         return found
+
+    def _blocks(self) -> list[tuple[int, slice]]:
+        """Each block of M that is inverted as a whole: the body that it moves, and its rows."""
+        found: dict[tuple[int, int], slice] = {}
+        for number, one in enumerate(self.mechanism.joints):
+            key = (one.body, 0 if self.together else number)
+            start = found[key].start if key in found else one.at_v
+            found[key] = slice(start, one.columns_v.stop)
+        return [(body, block) for (body, _), block in found.items() if block.stop - block.start > 1]
+
+    @cached_property
+    def _underflow(self) -> float:
+        """What underflow may do to a product of masses and lengths, over ε."""
+        longest = float((self._levers.own + self._levers.off).max(initial=0.0))
+        return SMALLEST * float(1 + self._mass.sum() + self._tensor.sum()) * (1 + longest) ** 2
+
+    @cached_property
+    def _underflow_in_motion(self) -> float:
+        """The same where accelerations of gravity and of rates multiply it."""
+        spin = float((self.once(self.v) @ self._turns).max(initial=0.0))
+        return self._underflow * (1 + float(np.linalg.norm(self.mechanism.gravity)) + spin**2)
+
+    @staticmethod
+    def _growth(mass: Array) -> float:
+        """The largest entry that the factors of M may have; a pivot below ε of M's diagonal would be rounding itself."""
+        diagonal = np.diag(mass)
+        largest = float(diagonal.max(initial=0.0))
+        if not largest > 0:
+            return 1.0
+        try:
+            factors = np.linalg.cholesky((mass / largest)[::-1, ::-1])
+            least = float(np.diag(factors).min()) ** 2
+        except np.linalg.LinAlgError:
+            least = 0.0
+        return float(np.sqrt(1 / max(least, EPSILON)))
 
     def _below(self, body: int) -> NDArray[np.bool_]:
         """Whether each body is this one or hangs on it, (bodies,)."""

@@ -17,6 +17,7 @@ Array = NDArray[np.float64]
 
 Failure = Literal[
     "half its digits lost",
+    "more than rounding",
     "wrong numbers that look right",
     "NaN",
     "silent reset",
