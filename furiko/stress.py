@@ -21,6 +21,7 @@ from .studies.stress.accelerations import DOCUMENT, KERNELS, OWN
 from .studies.stress.axes import AXES, Ladder, find_axes, pairs
 from .studies.stress.searches import FAMILIES, Results, Search, key, make_searches
 from .studies.stress.searches import run as run_cases
+from .studies.stress.trees.axes import TreeLadder, find_ladders
 
 STREAM = "stress.jsonl"
 BUDGET = 60.0  # [s]
@@ -148,7 +149,7 @@ def make_plan(
     axes: Sequence[str] | None, engines: Sequence[str] | None, *, seed: int, long_steps: int = 10_000_000
 ) -> StressPlan:
     """The searches. Raises :class:`InvalidInput` for unknown names, :class:`EngineMissing` for a missing engine."""
-    ladders, families = chosen_axes(axes)
+    ladders, trees, families = chosen_axes(axes)
     names = all_of((*OWN, *engine_names()) if engines is None else engines)
     own = [name for name in names if name in OWN]
     # An engine of the user's keeps the path by which it was loaded as its name.
@@ -158,16 +159,24 @@ def make_plan(
     if missing and engines is not None:
         raise EngineMissing(f"{missing[0].name}: {reasons[missing[0].name]}")
     infos = [info for info in infos if info not in missing]
-    searches = make_searches(ladders, infos, own, seed=seed, families=families, long_steps=long_steps)
+    searches = make_searches(
+        ladders, infos, own, seed=seed, families=families, long_steps=long_steps, trees=trees or None
+    )
     if not searches:
         raise InvalidInput(f"stress: nothing to run: {', '.join(names)} takes no part in {', '.join(axes or ())}")
     return StressPlan(searches, infos)
 
 
-def chosen_axes(axes: Sequence[str] | None) -> tuple[tuple[Ladder, ...], tuple[str, ...]]:
-    """Ladders and families by name; None: all but pairs. Raises :class:`InvalidInput` for unknown names."""
+def chosen_axes(
+    axes: Sequence[str] | None,
+) -> tuple[tuple[Ladder, ...], tuple[TreeLadder, ...], tuple[str, ...]]:
+    """Ladders, those of open mechanisms (none: all, if their family is there) and families by name.
+
+    None: all but pairs. Raises :class:`InvalidInput` for unknown names.
+    """
     if axes is None:
-        return AXES, tuple(family for family in FAMILIES if family != "pairs")
+        return AXES, (), tuple(family for family in FAMILIES if family != "pairs")
+    trees = [] if {"trees", "all"} & {*axes} else [ladder for name in axes for ladder in find_ladders(name)]
     families = [name for name in FAMILIES if name in axes]
     ladders: list[Ladder] = []
     for name in axes:
@@ -178,11 +187,13 @@ def chosen_axes(axes: Sequence[str] | None) -> tuple[tuple[Ladder, ...], tuple[s
         elif name == "all":
             ladders += [*AXES, *pairs()]
             families += FAMILIES
+        elif find_ladders(name):
+            families.append("trees")
         elif name not in FAMILIES:
             found = find_axes((name,))
             ladders += found
             families += ["pairs" if " x " in name else "accelerations"]
-    return tuple(dict.fromkeys(ladders)), tuple(dict.fromkeys(families))
+    return tuple(dict.fromkeys(ladders)), tuple({one.name: one for one in trees}.values()), tuple(dict.fromkeys(families))
 
 
 def make_header(plan: StressPlan, seed: int) -> Header:
