@@ -17,6 +17,16 @@ Array = NDArray[np.float64]
 SQUARED = 1e-100, 1e100  # components in between have squares, and products of these with others, in the range of doubles
 
 
+def doubles(instance: object, *fields: str) -> None:
+    """Turn numbers and arrays of less precision in these fields of a frozen dataclass into doubles, which hold them
+    exactly: an engine's adapter would compute with them in single precision otherwise."""
+    for name in fields:
+        value = getattr(instance, name)
+        if isinstance(value, np.ndarray | np.generic) and value.dtype.kind in "iuf" and value.dtype.itemsize <= 8:
+            double = float(value) if value.ndim == 0 else np.asarray(value, dtype=np.float64)
+            object.__setattr__(instance, name, double)
+
+
 @dataclass(frozen=True)
 class Pose:
     """A frame in an outer frame: the point p of the one is ``rotation`` p + ``translation`` in the other.
@@ -48,6 +58,9 @@ class Inertial:
     mass: float
     centre: Array
     tensor: Array
+
+    def __post_init__(self) -> None:
+        doubles(self, "mass", "centre", "tensor")
 
     @property
     def weightless(self) -> bool:
@@ -87,13 +100,19 @@ def sized(q: Array) -> Array:
 
 def unit(q: Array) -> Array:
     """Quaternions (..., 4) or axes (..., 3), of any length but zero, with length one."""
-    q = sized(q)
-    return np.asarray(q / np.linalg.norm(q, axis=-1, keepdims=True))
+    with np.errstate(over="ignore"):
+        length = np.linalg.norm(q, axis=-1, keepdims=True)
+    if not ((length > SQUARED[0]) & (length < SQUARED[1])).all():
+        q = sized(q)
+        length = np.linalg.norm(q, axis=-1, keepdims=True)
+    return np.asarray(q / length)
 
 
 def from_quaternion(q: Any) -> Array:
     """The rotation matrix (3, 3) of a quaternion (w, x, y, z) of any length but zero."""
-    q = sized(np.asarray(q, dtype=np.float64))
+    q = np.asarray(q, dtype=np.float64)
+    if not SQUARED[0] < math.hypot(*q) < SQUARED[1]:
+        q = sized(q)
     w, x, y, z = q / math.hypot(*q)
     return np.array(
         [
