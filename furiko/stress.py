@@ -193,7 +193,8 @@ def chosen_axes(
             found = find_axes((name,))
             ladders += found
             families += ["pairs" if " x " in name else "accelerations"]
-    return tuple(dict.fromkeys(ladders)), tuple({one.name: one for one in trees}.values()), tuple(dict.fromkeys(families))
+    climbed = {ladder.name: ladder for ladder in trees}
+    return tuple(dict.fromkeys(ladders)), tuple(climbed.values()), tuple(dict.fromkeys(families))
 
 
 def make_header(plan: StressPlan, seed: int) -> Header:

@@ -14,7 +14,10 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-SQUARED = 1e-100, 1e100  # components in between have squares, and products of these with others, in the range of doubles
+SQUARED = (
+    1e-100,
+    1e100,
+)  # components in between have squares, and products of these with others, in the range of doubles
 
 
 def doubles(instance: object, *fields: str) -> None:

@@ -61,7 +61,7 @@ def compare(cell: TreeCell) -> Iterator[Result]:
 
 
 def unsure(cell: TreeCell, residual: Array, unit: Array) -> NDArray[np.bool_]:
-    """Whether an engine is beyond the bound in a state (B,) in which M is singular to its rounding: nothing is known."""
+    """Whether an engine is beyond the bound in a state (B,) in which M is singular to its rounding."""
     allowed = EPSILON * cell.roundings[:, None] * unit
     found = np.asarray((np.abs(residual) > allowed).any(axis=-1))
     for state in np.flatnonzero(found):

@@ -303,7 +303,7 @@ class Magnitudes:
 
     @staticmethod
     def _growth(mass: Array) -> float:
-        """The largest entry that the factors of M may have; a pivot below ε of M's diagonal would be rounding itself."""
+        """The largest entry that the factors of M may have; a pivot below ε of the diagonal is rounding itself."""
         diagonal = np.diag(mass)
         largest = float(diagonal.max(initial=0.0))
         if not largest > 0:

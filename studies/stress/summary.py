@@ -97,7 +97,9 @@ def kernel_errors(results: Results) -> KernelErrors:
     """Errors of furiko's own accelerations: where one is above the promised bound, and why."""
     rungs = [result for result in results.values() if result.engine == KERNELS and "rung" in result.details]
     own = [result for result in rungs if "one ulp does" in result.details]
-    beyond = [result for result in rungs if result.details["failure"] in BEYOND and "one ulp does" not in result.details]
+    beyond = [
+        result for result in rungs if result.details["failure"] in BEYOND and "one ulp does" not in result.details
+    ]
     return KernelErrors(
         cases=len(own),
         promised=PROMISED,

@@ -68,7 +68,12 @@ ROOMS = {
     ),
     "studies": (
         {"models", "records", "reference", "engines", "diagnosis", "checks"},
-        [(".",), ("bench", "maps", "stress", "sweep", "versions")],
+        [
+            (".",),
+            ("stress.axes", "stress.accelerations", "stress.case", "stress.failures"),
+            ("stress.trees",),
+            ("bench", "maps", "stress", "sweep", "versions"),
+        ],
     ),
     "derivations": (
         {"models", "reference"},

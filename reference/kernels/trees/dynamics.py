@@ -159,8 +159,8 @@ def _judge(
         raise InvalidInput("the mass matrix is singular in a state: a joint moves nothing that has mass, or armature")
     if pivot > -LEAST_PIVOT:
         raise InvalidInput(
-            f"a joint moves {-pivot:.2g} kg m² (or kg) in a state, which doubles hold to a few digits only: give masses "
-            "or lengths in a smaller unit, so that their numbers are larger"
+            f"a joint moves {-pivot:.2g} kg m² (or kg) in a state, which doubles hold to a few digits only: give "
+            "masses or lengths in a smaller unit, so that their numbers are larger"
         )
     raise InvalidInput("the accelerations of a state are beyond the range of doubles")
 

@@ -194,7 +194,10 @@ _FREEDOMS = TreeAxis("freedoms", "of more and more links", "degrees of freedom",
 def tree_ladders() -> dict[str, TreeLadder]:
     """By name: a chain in space, three hinges on one link, then every axis on scenes of the catalogue and a chain."""
     bases = [*map(find_scene, BASES), TreeScene("chain", chain(6)), TreeScene("floating", floating())]
-    found: list[TreeLadder] = [ChainLadder(_FREEDOMS, TreeScene("chain", chain(2))), TreeLadder(_GIMBAL, TreeScene("gimbal", gimbal()))]
+    found: list[TreeLadder] = [
+        ChainLadder(_FREEDOMS, TreeScene("chain", chain(2))),
+        TreeLadder(_GIMBAL, TreeScene("gimbal", gimbal())),
+    ]
     found += [ladder for base in bases if isinstance(base, TreeScene) for ladder in ladders_of(base)]
     return {ladder.name: ladder for ladder in found}
 

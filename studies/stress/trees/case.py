@@ -125,7 +125,7 @@ class Subject:
         error = (answer - problem.truth.high) - problem.truth.low
         worst = 0.0
         with np.errstate(all="ignore"):
-            for k in np.flatnonzero(np.isfinite(answer).all(axis=-1)):
+            for k in np.flatnonzero(np.isfinite(answer).all(axis=-1)).tolist():
                 units, mass = self._units(problem, k), problem.mass[k]
                 factorised = self.info is not None and self.info.algorithm != "aba"
                 unit = units.residual(answer[k], mass, factorised=factorised)

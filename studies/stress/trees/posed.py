@@ -207,7 +207,7 @@ def _bases(system: TreeSystem) -> list[tuple[int, int, int]]:
 
 
 def _depths(system: TreeSystem) -> list[int]:
-    """How many moving links lie between each link's joint and the world; what is fixed counts as what it is fixed to."""
+    """How many moving links lie between each link and the world; what is fixed counts as what it is fixed to."""
     found: list[int] = []
     for link in system.links:
         before = found[link.parent] if link.parent >= 0 else -1
