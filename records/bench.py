@@ -52,7 +52,6 @@ class Motion(msgspec.Struct, frozen=True, kw_only=True):
     points: list[Point]
     reaches: list[Reach]
     left_out: list[str]  # engines without a method, and why
-    trust: list[Trust] = []  # of open mechanisms: whether engines' accelerations are right, and how far they stay so
     causes: list[Difference] = []  # why an engine's accelerations or steps are not those of the scene
     proved: bool = False  # ``truth`` is a bound, by a kept proof, not an estimate
 

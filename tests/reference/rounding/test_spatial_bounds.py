@@ -184,3 +184,62 @@ def test_a_ball_whose_block_is_inverted_loses_digits(monkeypatch):
     assert shares(truth, found)["accelerations"] < 1
     monkeypatch.setattr(rounding.Magnitudes, "_inverted", lambda *arguments: 0.0)
     assert shares(truth, found)["accelerations"] > 1
+
+
+def several_hinges(angle, light=1.0):
+    """A link on three hinges at right angles, and its state; the middle one is so far from a right angle."""
+    joints = tuple(Joint(name, axis=axis) for name, axis in zip("xyz", np.eye(3)[::-1], strict=True))
+    inertial = Inertial(2.0 * light, np.array([0.02, 0.01, -0.15]), np.diag([0.02, 0.018, 0.004]) * light)
+    mechanism = SpatialMechanism((RigidBody("arm", -1, joints=joints, inertial=inertial),), np.array([0, 0, -9.81]))
+    return mechanism, np.array([0.3, np.pi / 2 - angle, -0.8]), np.array([1.0, -2.0, 0.5])
+
+
+def inverted_at_once(truth, perturbation):
+    """Accelerations by an inverse of M as a whole that leaves a residual of ``perturbation`` of its norm: the best that
+    inverting a block can do. M⁻¹ is perturbed on the right, as Gauss' elimination of the columns does."""
+    mass, right = truth.mass_matrix.float, (truth.passive.float - truth.bias.float)
+    inverse = np.linalg.inv(mass)
+    rng = np.random.default_rng(1)
+    return (inverse + perturbation * rng.uniform(-1, 1, (3, 3)) * np.abs(inverse).max()) @ right
+
+
+def test_joints_that_are_inverted_together_have_room_for_it_and_others_have_not():
+    mechanism, q, v = several_hinges(1e-4)
+    truth = spatial_truth(mechanism, q, v)
+    found = inverted_at_once(truth, 2.0**-52)
+    residual = np.abs(truth.residual(found).float)
+    ratio = []
+    for together in (False, True):
+        units = rounding.Magnitudes(mechanism, q, v, world=False, together=together)
+        allowed = units.roundings * rounding.EPSILON * units.residual(found, truth.mass_matrix.float, factorised=False)
+        ratio.append((residual / allowed).max())
+    assert ratio[0] > 1 > ratio[1]
+
+
+def test_what_is_singular_to_rounding_is_not_regular_and_a_light_tip_is():
+    for angle, regular in ((1.0, True), (1e-4, True), (1e-9, False)):
+        mechanism, q, v = several_hinges(angle)
+        mass = spatial_truth(mechanism, q, v).mass_matrix.float
+        assert rounding.Magnitudes(mechanism, q, v).regular(mass) == regular
+    bodies = (
+        *mechanism.bodies,
+        RigidBody("tip", 0, joints=(Joint("tip"),), inertial=Inertial(1e-12, np.ones(3), 1e-12 * np.eye(3))),
+    )
+    mechanism, q, v = replace(mechanism, bodies=bodies), np.array([0.3, 0.5, -0.8, 0.1]), np.zeros(4)
+    assert rounding.Magnitudes(mechanism, q, v).regular(spatial_truth(mechanism, q, v).mass_matrix.float)
+
+
+def test_underflow_is_in_the_bound_where_numbers_are_subnormal_and_nowhere_else():
+    mechanism, q, v = several_hinges(1.0)
+    for power in (0, 530):
+        slow = replace(mechanism, gravity=np.ldexp(mechanism.gravity, -2 * power))
+        rates = np.ldexp(v, -power)
+        truth = spatial_truth(slow, q, rates)
+        units = rounding.Magnitudes(slow, q, rates, world=False)
+        answer = truth.accelerations.float
+        unit = units.residual(answer, truth.mass_matrix.float)
+        # One smallest number more or less in each acceleration is what a double must be allowed.
+        error = truth.mass_matrix.float @ np.full(3, 5e-324)
+        assert (np.abs(error) <= units.roundings * (rounding.EPSILON * unit)).all()
+        plain = np.abs(truth.mass_matrix.float) @ np.abs(answer) + np.abs(truth.bias.float)
+        assert (unit.max() < 1e3 * plain.max()) == (power == 0)
