@@ -347,6 +347,16 @@ class Slow(Right):
         return super().accelerations(q, v)
 
 
+class FailsWhenFast(Right):
+    """A part in 1e9 off where anything moves faster than a thousand metres or radians a second."""
+
+    info = about("FailsWhenFast")
+
+    def accelerations(self, q, v):
+        quick = np.abs(v).max(axis=-1, keepdims=True) > 1000
+        return super().accelerations(q, v) * np.where(quick, 1 + 1e-9, 1.0)
+
+
 class NotANumber(Right):
     """Answers with NaN in one state."""
 

@@ -83,6 +83,9 @@ def _print_trust(console: PlainConsole, found: Advice) -> None:
             ("not to be trusted from", "", *(each.engine for each in taken)),
             [(axis, says, *(_limit(limits.get((each.engine, axis))) for each in taken)) for axis, says in axes.items()],
         )
+    unanswered = sum(not limit.closed for each in taken for limit in each.limits)
+    if unanswered:
+        console.line(f"{count(unanswered, 'question')} open: a larger --budget answers them", "bold")
     if not found.duration:
         for left_out in found.left_out:
             console.line(f"left out: {left_out}", "dim")

@@ -48,7 +48,7 @@ def of_engine(engine: str, ladders: Sequence[TreeLadder], base: TreeScene, resul
     """What the results say of one engine."""
     as_it_is = next(ladder for ladder in ladders if ladder.axis.name == AS_IT_IS)
     first = results.get(key(TreeSearch(engine, as_it_is, SEED, base).case(0)))
-    taken = first is not None and first.details.get("failure") != "refused"
+    taken = first is None or first.details.get("failure") != "refused"
     return Trust(
         engine=engine,
         verdict=verdict(first),
