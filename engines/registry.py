@@ -269,7 +269,9 @@ def _too_light(info: EngineInfo, system: TreeSystem) -> str | None:
     feature of its own."""
     if not (info.least_mass or info.least_inertia):
         return None
-    for name, mass, inertia in system.moved:
+    from ..models.trees.weights import moved  # with arrays, which are needed for these engines alone
+
+    for name, mass, inertia in moved(system.mechanism()):
         for value, least, what in (
             (mass, info.least_mass, "masses from {:g} kg"),
             (inertia, info.least_inertia, "inertias about a joint from {:g} kg m²"),

@@ -138,17 +138,6 @@ class TreeSystem:
         return any(link.joints and not mass for link, mass in zip(self.links, masses, strict=True))
 
     @cached_property
-    def moved(self) -> tuple[tuple[str, float, float], ...]:
-        """Each moving link with what is fixed to it: its name, mass [kg] and least inertia about a joint of its own.
-
-        About a hinge [kg m²] with its armature, about a ball or free joint the smallest of all axes; infinite for
-        slides alone.
-        """
-        from .weights import moved
-
-        return moved(self)
-
-    @cached_property
     def reach(self) -> float:
         """The longest way from the world to a link's centre of mass in the reference configuration [m], at least."""
         ways: list[float] = []

@@ -1,17 +1,19 @@
-"""What a tree's moving links weigh, with what is fixed to them: the limits of some engines are told from it."""
+"""What a mechanism's moving bodies weigh, with what is fixed to them: the limits of some engines are told from it."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from ..spatial import Inertial, unit
-from ..spatial_mechanism import WORLD, Array, Joint
-from .system import TreeSystem
+from ..spatial_mechanism import WORLD, Array, Joint, SpatialMechanism
 
 
-def moved(system: TreeSystem) -> tuple[tuple[str, float, float], ...]:
-    """:attr:`TreeSystem.moved`."""
-    bodies = system.mechanism().bodies
+def moved(mechanism: SpatialMechanism) -> tuple[tuple[str, float, float], ...]:
+    """Each moving body: name, mass [kg], and its least inertia about a joint of its own, with the armature.
+
+    About a hinge [kg m²], about a ball or free joint the smallest of all axes; infinite for slides alone.
+    """
+    bodies = mechanism.bodies
     inertials = [body.inertial for body in bodies]
     for index in range(len(bodies) - 1, -1, -1):
         body = bodies[index]
@@ -25,7 +27,6 @@ def moved(system: TreeSystem) -> tuple[tuple[str, float, float], ...]:
 
 
 def _about(joint: Joint, inertial: Inertial) -> float:
-    """The least moment of inertia [kg m²] about a joint, with its armature; infinite about a slide."""
     if joint.kind == "slide":
         return np.inf
     tensor: Array = inertial.tensor_about(np.zeros(3) if joint.kind == "free" else joint.anchor)

@@ -27,6 +27,7 @@ Failure = Literal[
     "hang",
     "crash",
     "refused",
+    "no truth",
 ]
 
 NO_DIGITS = 0.01  # an error that no one would call rounding: finite, unannounced, and wrong in the second digit

@@ -48,6 +48,8 @@ ROOMS = {
             ("kernels",),
             ("integration",),
             (".",),
+            ("rounding.bounds",),
+            ("rounding.spatial",),
             ("truth", "rounding"),
             ("spatial_spread",),
             ("proved",),

@@ -57,9 +57,13 @@ class TreeCase(RungCase):
     def run(self) -> Result:
         """Measure. An engine's exceptions are the caller's to catch."""
         ladder = ladder_of(self.ladder, self.base)
-        problem = tree_problem(self.ladder, self.base, self.rung, self.seed)
+        where = {"rung": self.rung, "value": ladder.value(self.rung), "at": ladder.label(self.rung)}
+        try:
+            problem = tree_problem(self.ladder, self.base, self.rung, self.seed)
+        except ArithmeticError as error:
+            return self.result("skipped", reason=str(error), details=where | {"failure": "no truth"})
         system = problem.posed.system
-        where = {"rung": self.rung, "value": ladder.value(self.rung), "at": ladder.label(self.rung), "n": system.n}
+        where["n"] = system.n
         subject = Subject.of(self.engine)
         try:
             answer = subject.accelerations(system, problem.posed.q, problem.posed.v)

@@ -243,3 +243,40 @@ def test_underflow_is_in_the_bound_where_numbers_are_subnormal_and_nowhere_else(
         assert (np.abs(error) <= units.roundings * (rounding.EPSILON * unit)).all()
         plain = np.abs(truth.mass_matrix.float) @ np.abs(answer) + np.abs(truth.bias.float)
         assert (unit.max() < 1e3 * plain.max()) == (power == 0)
+
+
+def sprung_ball(w):
+    """A link on a ball with a spring, nearly half a turn from its rest: w is the first component of its quaternion."""
+    joint = Joint("ball", kind="ball", stiffness=3.0)
+    inertial = Inertial(2.0, np.array([0.02, 0.01, -0.15]), np.diag([0.02, 0.018, 0.014]))
+    mechanism = SpatialMechanism((RigidBody("arm", -1, joints=(joint,), inertial=inertial),), np.array([0, 0, -9.81]))
+    return mechanism, np.array([w, 0.6, 0.0, 0.8]), np.zeros(3)
+
+
+@pytest.mark.parametrize(("w", "told"), [(1e-200, False), (-1e-200, False), (-1e-14, True), (0.3, True)])
+def test_a_spring_that_rounding_turns_the_other_way_is_no_fault_and_any_other_is(w, told):
+    """At half a turn both ways are as short; an angle of π − 2|w| is rounded to π where |w| is below rounding."""
+    mechanism, q, v = sprung_ball(w)
+    truth = spatial_truth(mechanism, q, v)
+    pull = truth.passive.float
+    other = pull * (1 - 2 * np.pi / np.linalg.norm(pull / 3.0))  # round the other way
+    off = np.abs(other - pull)
+    assert off.max() > 1
+    assert (off > rounding.allowed_passive(mechanism, q, v)).any() == told
+    answer = np.linalg.solve(truth.mass_matrix.float, other - truth.bias.float)
+    residual = np.abs(truth.residual(answer).float)
+    allowed = rounding.allowed_residual(mechanism, q, v, answer, truth.mass_matrix.float)
+    assert (residual > allowed).any() == told
+
+
+def test_numbers_beyond_the_range_of_doubles_accuse_nobody():
+    mechanism, q, v = several_hinges(1.0)
+    units = rounding.Magnitudes(mechanism, q, v)
+    mass = spatial_truth(mechanism, q, v).mass_matrix.float
+    assert not np.isnan(units.residual(np.full(3, 1e300), mass)).any()
+    free = SpatialMechanism(
+        (RigidBody("body", -1, joints=(Joint("free", kind="free"),), inertial=Inertial(1.0, np.zeros(3), np.eye(3))),),
+        np.zeros(3),
+    )
+    units = rounding.Magnitudes(free, np.array([0, 0, 0, 1.0, 0, 0, 0]), np.full(6, 1e200))
+    assert not np.isnan(units.residual(np.full(6, 1e200), np.eye(6))).any()

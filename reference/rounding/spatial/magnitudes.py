@@ -1,6 +1,6 @@
 """What rounding may do to an engine's terms and accelerations of a mechanism in space: bounds for each row.
 
-As in :mod:`.bounds`, an engine that is right computes the exact answer of a slightly wrong problem, and what it is off
+As in :mod:`..bounds`, an engine that is right computes the exact answer of a slightly wrong problem, and what it is off
 by is compared with the sum of the magnitudes of the row's terms. In space rotating a vector mixes its components, so
 that magnitudes are norms; and what holds a free base at rest adds up to zero, so that they are summed over the bodies
 before anything cancels. With b a body that degree of freedom i moves, c its centre of mass,
@@ -10,7 +10,7 @@ before anything cancels. With b a body that degree of freedom i moves, c its cen
     F_b = Σ w_j |q̇_j|,  U_b = Σ u_jb |q̇_j|   over all that move b: its angular velocity, its velocity, as added up
 
 the unit of entry ij of the mass matrix is Σ_b m_b u_ib u_jb + |I_b| w_i w_j, over what both move, and that of row i of
-the bias, as derived in :mod:`.bounds`,
+the bias, as derived in :mod:`..bounds`,
 
     Σ_b  m_b (3 F_b U_b u_ib + w_i U_b²) + w_i |I_b| F_b²  +  m_b |g| u_ib.
 
@@ -25,7 +25,7 @@ forces that are applied; and for engines that factorise M, √M_ii Σ √M_jj |a
 of the first order: where M is nearer to a singular matrix than its own rounding, a factorisation may fail, and nothing
 is known of what it leaves (:meth:`Magnitudes.regular`).
 
-A product below the smallest normal number is off by up to η = ε × that number, as in :mod:`.bounds`: whatever it is
+A product below the smallest normal number is off by up to η = ε × that number, as in :mod:`..bounds`: whatever it is
 still to be multiplied by is at most (1 + Σm + Σ|I|)(1 + A)², with A the longest u, times 1 + |g| + F² + the sum of the
 |a|, and in a solution the largest entry of its factors, at most √(max M_ii / min D) with D the pivots.
 """
@@ -38,9 +38,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ...models.spatial_mechanism import WORLD, Array, SpatialMechanism
-from .. import spatial_kinematics
-from .bounds import EPSILON, ROUNDINGS_PER_LINK, SMALLEST
+from ....models.spatial import unit
+from ....models.spatial_mechanism import WORLD, Array, PlacedJoint, SpatialMechanism
+from ... import spatial_kinematics
+from ..bounds import EPSILON, ROUNDINGS_PER_LINK, SMALLEST
 
 FORCE_ROUNDINGS = 16  # of a spring's: quotient of quaternions, its norm, arc tangent, products
 
@@ -161,17 +162,25 @@ class Magnitudes:
             if joint.kind in ("hinge", "slide"):
                 found[one.at_v] += joint.stiffness * (abs(here[0]) + abs(joint.springref))
                 continue
-            found[one.columns_v][-3:] += joint.stiffness * np.pi
+            found[one.columns_v][-3:] += joint.stiffness * (np.pi + self._jump(one))
             if joint.kind == "free":
                 rest = np.linalg.norm(self.mechanism.bodies[one.body].position)
                 found[one.columns_v][:3] += joint.stiffness * (np.linalg.norm(here[:3]) + rest)
         return found
 
+    def _jump(self, placed: PlacedJoint) -> float:
+        """Over ε, what the pull of a ball's or a free joint's spring jumps by at half a turn, where that is so near
+        that rounding decides which way round is the shorter one; else nothing."""
+        body, here = self.mechanism.bodies[placed.body], unit(self.q[placed.columns_q][-4:])
+        rest = unit(body.quaternion) if placed.joint.kind == "free" else np.array([1.0, 0.0, 0.0, 0.0])
+        return 2 * np.pi / EPSILON if abs(float(here @ rest)) <= FORCE_ROUNDINGS * EPSILON else 0.0
+
     def rates(self, values: Array) -> Array:
         """|values| (nv,), the norm for each of three that are components of a vector."""
         found = np.abs(np.asarray(values, dtype=np.float64))
         for part in self._threes:
-            found[part] = np.linalg.norm(found[part])
+            largest = float(found[part].max())
+            found[part] = largest * np.linalg.norm(found[part] / (largest or 1.0))  # squares may be out of range
         return found
 
     def once(self, values: Array) -> Array:
@@ -209,13 +218,14 @@ class Magnitudes:
                 squares[part] = squares[part].sum()  # whichever axes the engine has
             root = np.sqrt(squares)
             rows = rows + root * (root @ swings)
-        return np.asarray(rows + self._growth(mass) * (self._underflow_in_motion + self._underflow * swings.sum()))
+        rows = rows + self._growth(mass) * (self._underflow_in_motion + self._underflow * swings.sum())
+        return np.where(np.isnan(rows), np.inf, rows)  # beyond the range of doubles nothing is known
 
     def regular(self, mass: Array, accuracy: float = EPSILON) -> bool:
         """Whether M (nv, nv) is further from singular than its rounding: only then is :meth:`residual` a bound.
 
-        As :meth:`.bounds.Amplitudes.regular` has it: scaled by the roots of its unit's diagonal on both sides, M is off
-        by a matrix whose norm is at most its largest sum of a row. Where M's smallest eigenvalue is above that,
+        As :meth:`..bounds.Amplitudes.regular` has it: scaled by the roots of its unit's diagonal on both sides, M is
+        off by a matrix whose norm is at most its largest sum of a row. Where M's smallest eigenvalue is above that,
         factorisations succeed (Higham, theorem 10.7).
         """
         root = np.sqrt(np.diag(self.mass_matrix))
@@ -270,12 +280,16 @@ class Magnitudes:
             own = slice(0, block.stop - block.start)
             below = self._below(body)
             hanging = np.flatnonzero(below[self._first_moved] & (np.arange(len(rows)) >= block.start))
-            try:
-                inverse = np.linalg.inv(mass[np.ix_(hanging, hanging)])[own, own]
+            root = np.sqrt(np.diag(mass)[hanging])
+            if not (root > 0).all():
+                continue
+            try:  # of M scaled to a diagonal of ones: its inverse is in the range of doubles, whatever the units are
+                inverse = np.linalg.inv(mass[np.ix_(hanging, hanging)] / root[:, None] / root)[own, own]
                 scale = np.sqrt(np.abs(np.diag(np.linalg.inv(inverse))))
             except np.linalg.LinAlgError:
                 continue  # a singular matrix has no accelerations that could be judged
             grown = float(np.linalg.norm(scale[:, None] * inverse * scale, 2))
+            scale = scale * root[own]
             found[block] += scale * grown * np.linalg.norm(rows[block] / scale)
             found += grown * self._moves[:, body] * shares[:, below].sum(axis=1)
         return found
@@ -299,7 +313,7 @@ class Magnitudes:
     def _underflow_in_motion(self) -> float:
         """The same where accelerations of gravity and of rates multiply it."""
         spin = float((self.once(self.v) @ self._turns).max(initial=0.0))
-        return self._underflow * (1 + float(np.linalg.norm(self.mechanism.gravity)) + spin**2)
+        return self._underflow * (1 + float(np.linalg.norm(self.mechanism.gravity)) + spin * spin)
 
     @staticmethod
     def _growth(mass: Array) -> float:
@@ -427,45 +441,3 @@ def magnitudes(mechanism: SpatialMechanism, q: Array, v: Array) -> list[Magnitud
     """Those of each state, ``q`` (B, nq), ``v`` (B, nv): the bodies are placed in all of them at once."""
     moved = spatial_kinematics.motion(mechanism, q, v)
     return [Magnitudes(mechanism, q[k], v[k], moved=moved.of_state(k)) for k in range(len(q))]
-
-
-def allowed_mass_matrix(mechanism: SpatialMechanism, q: Array, *, world: bool = True) -> Array:
-    """What each entry of an engine's M may be off by, (nv, nv), in the state ``q`` (nq,)."""
-    units = Magnitudes(mechanism, q, world=world)
-    return units.roundings * EPSILON * units.mass_matrix
-
-
-def allowed_bias(mechanism: SpatialMechanism, q: Array, v: Array, *, world: bool = True) -> Array:
-    """What each row of an engine's bias may be off by, (nv,) [N m or N]."""
-    units = Magnitudes(mechanism, q, v, world=world)
-    return units.roundings * EPSILON * units.bias
-
-
-def allowed_gravity(mechanism: SpatialMechanism, q: Array, *, world: bool = True) -> Array:
-    """What each row of an engine's gravity terms may be off by, (nv,) [N m or N]."""
-    units = Magnitudes(mechanism, q, world=world)
-    return units.roundings * EPSILON * units.gravity
-
-
-def allowed_passive(mechanism: SpatialMechanism, q: Array, v: Array) -> Array:
-    """What each row of an engine's passive forces may be off by, (nv,) [N m or N]."""
-    return FORCE_ROUNDINGS * EPSILON * Magnitudes(mechanism, q, v).passive
-
-
-def allowed_residual(
-    mechanism: SpatialMechanism,
-    q: Array,
-    v: Array,
-    accelerations: Array,
-    mass: Array,
-    torque: Array | None = None,
-    *,
-    factorised: bool = True,
-    world: bool = True,
-) -> Array:
-    """What each row of M a + bias − passive − torque may be, (nv,), for an engine's ``accelerations`` a (nv,).
-
-    ``mass``: M (nv, nv), to a few digits; ``factorised``: whether the engine factorises it.
-    """
-    units = Magnitudes(mechanism, q, v, world=world)
-    return units.roundings * EPSILON * units.residual(accelerations, mass, torque, factorised=factorised)
