@@ -4,10 +4,9 @@ May import models, the arithmetic and the kinematics of the room, and :mod:`furi
 """
 
 from .allowed import allowed_bias, allowed_gravity, allowed_mass_matrix, allowed_passive, allowed_residual
-from .magnitudes import EPSILON, FORCE_ROUNDINGS, Lengths, Magnitudes, components, magnitudes
+from .magnitudes import FORCE_ROUNDINGS, Lengths, Magnitudes, components, magnitudes
 
 __all__ = [
-    "EPSILON",
     "FORCE_ROUNDINGS",
     "Lengths",
     "Magnitudes",
