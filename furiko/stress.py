@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 from . import __version__
 from .engines import EngineInfo, all_of, engine_info, engine_names, engine_version, why_missing
 from .models import EngineMissing, InvalidInput
+from .models.errors import nearest
 from .models.writers.whole_file import make_folder
 from .records import provenance
 from .records.check import EngineEntry, Header
@@ -21,7 +22,7 @@ from .studies.stress.accelerations import DOCUMENT, KERNELS, OWN
 from .studies.stress.axes import AXES, Ladder, find_axes, pairs
 from .studies.stress.searches import FAMILIES, Results, Search, key, make_searches
 from .studies.stress.searches import run as run_cases
-from .studies.stress.trees.axes import TreeLadder, find_ladders
+from .studies.stress.trees.axes import TREE_AXES, TreeLadder, find_ladders, tree_ladders
 
 STREAM = "stress.jsonl"
 BUDGET = 60.0  # [s]
@@ -190,6 +191,8 @@ def chosen_axes(
         elif find_ladders(name):
             families.append("trees")
         elif name not in FAMILIES:
+            if hint := nearest(name, [*tree_ladders(), *(axis.name for axis in TREE_AXES)]):
+                raise InvalidInput(f"axis: none is called {name!r}{hint}")
             found = find_axes((name,))
             ladders += found
             families += ["pairs" if " x " in name else "accelerations"]

@@ -5,7 +5,7 @@ import pytest
 from fake_tree_engines import Right
 
 from furiko.engines import engine_info
-from furiko.models import find_scene
+from furiko.models import InvalidInput, find_scene
 from furiko.reference.truth.spatial import spatial_truth
 from furiko.stress import chosen_axes, stress
 from furiko.studies.stress.searches import make_searches
@@ -207,3 +207,17 @@ def test_no_engine_that_is_right_is_beyond_the_bound_anywhere():
     over = {(f.engine, f.axis): max(p.error_over_bound or 0.0 for p in f.curve) for f in found.frontiers}
     assert max(over.values()) <= 1, [name for name, value in over.items() if value > 1]
     assert not found.kernels.broken
+
+
+@pytest.mark.parametrize(
+    ("name", "says"),
+    [
+        ("arm-7: fats", "arm-7: fast"),
+        ("heavy-link", "heavy-links"),
+        ("long-rod", "long-rods"),
+        ("zzz", "trees, and all"),
+    ],
+)
+def test_a_name_that_is_none_is_answered_with_the_nearest(name, says):
+    with pytest.raises(InvalidInput, match=f"none is called '{name}'.*{says}"):
+        chosen_axes([name])
