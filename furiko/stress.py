@@ -191,13 +191,21 @@ def chosen_axes(
         elif find_ladders(name):
             families.append("trees")
         elif name not in FAMILIES:
-            if hint := nearest(name, [*tree_ladders(), *(axis.name for axis in TREE_AXES)]):
-                raise InvalidInput(f"axis: none is called {name!r}{hint}")
-            found = find_axes((name,))
-            ladders += found
+            ladders += _of_documents(name)
             families += ["pairs" if " x " in name else "accelerations"]
     climbed = {ladder.name: ladder for ladder in trees}
     return tuple(dict.fromkeys(ladders)), tuple(climbed.values()), tuple(dict.fromkeys(families))
+
+
+def _of_documents(name: str) -> tuple[Ladder, ...]:
+    """The ladders of the documents' mechanisms with this name; where none has it, the nearest of all is told."""
+    known = [*(axis.name for axis in TREE_AXES), *tree_ladders(), *(axis.name for axis in AXES)]
+    try:
+        return find_axes((name,))
+    except InvalidInput:
+        if " x " not in name and (hint := nearest(name, known)):
+            raise InvalidInput(f"axis: none is called {name!r}{hint}") from None
+        raise
 
 
 def make_header(plan: StressPlan, seed: int) -> Header:
