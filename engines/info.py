@@ -61,7 +61,9 @@ class TreeInfo:
     ``adapter``: the class for them, ``module:Class`` (:class:`~furiko.engines.protocol.TreeEngine`); ``missing``: by
     name of each quantity that it cannot give, and ``cannot_hold``: by name of each feature that it cannot have, a
     sentence that says why. ``offers``, ``lacks``: as the engine's, and ``joint_forces``; ``cannot_differentiate``: as
-    ``cannot_hold``, for the derivatives alone. The largest system, integrators and ways to compute are the engine's.
+    ``cannot_hold``, for the derivatives alone. ``together``: whether the joints of one link are one joint of the
+    engine's, whose block of the mass matrix it inverts. The largest system, integrators and ways to compute are the
+    engine's.
     """
 
     adapter: str
@@ -70,6 +72,7 @@ class TreeInfo:
     offers: tuple[TreeOffer, ...] = ()
     lacks: Mapping[TreeOffer, str] = field(default_factory=dict)
     cannot_differentiate: Mapping[TreeFeature, str] = field(default_factory=dict)
+    together: bool = False
 
 
 @dataclass(frozen=True)

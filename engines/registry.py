@@ -249,7 +249,8 @@ def cannot(info: EngineInfo, system: System | TreeSystem) -> str | None:
     if isinstance(system, TreeSystem):
         if info.tree is None:
             return f"{info.name} takes the documents' mechanisms alone: its adapter has none for other trees"
-        return next((why for feature, why in info.tree.cannot_hold.items() if feature in system.features), None)
+        missing = (why for feature, why in info.tree.cannot_hold.items() if feature in system.features)
+        return next(missing, None) or _too_light(info, system)
     for number, link in enumerate(system.tree().links, start=1):
         inertia = link.inertia + link.mass * (link.com[0] ** 2 + link.com[1] ** 2)
         for value, least, what in (
@@ -260,6 +261,23 @@ def cannot(info: EngineInfo, system: System | TreeSystem) -> str | None:
                 return f"{info.name} takes {what.format(least)}, not {value:.2g} (link {number}): {info.least_reason}"
         if info.no_point_masses and not link.inertia:
             return f"{info.name} takes no point masses (link {number}): {info.no_point_masses}"
+    return None
+
+
+def _too_light(info: EngineInfo, system: TreeSystem) -> str | None:
+    """Why an engine cannot take a tree's masses and moments of inertia; None where it can. What weighs nothing is a
+    feature of its own."""
+    if not (info.least_mass or info.least_inertia):
+        return None
+    from ..models.trees.weights import moved  # with arrays, which are needed for these engines alone
+
+    for name, mass, inertia in moved(system.mechanism()):
+        for value, least, what in (
+            (mass, info.least_mass, "masses from {:g} kg"),
+            (inertia, info.least_inertia, "inertias about a joint from {:g} kg m²"),
+        ):
+            if 0 < value < least:
+                return f"{info.name} takes {what.format(least)}, not {value:.2g} (link {name!r}): {info.least_reason}"
     return None
 
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from . import __version__
 from .bench import engines_to_measure, with_own_motions
+from .engines import cannot, engine_info
 from .models import InvalidInput, TreeScene, find_scene
 from .records import provenance
 from .records.bench import Advice
@@ -24,7 +25,8 @@ def advise(
 ) -> Advice:
     """Which engine, integrator and step to use for a scene, from runs of all of them in it.
 
-    ``scene``: a name of the catalogue or a TOML file, with a state. ``error``: the largest that may be made, of θ [rad]
+    ``scene``: a name of the catalogue or a TOML file, with a state; an open mechanism without a state or a duration is
+    asked for accelerations alone. ``error``: the largest that may be made, of θ [rad]
     and ω [rad/s], at half, three quarters and all of the time. ``until`` [s]: how long the motion is; None for the
     scene's own duration. ``engines``: names, None for those that differ in their motions. ``budget`` [s]: about how
     long to try.
@@ -36,12 +38,9 @@ def advise(
 
     begun = time.monotonic()
     found = find_scene(scene)
-    if isinstance(found, TreeScene):
-        raise InvalidInput(
-            f"scene {scene!r}: it is an open mechanism, whose motion furiko does not integrate; advice is for the "
-            "documents' systems"
-        )
     duration = until if until is not None else found.duration
+    if isinstance(found, TreeScene):
+        return _of_tree(replace(found, duration=duration), error, engines, budget, watch, begun)
     if found.theta is None or not duration:
         what = "give one (--until)" if found.theta is not None else "add [state] with theta, omega and duration"
         raise InvalidInput(f"scene {scene!r}: it has no [state] with a duration, so there is no motion: {what}")
@@ -64,4 +63,46 @@ def advise(
         advised=advised,
         not_advised=missed,
         left_out=left_out,
+    )
+
+
+def _of_tree(
+    scene: TreeScene,
+    error: float,
+    engines: Sequence[str] | None,
+    budget: float,
+    watch: Callable[[str], None],
+    begun: float,
+) -> Advice:
+    """Of an open mechanism: whether accelerations are right, how far they stay so, and steps where it has a motion."""
+    from .studies.bench.advice import advise as study
+    from .studies.stress.tree_trust import trust
+
+    names = engines_to_measure(engines)
+    infos = [replace(engine_info(name), name=name) for name in names]
+    left_out = [f"{info.name}: {cannot(info, scene.system)}" for info in infos if info.tree is None]
+    asked = [info for info in infos if info.tree is not None]
+    if not asked:
+        raise InvalidInput(f"{scene.name}: none of these engines takes open mechanisms: {', '.join(names)}")
+    moves = scene.starts and scene.duration > 0
+    found = trust(scene, asked, budget / 2 if moves else budget, watch)
+    advised, missed, unmoved, truth = (
+        study(scene, [info.name for info in asked], error, budget / 2, watch) if moves else ([], [], [], 0.0)
+    )
+    return Advice(
+        furiko=__version__,
+        command=provenance.command(),
+        machine=provenance.machine(),
+        versions=provenance.versions(),
+        scene=scene.name,
+        system=scene.system.kind,
+        n=scene.system.n,
+        duration=scene.duration if moves else 0.0,
+        asked=error,
+        truth=truth,
+        seconds=time.monotonic() - begun,
+        advised=advised,
+        not_advised=missed,
+        left_out=[*left_out, *unmoved],
+        trust=found,
     )

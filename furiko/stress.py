@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 from . import __version__
 from .engines import EngineInfo, all_of, engine_info, engine_names, engine_version, why_missing
 from .models import EngineMissing, InvalidInput
+from .models.errors import nearest
 from .models.writers.whole_file import make_folder
 from .records import provenance
 from .records.check import EngineEntry, Header
@@ -21,6 +22,7 @@ from .studies.stress.accelerations import DOCUMENT, KERNELS, OWN
 from .studies.stress.axes import AXES, Ladder, find_axes, pairs
 from .studies.stress.searches import FAMILIES, Results, Search, key, make_searches
 from .studies.stress.searches import run as run_cases
+from .studies.stress.trees.axes import TREE_AXES, TreeLadder, find_ladders, tree_ladders
 
 STREAM = "stress.jsonl"
 BUDGET = 60.0  # [s]
@@ -148,7 +150,7 @@ def make_plan(
     axes: Sequence[str] | None, engines: Sequence[str] | None, *, seed: int, long_steps: int = 10_000_000
 ) -> StressPlan:
     """The searches. Raises :class:`InvalidInput` for unknown names, :class:`EngineMissing` for a missing engine."""
-    ladders, families = chosen_axes(axes)
+    ladders, trees, families = chosen_axes(axes)
     names = all_of((*OWN, *engine_names()) if engines is None else engines)
     own = [name for name in names if name in OWN]
     # An engine of the user's keeps the path by which it was loaded as its name.
@@ -158,16 +160,24 @@ def make_plan(
     if missing and engines is not None:
         raise EngineMissing(f"{missing[0].name}: {reasons[missing[0].name]}")
     infos = [info for info in infos if info not in missing]
-    searches = make_searches(ladders, infos, own, seed=seed, families=families, long_steps=long_steps)
+    searches = make_searches(
+        ladders, infos, own, seed=seed, families=families, long_steps=long_steps, trees=trees or None
+    )
     if not searches:
         raise InvalidInput(f"stress: nothing to run: {', '.join(names)} takes no part in {', '.join(axes or ())}")
     return StressPlan(searches, infos)
 
 
-def chosen_axes(axes: Sequence[str] | None) -> tuple[tuple[Ladder, ...], tuple[str, ...]]:
-    """Ladders and families by name; None: all but pairs. Raises :class:`InvalidInput` for unknown names."""
+def chosen_axes(
+    axes: Sequence[str] | None,
+) -> tuple[tuple[Ladder, ...], tuple[TreeLadder, ...], tuple[str, ...]]:
+    """Ladders, those of open mechanisms (none: all, if their family is there) and families by name.
+
+    None: all but pairs. Raises :class:`InvalidInput` for unknown names.
+    """
     if axes is None:
-        return AXES, tuple(family for family in FAMILIES if family != "pairs")
+        return AXES, (), tuple(family for family in FAMILIES if family != "pairs")
+    trees = [] if {"trees", "all"} & {*axes} else [ladder for name in axes for ladder in find_ladders(name)]
     families = [name for name in FAMILIES if name in axes]
     ladders: list[Ladder] = []
     for name in axes:
@@ -178,11 +188,24 @@ def chosen_axes(axes: Sequence[str] | None) -> tuple[tuple[Ladder, ...], tuple[s
         elif name == "all":
             ladders += [*AXES, *pairs()]
             families += FAMILIES
+        elif find_ladders(name):
+            families.append("trees")
         elif name not in FAMILIES:
-            found = find_axes((name,))
-            ladders += found
+            ladders += _of_documents(name)
             families += ["pairs" if " x " in name else "accelerations"]
-    return tuple(dict.fromkeys(ladders)), tuple(dict.fromkeys(families))
+    climbed = {ladder.name: ladder for ladder in trees}
+    return tuple(dict.fromkeys(ladders)), tuple(climbed.values()), tuple(dict.fromkeys(families))
+
+
+def _of_documents(name: str) -> tuple[Ladder, ...]:
+    """The ladders of the documents' mechanisms with this name; where none has it, the nearest of all is told."""
+    known = [*(axis.name for axis in TREE_AXES), *tree_ladders(), *(axis.name for axis in AXES)]
+    try:
+        return find_axes((name,))
+    except InvalidInput:
+        if " x " not in name and (hint := nearest(name, known)):
+            raise InvalidInput(f"axis: none is called {name!r}{hint}") from None
+        raise
 
 
 def make_header(plan: StressPlan, seed: int) -> Header:

@@ -14,6 +14,21 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+SQUARED = (
+    1e-100,
+    1e100,
+)  # components in between have squares, and products of these with others, in the range of doubles
+
+
+def doubles(instance: object, *fields: str) -> None:
+    """Turn numbers and arrays of less precision in these fields of a frozen dataclass into doubles, which hold them
+    exactly: an engine's adapter would compute with them in single precision otherwise."""
+    for name in fields:
+        value = getattr(instance, name)
+        if isinstance(value, np.ndarray | np.generic) and value.dtype.kind in "iuf" and value.dtype.itemsize <= 8:
+            double = float(value) if value.ndim == 0 else np.asarray(value, dtype=np.float64)
+            object.__setattr__(instance, name, double)
+
 
 @dataclass(frozen=True)
 class Pose:
@@ -47,6 +62,9 @@ class Inertial:
     centre: Array
     tensor: Array
 
+    def __post_init__(self) -> None:
+        doubles(self, "mass", "centre", "tensor")
+
     @property
     def weightless(self) -> bool:
         """Whether there is neither mass nor inertia."""
@@ -75,9 +93,30 @@ class Inertial:
 ZERO_INERTIAL = Inertial(0.0, np.zeros(3), np.zeros((3, 3)))
 
 
+def sized(q: Array) -> Array:
+    """Quaternions (..., 4) or axes (..., 3) that can be squared: those whose squares leave the range of doubles are
+    divided by their largest component, all others are as they were."""
+    largest = np.abs(q).max(axis=-1, keepdims=True, initial=0.0)
+    odd = ((largest < SQUARED[0]) | (largest > SQUARED[1])) & (largest > 0)
+    return q / np.where(odd, largest, 1.0) if odd.any() else q
+
+
+def unit(q: Array) -> Array:
+    """Quaternions (..., 4) or axes (..., 3), of any length but zero, with length one."""
+    with np.errstate(over="ignore"):
+        length = np.linalg.norm(q, axis=-1, keepdims=True)
+    if not ((length > SQUARED[0]) & (length < SQUARED[1])).all():
+        q = sized(q)
+        length = np.linalg.norm(q, axis=-1, keepdims=True)
+    return np.asarray(q / length)
+
+
 def from_quaternion(q: Any) -> Array:
     """The rotation matrix (3, 3) of a quaternion (w, x, y, z) of any length but zero."""
-    w, x, y, z = np.asarray(q, dtype=np.float64) / math.hypot(*q)
+    q = np.asarray(q, dtype=np.float64)
+    if not SQUARED[0] < math.hypot(*q) < SQUARED[1]:
+        q = sized(q)
+    w, x, y, z = q / math.hypot(*q)
     return np.array(
         [
             [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
@@ -107,7 +146,8 @@ def to_quaternion(rotation: Array) -> Array:
 
 def from_axis_angle(axis: Any, angle: float) -> Array:
     """The rotation matrix by ``angle`` [rad] about ``axis`` (3,), of any length but zero (Rodrigues' formula)."""
-    x, y, z = np.asarray(axis, dtype=np.float64) / math.hypot(*axis)
+    axis = sized(np.asarray(axis, dtype=np.float64))
+    x, y, z = axis / math.hypot(*axis)
     c, s = math.cos(angle), math.sin(angle)
     d = 1 - c
     return np.array(

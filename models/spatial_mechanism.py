@@ -6,7 +6,7 @@ Everything that moves in furiko is one of these: a robot read from a file, a car
 [m]; a ball a quaternion (w, x, y, z), and as rates the angular velocity in the moved body's axes [rad/s]; a free joint
 its body's place (3) [m] and quaternion (4) in the world, and as rates the velocity of that place in world axes [m/s],
 then the angular velocity in the body's axes [rad/s]. Quaternions of any length but zero stand for the rotation of
-their direction.
+their direction. Numbers of less precision than doubles (float32) are taken as the doubles that they are.
 
 **Kinematics.** A body's frame is at ``position``, turned by ``quaternion``, in its parent's frame; then its joints move
 it, in their order, each in the frame that the joints before it have moved: a slide by ``(q − ref)·axis``, a hinge by
@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import InvalidInput
-from .spatial import ZERO_INERTIAL, Inertial, Pose, from_quaternion
+from .spatial import ZERO_INERTIAL, Inertial, Pose, doubles, from_quaternion, unit
 
 Array = NDArray[np.float64]
 
@@ -61,6 +61,9 @@ class Joint:
     limits: tuple[float, float] | None = None
     where: str = ""
 
+    def __post_init__(self) -> None:
+        doubles(self, "axis", "anchor", "ref", "armature", "damping", "friction", "stiffness", "springref")
+
     @property
     def coordinates(self) -> int:
         """How many numbers its position has."""
@@ -90,6 +93,9 @@ class RigidBody:
     inertial: Inertial = ZERO_INERTIAL
     where: str = ""
     meshes: float = 0.0
+
+    def __post_init__(self) -> None:
+        doubles(self, "position", "quaternion", "meshes")
 
     @property
     def pose(self) -> Pose:
@@ -129,6 +135,7 @@ class SpatialMechanism:
     gravity: Array
 
     def __post_init__(self) -> None:
+        doubles(self, "gravity")
         names: set[str] = set()
         for index, body in enumerate(self.bodies):
             if not WORLD <= body.parent < index:
@@ -180,7 +187,7 @@ class SpatialMechanism:
         for placed in self.joints:
             body, joint = self.bodies[placed.body], placed.joint
             if joint.kind == "free":
-                q += [*body.position, *(body.quaternion / np.linalg.norm(body.quaternion))]
+                q += [*body.position, *unit(body.quaternion)]
             elif joint.kind == "ball":
                 q += [1.0, 0.0, 0.0, 0.0]
             else:

@@ -6,6 +6,8 @@ relative to the largest acceleration of a state for accelerations. None: not mea
 
 from __future__ import annotations
 
+from typing import Literal
+
 import msgspec
 
 from .findings import Difference
@@ -148,11 +150,37 @@ class NotAdvised(msgspec.Struct, frozen=True, kw_only=True):
     reason: str
 
 
+class TrustLimit(msgspec.Struct, frozen=True, kw_only=True):
+    """How far one mechanism can be taken along one axis until an engine's accelerations are not to be trusted."""
+
+    axis: str
+    says: str
+    closed: bool  # nothing is left to be asked between the two values
+    holds_at: str | None = msgspec.field(name="holds at")  # the last value with its unit; None: not even the first
+    fails_at: str | None = msgspec.field(name="fails at")  # the first that fails; None: none that was tried
+    rung: int | None  # of that, from 0, the mechanism as it is
+    failure: str | None
+    reason: str
+
+
+class Trust(msgspec.Struct, frozen=True, kw_only=True):
+    """Whether an engine's accelerations of one open mechanism are to be trusted, measured against proven ones."""
+
+    engine: str
+    verdict: Literal["right", "loses digits", "open", "wrong", "failed", "refused"]
+    reason: str
+    digits: float | None  # correct decimal digits of a typical state
+    error: float | None  # relative to the largest acceleration
+    error_over_bound: float | None = msgspec.field(name="error over bound")  # above 1 no rounding explains it
+    limits: list[TrustLimit]
+
+
 class Advice(msgspec.Struct, frozen=True, kw_only=True):
     """Which engine, integrator and step to use for one scene; ``furiko advise --json`` prints it.
 
     Every error is measured in this scene, over ``duration`` [s], against a motion whose own estimated error is
-    ``truth``. ``advised``: engines first, the fastest first; furiko itself last.
+    ``truth``. ``advised``: engines first, the fastest first; furiko itself last. An open mechanism without a motion has
+    the trust alone.
     """
 
     furiko: str
@@ -169,3 +197,4 @@ class Advice(msgspec.Struct, frozen=True, kw_only=True):
     advised: list[Advised]
     not_advised: list[NotAdvised]
     left_out: list[str]  # engines without a method, and why
+    trust: list[Trust] = []  # of open mechanisms: whether engines' accelerations are right, and how far they stay so

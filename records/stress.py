@@ -24,6 +24,8 @@ class CurvePoint(msgspec.Struct, frozen=True, kw_only=True):
     condition: float | None  # of the mass matrix, in the coordinates of the engine
     error_over_condition: float | None = msgspec.field(name="error over ε·cond")
     failure: str | None
+    # Of open mechanisms: the residual of the worst state over what rounding may do to it; above 1 none explains it
+    error_over_bound: float | None = msgspec.field(name="error over bound", default=None)
 
 
 class AxisFrontier(msgspec.Struct, frozen=True, kw_only=True):
@@ -43,6 +45,7 @@ class AxisFrontier(msgspec.Struct, frozen=True, kw_only=True):
     failure: str | None
     reason: str
     curve: list[CurvePoint]
+    mechanism: str | None = None  # the open mechanism that the axis is on; None: the documents'
 
 
 class KernelCase(msgspec.Struct, frozen=True, kw_only=True):

@@ -10,6 +10,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from ..models.spatial import unit
 from ..models.spatial_mechanism import WORLD, Array, Joint, SpatialMechanism
 from .kernels.trees.springs import stretches
 
@@ -128,7 +129,7 @@ def carried(mechanism: SpatialMechanism) -> list[bool]:
 
 def rotations(q: Array) -> Array:
     """The rotation matrices (B, 3, 3) of quaternions (B, 4) (w, x, y, z) of any length but zero."""
-    w, x, y, z = (q / np.linalg.norm(q, axis=-1, keepdims=True)).T
+    w, x, y, z = unit(q).T
     rows = [
         [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
         [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
@@ -161,7 +162,7 @@ class _State:
             self.axis = np.concatenate([world, np.swapaxes(self.rotation, -1, -2)], axis=1)
             self.pivot = np.repeat(self.position[:, None], 6, axis=1)
             return
-        axis = joint.axis / np.linalg.norm(joint.axis) if joint.kind != "ball" else joint.axis
+        axis = unit(joint.axis) if joint.kind != "ball" else joint.axis
         if joint.kind == "slide":
             self.axis = (self.rotation @ axis)[:, None]
             self.position = self.position + (q - joint.ref) * self.axis[:, 0]

@@ -3,6 +3,8 @@
 Name one on a command line as ``fake_tree_engines:Class``.
 """
 
+import time
+
 import numpy as np
 
 from furiko.engines import EngineInfo, Integrator, TreeInfo
@@ -324,6 +326,35 @@ class BadShape(Right):
 
     def accelerations(self, q, v):
         return np.zeros((len(q), self.mechanism.nv + 1))
+
+
+class Raises(Right):
+    """Fails where it is asked."""
+
+    info = about("Raises")
+
+    def accelerations(self, q, v):
+        raise ArithmeticError("not today")
+
+
+class Slow(Right):
+    """Right, half a second later."""
+
+    info = about("Slow")
+
+    def accelerations(self, q, v):
+        time.sleep(0.5)
+        return super().accelerations(q, v)
+
+
+class FailsWhenFast(Right):
+    """A part in 1e9 off where anything moves faster than a thousand metres or radians a second."""
+
+    info = about("FailsWhenFast")
+
+    def accelerations(self, q, v):
+        quick = np.abs(v).max(axis=-1, keepdims=True) > 1000
+        return super().accelerations(q, v) * np.where(quick, 1 + 1e-9, 1.0)
 
 
 class NotANumber(Right):

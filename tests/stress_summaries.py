@@ -12,7 +12,7 @@ HEADER = Header(
 
 POINT = {
     "at": "1e+04 m", "worst error": 1e-3, "digits": 15.5, "one ulp does": 1e-16, "condition": 10.0,
-    "error over ε·cond": 0.25, "failure": None,
+    "error over ε·cond": 0.25, "failure": None, "error over bound": None,
 }  # fmt: skip
 
 
@@ -20,7 +20,7 @@ def frontier(**changes):
     return {
         "axis": "long-rods", "says": "longer & longer", "engine": "mujoco", "pair": False, "closed": True,
         "status": "fails", "holds": 7, "fails": 8, "holds at": "3160 m", "fails at": "1e+04 m", "top": 12,
-        "failure": "half its digits lost", "reason": "a <b>bold</b> reason",
+        "failure": "half its digits lost", "reason": "a <b>bold</b> reason", "mechanism": None,
         "curve": [{"value": 1.0, "error": 1e-15, **POINT}, {"value": 1e4, "error": 1e-7, **POINT}],
     } | changes  # fmt: skip
 

@@ -26,6 +26,16 @@ from .facts import TreeFacts
 Array = NDArray[np.float64]
 
 
+def magnitudes_in(info: EngineInfo, mechanism: SpatialMechanism, q: Array, v: Array) -> Magnitudes:
+    """Of the terms of a mechanism, as an engine computes them, in one state, q (nq,) and v (nv,).
+
+    Of what is not known of the engine the way with the most rounding counts.
+    """
+    world = info.moments in ("tree", "unknown") or info.placed in ("world", "unknown")
+    together = info.algorithm == "unknown" or (info.tree is not None and info.tree.together)
+    return Magnitudes(mechanism, q, v, world=world, together=together)
+
+
 @dataclass(frozen=True)
 class TreeCell:
     """``states`` are those in which quantities are compared; ``facts`` the truth in them.
@@ -55,8 +65,7 @@ class TreeCell:
 
     def magnitudes_of(self, mechanism: SpatialMechanism, q: Array, v: Array) -> Magnitudes:
         """Those of any mechanism in this engine, in one state, q (nq,) and v (nv,)."""
-        world = self.info.moments in ("tree", "unknown") or self.info.placed in ("world", "unknown")
-        return Magnitudes(mechanism, q, v, world=world)
+        return magnitudes_in(self.info, mechanism, q, v)
 
     @cached_property
     def roundings(self) -> Array:

@@ -33,7 +33,8 @@ from ..motions.invariance import ENERGY, LARGEST_N, NAME, RUNS, SHORT, STEPS, WA
 from ..motions.momenta import Momentum, Number, momenta
 from .cell import TreeCell
 from .energy import energy_unit
-from .symmetries import NO_STATE, inverse, mass_matrix, regular
+from .symmetries import inverse, mass_matrix, regular
+from .verdict import NO_STATE
 
 Array = NDArray[np.float64]
 End = tuple[Array, Array]  # q (nq,) and v (nv,)

@@ -27,6 +27,7 @@ from .. import sharp
 from ..cell import quotient, worst
 from .cell import TreeCell
 from .sharp import of_accelerations
+from .verdict import NO_STATE
 
 Array = NDArray[np.float64]
 
@@ -35,7 +36,6 @@ NAME = "symmetry"
 STATES = 3  # random ones; every symmetry is asked for in each
 TWO_PI_ERROR = 2.45e-16  # 2π lies within it of its double
 SURE = 1 / 4  # beyond it rounding times the condition number of M leaves no digit of accelerations that is sure
-NO_STATE = "in every state rounding leaves no digit of an acceleration sure: M is too near to a singular one"
 BOTH = np.sqrt(2.0)  # the spread of the difference of two answers, in that of one
 
 

@@ -18,6 +18,8 @@ from .sharp import Usual, line
 
 Array = NDArray[np.float64]
 
+NO_STATE = "in every state rounding leaves no digit of an acceleration sure: M is too near to a singular one"
+
 
 def judged(
     cell: TreeCell,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from ...models import InvalidInput
@@ -19,7 +19,11 @@ from .result import Diagnosis, Written
 
 # What an engine does with the file, by its status there.
 READS = {"differs": "reads otherwise", "refused": "refuses", "failed": "fails with"}
-WRITERS = {".xml": spatial_mjcf, ".mjcf": spatial_mjcf, ".urdf": spatial_urdf}
+WRITERS: dict[str, Callable[[SpatialMechanism], str]] = {
+    ".xml": spatial_mjcf,
+    ".mjcf": spatial_mjcf,
+    ".urdf": spatial_urdf,
+}
 
 
 def write_fixed(model: ModelFile, out: Path) -> list[str]:

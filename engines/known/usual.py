@@ -113,6 +113,7 @@ ENGINES: dict[str, EngineInfo] = {
                     "several joints": "of several joints on one link its reader makes a JointModelComposite, whose "
                     "derivatives are not those of its own accelerations"
                 },
+                together=True,
                 **_OF_TREES,
             ),
             **_PINOCCHIO,

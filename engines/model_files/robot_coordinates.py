@@ -25,7 +25,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ...models.spatial import IDENTITY, Pose, from_quaternion, to_quaternion
+from ...models.spatial import IDENTITY, Pose, from_quaternion, sized, to_quaternion, unit
 from ...models.spatial_mechanism import SpatialMechanism
 from ..protocol import Array
 
@@ -129,11 +129,11 @@ class RobotCoordinates:
         elif block.way == "free-in-body":
             turned = block.placement.rotation.T
             into[at : at + 3] = turned @ (own[:3] - block.placement.translation)
-            into[at + 3 : at + 7] = _last(_times(_conjugate(block.placement.rotation), own[3:]))
+            into[at + 3 : at + 7] = _last(_times(_conjugate(block.placement.rotation), sized(own[3:])))
         elif block.way == "roll-pitch-yaw":
             into[at : at + 3] = roll_pitch_yaw(from_quaternion(own))
         elif block.way == "free-in-world":
-            into[at : at + 4], into[at + 4 : at + 7] = own[3:] / np.linalg.norm(own[3:]), own[:3]
+            into[at : at + 4], into[at + 4 : at + 7] = unit(own[3:]), own[:3]
         else:
             x, y, angle = (float(q[self._placed[index].at_q]) for index in block.joints)
             if block.way == "plane":
@@ -169,13 +169,13 @@ class RobotCoordinates:
 def _unit(own: Array, kind: str) -> Array:
     """A joint's coordinates with its quaternion of length one."""
     if kind in {"ball", "free"}:
-        return np.concatenate([own[:-4], own[-4:] / np.linalg.norm(own[-4:])])
+        return np.concatenate([own[:-4], unit(own[-4:])])
     return own
 
 
 def _last(quaternion: Array) -> Array:
     """Of length one, as x, y, z, w."""
-    return np.roll(quaternion / np.linalg.norm(quaternion), -1)
+    return np.roll(unit(quaternion), -1)
 
 
 def _conjugate(rotation: Array) -> Array:

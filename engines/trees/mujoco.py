@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from ...models.spatial import unit
 from ...models.spatial_mechanism import WORLD, Joint, RigidBody, SpatialMechanism
 from ...models.writers.mjcf import LEAST_INERTIA
 from ..model_files.robot_coordinates import Block, RobotCoordinates
@@ -74,8 +75,7 @@ class MujocoTree:
         positions = np.empty_like(q)
         positions[:, self._columns_q] = q
         for start in self._quaternions:
-            own = positions[:, start : start + 4]
-            own /= np.linalg.norm(own, axis=-1, keepdims=True)
+            positions[:, start : start + 4] = unit(positions[:, start : start + 4])
         return positions
 
     def ours(self, answers: Array) -> Array:
@@ -137,7 +137,7 @@ class MujocoTree:
         return self._data.qpos[self._columns_q], self._data.qvel[self._columns_v]
 
     def _set(self, q: Array, v: Array) -> None:
-        self._data.qpos[self._columns_q], self._data.qvel[self._columns_v] = q, v
+        self._data.qpos[:], self._data.qvel[self._columns_v] = self.positions(q[None])[0], v
 
 
 def _columns(starts: Array, sizes: list[int]) -> Any:

@@ -24,7 +24,7 @@ from typing import Any
 
 import numpy as np
 
-from ...models.spatial import IDENTITY, Pose
+from ...models.spatial import IDENTITY, Pose, unit
 from ...models.spatial_mechanism import WORLD, Joint, SpatialMechanism
 from ...models.writers.explicit import unique_names
 from ...models.writers.spatial_mjcf import spatial_mjcf
@@ -183,7 +183,8 @@ class PinocchioMjcfTree(PinocchioAbaTree):
     def _built(self, mechanism: SpatialMechanism) -> tuple[Any, RobotCoordinates, Links]:
         with TemporaryDirectory() as folder:
             path = Path(folder) / "mechanism.xml"
-            path.write_text(spatial_mjcf(mechanism), encoding="utf-8")
+            # Pinocchio takes moments of zero, and raises those below a boundinertia.
+            path.write_text(spatial_mjcf(mechanism, raised=False), encoding="utf-8")
             robot = PinocchioRobot(path, "mjcf")
         model, coordinates = robot.bound_to(mechanism)
         model.gravity.linear = mechanism.gravity  # its reader does not read it
@@ -244,7 +245,7 @@ def _joint(joint: Joint) -> Any:
         return pinocchio.JointModelFreeFlyer()
     if joint.kind == "ball":
         return pinocchio.JointModelSpherical()
-    axis = joint.axis / np.linalg.norm(joint.axis)
+    axis = unit(joint.axis)
     for k, letter in enumerate("XYZ"):
         if axis[k] == 1:
             return getattr(pinocchio, f"JointModel{'R' if joint.kind == 'hinge' else 'P'}{letter}")()

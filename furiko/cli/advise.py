@@ -34,6 +34,10 @@ def advise(
 
     Each integrator runs in the scene itself, its step halved until the error asked for is kept. The fastest comes
     first. The exit status is 3 where no engine's integrator keeps it.
+
+    Of an open mechanism it says besides whether each engine's accelerations are right, against proven ones, and how far
+    the mechanism is from where they are not: heavier, longer, faster, farther away, nearer to a singular pose. Without
+    a state and a duration that is all; the exit status is 3 where no engine's are right.
     """
     from ..advise import advise as run
 
@@ -45,4 +49,6 @@ def advise(
         from ..reports.terminal.advice import print_advice
 
         print_advice(found)
+    if found.trust and not found.duration:
+        return AGREES if any(each.verdict == "right" for each in found.trust) else INCOMPLETE
     return AGREES if any(each.engine != "furiko" for each in found.advised) else INCOMPLETE

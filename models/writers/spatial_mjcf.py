@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from ..errors import InvalidInput
-from ..spatial import Inertial, Pose, from_axis_angle, to_quaternion
+from ..spatial import Inertial, Pose, from_axis_angle, to_quaternion, unit
 from ..spatial_mechanism import WORLD, Joint, RigidBody, SpatialMechanism
 from .explicit import placed_inertials, positive, row, unique_names
 from .mjcf import DEEPEST, LEAST_INERTIA
@@ -17,8 +17,10 @@ SUPPORT = "furiko_support"
 UNTURNED = np.array([1.0, 0.0, 0.0, 0.0])
 
 
-def spatial_mjcf(mechanism: SpatialMechanism, model: str = "mechanism") -> str:
+def spatial_mjcf(mechanism: SpatialMechanism, model: str = "mechanism", *, raised: bool = True) -> str:
     """The mechanism as an MJCF document whose model is called ``model``.
+
+    ``raised``: whether moments of zero are raised to the least that MuJoCo takes (``boundinertia``).
 
     Radians, no default classes, an explicit inertial for every body that has one, a name for everything, no geoms, so
     that nothing touches. Bodies without joints and with a pose are put in one without a pose where Pinocchio would drop
@@ -34,7 +36,7 @@ def spatial_mjcf(mechanism: SpatialMechanism, model: str = "mechanism") -> str:
     compiler = ElementTree.SubElement(root, "compiler", angle="radian", balanceinertia="false", autolimits="false")
     ElementTree.SubElement(root, "option", gravity=row(mechanism.gravity))
     inertials = placed_inertials(mechanism)
-    if any(i.mass > 0 and not positive(i) for i in inertials):
+    if raised and any(i.mass > 0 and not positive(i) for i in inertials):
         compiler.set("boundinertia", repr(LEAST_INERTIA))  # MuJoCo refuses a point mass
     world = ElementTree.SubElement(root, "worldbody")
     names = unique_names(mechanism.bodies, "world", SUPPORT, besides=_names_besides)
@@ -142,7 +144,7 @@ def _without_first_ref(body: RigidBody) -> RigidBody:
     if len(body.joints) < 2 or not body.joints[0].ref:
         return body
     first = body.joints[0]
-    axis = first.axis / np.linalg.norm(first.axis)
+    axis = unit(first.axis)
     if first.kind == "slide":
         back = Pose(np.eye(3), -first.ref * axis)
     else:
@@ -161,7 +163,7 @@ def _body(parent: ElementTree.Element, body: RigidBody, name: str, inertial: Ine
     body = _without_first_ref(body)
     pose = {"pos": row(body.position)}
     if not _unturned(body):
-        pose["quat"] = row(body.quaternion / np.linalg.norm(body.quaternion))
+        pose["quat"] = row(unit(body.quaternion))
     if len(body.joints) > 1:
         parent = ElementTree.SubElement(parent, "body", {"name": _frame(name), **pose})
         pose = {"pos": "0 0 0"}

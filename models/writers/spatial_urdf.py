@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InvalidInput
-from ..spatial import IDENTITY, Inertial, Pose, components, from_axis_angle
+from ..spatial import IDENTITY, Inertial, Pose, components, from_axis_angle, unit
 from ..spatial_mechanism import WORLD, Joint, RigidBody, SpatialMechanism
 from .explicit import placed_inertials, positive, row, unique_names
 from .urdf import NO_LIMIT
@@ -62,7 +62,7 @@ def _frame(body: RigidBody) -> Pose:
         return IDENTITY
     first = body.joints[0]
     if len(body.joints) > 1:
-        axes = np.stack([joint.axis / np.linalg.norm(joint.axis) for joint in body.joints], axis=1)
+        axes = np.stack([unit(joint.axis) for joint in body.joints], axis=1)
         kinds = [(joint.name[-3:], joint.kind) for joint in body.joints]
         prefixes = {joint.name[:-3] for joint in body.joints}
         if kinds != list(PLANAR) or len(prefixes) > 1 or np.abs(axes.T @ axes - np.eye(3)).max() > ORTHOGONAL:
@@ -81,7 +81,7 @@ def _at_zero(body: RigidBody) -> Pose:
         return IDENTITY
     joint = body.joints[0]
     if joint.kind == "slide":
-        return Pose(np.eye(3), -joint.ref * joint.axis / np.linalg.norm(joint.axis))
+        return Pose(np.eye(3), -joint.ref * unit(joint.axis))
     turn = from_axis_angle(joint.axis, -joint.ref)
     return Pose(turn, joint.anchor - turn @ joint.anchor)
 

@@ -39,9 +39,11 @@ def write_pages(folder: Path, summary: StressSummary, header: Header) -> tuple[P
 
 def stress_page(summary: StressSummary, header: Header) -> str:
     """The whole page as text."""
-    single = [f for f in summary.frontiers if not f.pair]
+    single = [f for f in summary.frontiers if not f.pair and f.mechanism is None]
+    trees = [f for f in summary.frontiers if f.mechanism is not None]
     pairs = [f for f in summary.frontiers if f.pair]
-    engines = list(dict.fromkeys(f.engine for f in summary.frontiers))
+    engines = list(dict.fromkeys(f.engine for f in summary.frontiers if f.mechanism is None))
+    of_trees = list(dict.fromkeys(f.engine for f in trees))
     return render_with_plots(
         "stress.html.j2",
         ("style.css", "stress.css"),
@@ -50,6 +52,8 @@ def stress_page(summary: StressSummary, header: Header) -> str:
         engines=engines,
         half=HALF_THE_DIGITS,
         rows=_by_axis(single, engines),
+        trees=_by_axis(trees, of_trees),
+        tree_engines=of_trees,
         pairs=[f for f in pairs if f.status == "fails"],
         pairs_asked=len(pairs),
         pairs_closed=sum(f.closed for f in pairs),

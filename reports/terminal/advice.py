@@ -5,15 +5,20 @@ from __future__ import annotations
 import sys
 from typing import TextIO
 
-from ...records.bench import Advice, Advised
-from ..words import duration, figure, link_words
+from ...records.bench import Advice, Advised, TrustLimit
+from ..words import count, duration, figure, link_words
 from .console import PlainConsole
 
 
 def print_advice(found: Advice, file: TextIO | None = None) -> None:
     """Print what to use first, then every method, and those that do not reach the error."""
     console = PlainConsole(file or sys.stdout, None)
-    motion = f"{found.scene} ({link_words(found.system, found.n)}) over {found.duration:g} s"
+    if found.trust:
+        _print_trust(console, found)
+    if found.trust and not found.duration:
+        return
+    mechanism = f"{count(found.n, 'degree')} of freedom" if found.trust else link_words(found.system, found.n)
+    motion = f"{found.scene} ({mechanism}) over {found.duration:g} s"
     best = next((each for each in found.advised if each.engine != "furiko"), None)
     if best is None:
         console.line(f"No engine's integrator keeps an error of {found.asked:g} in {motion}.", "bold")
@@ -42,11 +47,58 @@ def print_advice(found: Advice, file: TextIO | None = None) -> None:
     for left_out in found.left_out:
         console.line(f"left out: {left_out}", "dim")
     console.line()
+    numbers = "coordinates and rates" if found.trust else "θ [rad] and ω [rad/s]"
     console.line(
-        "Errors: the largest of θ [rad] and ω [rad/s] at half, three quarters and all of the time, measured against a "
-        f"motion that is known to {found.truth:.0e}.",
+        f"Errors: the largest of {numbers} at half, three quarters and all of the time, measured against a motion that "
+        f"is known to {found.truth:.0e}.",
         "dim",
     )
+
+
+def _print_trust(console: PlainConsole, found: Advice) -> None:
+    """Whether engines' accelerations are right in the scene, and along each axis how far they stay so."""
+    console.line(
+        f"Accelerations of {found.scene} ({count(found.n, 'degree')} of freedom), against proven ones:", "bold"
+    )
+    console.line()
+    console.table(
+        ("engine", "accelerations", "correct digits", "error, of its bound", "why"),
+        [
+            (
+                each.engine,
+                each.verdict,
+                figure(each.digits),
+                "" if each.error_over_bound is None else f"{each.error_over_bound:.1g}",
+                each.reason,
+            )
+            for each in found.trust
+        ],
+    )
+    taken = [each for each in found.trust if each.limits]
+    axes = {limit.axis: limit.says for each in taken for limit in each.limits}
+    limits = {(each.engine, limit.axis): limit for each in taken for limit in each.limits}
+    if axes:
+        console.line()
+        console.table(
+            ("not to be trusted from", "", *(each.engine for each in taken)),
+            [(axis, says, *(_limit(limits.get((each.engine, axis))) for each in taken)) for axis, says in axes.items()],
+        )
+    unanswered = sum(not limit.closed for each in taken for limit in each.limits)
+    if unanswered:
+        console.line(f"{count(unanswered, 'question')} open: a larger --budget answers them", "bold")
+    if not found.duration:
+        for left_out in found.left_out:
+            console.line(f"left out: {left_out}", "dim")
+    console.line()
+
+
+def _limit(limit: TrustLimit | None) -> str:
+    """The first value that fails, and how unless it is digits that are lost."""
+    if limit is None or not limit.closed:
+        return "open" if limit is None or limit.fails_at is None else f"open, fails at {limit.fails_at}"
+    if limit.fails_at is None:
+        return f"right to {limit.holds_at}"
+    return limit.fails_at if limit.failure == "half its digits lost" else f"{limit.fails_at}: {limit.failure}"
 
 
 def _setting(each: Advised) -> str:

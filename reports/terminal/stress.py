@@ -35,7 +35,8 @@ def print_stress(found: StressSummary, page: Path | None) -> None:
 def _tables(found: StressSummary) -> list[tuple[tuple[str, ...], Rows]]:
     """Each table: its heading and its rows."""
     return [
-        _frontiers([f for f in found.frontiers if not f.pair]),
+        _frontiers([f for f in found.frontiers if not f.pair and f.mechanism is None]),
+        _tree_frontiers([f for f in found.frontiers if f.mechanism is not None]),
         _pairs([f for f in found.frontiers if f.pair and f.status == "fails"]),
         _conditions(found),
         *(_steps(stress, found.steps) for stress in dict.fromkeys(s.stress for s in found.steps)),
@@ -49,6 +50,34 @@ def _frontiers(frontiers: Sequence[AxisFrontier]) -> tuple[tuple[str, ...], Rows
     axes = dict.fromkeys(f.axis for f in frontiers)
     rows = [(axis, *(_frontier(at.get((axis, engine))) for engine in engines)) for axis in axes]
     return ("half the digits are lost from", *engines), rows
+
+
+def _tree_frontiers(frontiers: Sequence[AxisFrontier]) -> tuple[tuple[str, ...], Rows]:
+    """A row for each axis: on which of the mechanisms an engine fails first, or how far it holds on all of them."""
+    engines = list(dict.fromkeys(f.engine for f in frontiers))
+    rows = []
+    for axis in dict.fromkeys(axis_of(f) for f in frontiers):
+        of_axis = [f for f in frontiers if axis_of(f) == axis]
+        rows.append((axis, *(_on_all([f for f in of_axis if f.engine == engine]) for engine in engines)))
+    return ("open mechanisms fail from", *engines), rows
+
+
+def axis_of(frontier: AxisFrontier) -> str:
+    """The axis without its mechanism."""
+    return frontier.axis.removeprefix(f"{frontier.mechanism}: ")
+
+
+def _on_all(frontiers: Sequence[AxisFrontier]) -> str:
+    taken = [f for f in frontiers if (f.fails, f.failure) != (0, "refused")]
+    if frontiers and not taken:
+        return "refused"
+    failing = min((f for f in taken if f.fails is not None), key=lambda f: f.fails or 0, default=None)
+    if failing is not None and failing.closed:
+        why = failing.failure if failing.failure != "half its digits lost" else "digits"
+        return one_line(f"{failing.fails_at} ({failing.mechanism}: {why})", 60)
+    if any(f.status == "open" for f in taken):
+        return "open"
+    return _frontier(min(taken, key=lambda f: f.top, default=None))
 
 
 def _frontier(frontier: AxisFrontier | None) -> str:

@@ -15,10 +15,11 @@ from statistics import median
 
 import numpy as np
 
-from ...models import InvalidInput, Scene
+from ...models import InvalidInput, Scene, TreeScene
 from ...records.bench import Advised, NotAdvised
 from ...reference.integration.taylor import simulate
-from .methods import FURIKO, STEP, Method, methods, start
+from .methods import FURIKO, STEP, End, Method, methods, start
+from .tree_methods import TreeReference, tree_methods, tree_reference
 
 LOOKED_AT = (0.5, 0.75, 1.0)  # parts of the motion: at its end alone an error may pass through zero
 FEWEST_STEPS, HALVINGS = 16, 26  # a multiple of four: each part looked at is a whole number of steps
@@ -45,6 +46,14 @@ class Reference:
     omega: np.ndarray
     error: float
 
+    def off(self, number: int, end: End) -> float:
+        """The largest error of an end at one of the times looked at."""
+        return float(np.abs(np.array(end) - (self.theta[number], self.omega[number])).max())
+
+
+AnyScene = Scene | TreeScene
+AnyReference = Reference | TreeReference
+
 
 def reference(scene: Scene, asked: float) -> Reference:
     """The scene's motion by furiko's own Taylor series.
@@ -67,14 +76,19 @@ def reference(scene: Scene, asked: float) -> Reference:
 
 
 def advise(
-    scene: Scene, engines: Sequence[str], asked: float, budget: float, watch: Callable[[str], None] = lambda _: None
+    scene: AnyScene, engines: Sequence[str], asked: float, budget: float, watch: Callable[[str], None] = lambda _: None
 ) -> tuple[list[Advised], list[NotAdvised], list[str], float]:
     """Methods that keep an error of ``asked`` [rad, rad/s], those that do not, engines left out, the reference's error.
 
     ``budget`` [s]: about how long to try in all. ``watch`` is called with what is tried next.
     """
-    true = reference(scene, asked)
-    chosen, left_out = methods(scene, engines)
+    true: AnyReference
+    if isinstance(scene, TreeScene):
+        true = tree_reference(scene, asked, LOOKED_AT, SURE)
+        chosen, left_out = tree_methods(scene, engines)
+    else:
+        true = reference(scene, asked)
+        chosen, left_out = methods(scene, engines)
     advised: list[Advised] = []
     missed: list[NotAdvised] = []
     left = budget
@@ -97,7 +111,9 @@ def advise(
     return advised, missed, left_out, true.error
 
 
-def coarsest(method: Method, scene: Scene, true: Reference, asked: float, share: float) -> tuple[list[Trial], str]:
+def coarsest(
+    method: Method, scene: AnyScene, true: AnyReference, asked: float, share: float
+) -> tuple[list[Trial], str]:
     """Settings from coarse to fine, to the first two in a row that keep the error asked for; else why there is none."""
     tried: list[Trial] = []
     spent = 0.0
@@ -117,24 +133,24 @@ def coarsest(method: Method, scene: Scene, true: Reference, asked: float, share:
     return tried, "there is no finer setting"
 
 
-def settings(method: Method, scene: Scene) -> Iterator[float]:
+def settings(method: Method, scene: AnyScene) -> Iterator[float]:
     """Steps [s] or tolerances, from coarse to fine."""
     if method.by == STEP:
         return (scene.duration / (FEWEST_STEPS << k) for k in range(HALVINGS))
     return iter(method.settings)
 
 
-def attempt(method: Method, scene: Scene, true: Reference, setting: float) -> Trial:
+def attempt(method: Method, scene: AnyScene, true: AnyReference, setting: float) -> Trial:
     """Run a method to each of the times looked at."""
     worst = seconds = 0.0
-    for part, theta, omega in zip(LOOKED_AT, true.theta, true.omega, strict=True):
+    for number, part in enumerate(LOOKED_AT):
         begun = time.perf_counter()
         try:
-            found = np.array(method.run(setting, part))
+            found = method.run(setting, part)
         except Exception:  # whatever an engine makes of too large a step: no other method's concern
             return Trial(setting, math.inf, time.perf_counter() - begun)
         seconds = time.perf_counter() - begun
-        off = float(np.abs(found - (theta, omega)).max())
+        off = true.off(number, found)
         worst = max(worst, off) if math.isfinite(off) else math.inf
     return Trial(setting, worst, seconds)
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engines import AnyShape, EngineInfo, Integrator, Native, cannot, engine_info, load_engine, why_missing
-from ...models import InvalidInput, Scene
+from ...models import InvalidInput, Scene, TreeScene
 from ...models.errors import library
 from ...reference.proved.kept import proof, sure
 from ...reference.truth.end_points import lookup
@@ -71,7 +71,7 @@ def methods(scene: Scene, engines: Sequence[str]) -> tuple[list[Method], list[st
     return found, left_out
 
 
-def why_not(name: str, scene: Scene) -> str:
+def why_not(name: str, scene: Scene | TreeScene) -> str:
     """The reason why an engine is left out; empty where it is not."""
     return why_missing(name) or cannot(engine_info(name), scene.system) or ""
 

@@ -286,6 +286,6 @@ def find_axes(names: tuple[str, ...] | None) -> tuple[Ladder, ...]:
             found.append(known[name])
         else:
             single = ", ".join(axis.name for axis in AXES)
-            hint = nearest(name, known) or f"; there are {single}, 'A x B' for two of them, pairs, and all"
+            hint = nearest(name, known) or f"; there are {single}, 'A x B' for two of them, pairs, trees, and all"
             raise InvalidInput(f"axis: none is called {name!r}{hint}")
     return tuple(dict.fromkeys(found))

@@ -17,6 +17,7 @@ Array = NDArray[np.float64]
 
 Failure = Literal[
     "half its digits lost",
+    "more than rounding",
     "wrong numbers that look right",
     "NaN",
     "silent reset",
@@ -26,6 +27,7 @@ Failure = Literal[
     "hang",
     "crash",
     "refused",
+    "no truth",
 ]
 
 NO_DIGITS = 0.01  # an error that no one would call rounding: finite, unannounced, and wrong in the second digit

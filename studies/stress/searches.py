@@ -22,6 +22,7 @@ from ...engines import EngineInfo, engine_info
 from ...engines.workers.messages import Failed
 from ...engines.workers.pool import Event, Lost, Pool, Said, Worker
 from ...engines.workers.processes import worker_processes
+from ...models import TreeScene
 from ...records.check import Result
 from .accelerations import DOCUMENT, KERNELS, AccelerationCase
 from .axes import Ladder, Pair
@@ -32,7 +33,8 @@ from .failures import Failure
 from .frontier import Frontier, frontier, next_rung
 from .questions import Questions
 from .stability import CHUNKS, STRESSES, TOP, LongRunCase, StabilityCase, Stress
-from .trees import TREE_LADDERS, TreeCase, TreeLadder
+from .trees.axes import TreeLadder, tree_ladders
+from .trees.case import TreeCase
 
 TIMEOUT = 30.0  # [s] for one case; those that may take longer say so
 GRACE = 5.0  # [s] that cases under way are given when the time is up
@@ -116,22 +118,23 @@ class AccelerationSearch(UpRungs):
 
 @dataclass(frozen=True)
 class TreeSearch(UpRungs):
-    """The same of an open mechanism in space, on one engine."""
+    """The same of an open mechanism in space; ``base``: the user's own scene that the ladder stands on, if any."""
 
     subject: str
     ladder: TreeLadder
     seed: int
+    base: TreeScene | None = None
 
     family = "trees"
 
     @property
     def top(self) -> int:
         """The last rung."""
-        return len(self.ladder.values) - 1
+        return self.ladder.top
 
     def case(self, rung: int) -> TreeCase:
         """The case of a rung."""
-        return TreeCase(self.ladder.name, self.subject, rung, self.seed)
+        return TreeCase(self.ladder.name, self.subject, rung, self.seed, self.base)
 
 
 @dataclass(frozen=True)
@@ -218,11 +221,17 @@ def make_searches(
     seed: int,
     families: Sequence[str] = FAMILIES,
     long_steps: int = LONG_STEPS,
+    trees: Sequence[TreeLadder] | None = None,
 ) -> list[Search]:
-    """Every question of a run about these engines and, of furiko's own, ``document`` and ``kernels``."""
+    """Every question of a run about these engines and, of furiko's own, ``document`` and ``kernels``.
+
+    ``trees``: ladders of open mechanisms, None for all.
+    """
     subjects = [*own, *(info.name for info in engines)]
+    of_trees = [name for name in own if name == KERNELS] + [info.name for info in engines if info.tree]
+    climbed = tuple(tree_ladders().values()) if trees is None else trees
     found: list[Search] = [AccelerationSearch(subject, ladder, seed) for ladder in ladders for subject in subjects]
-    found += [TreeSearch(info.name, ladder, seed) for ladder in TREE_LADDERS.values() for info in engines if info.tree]
+    found += [TreeSearch(subject, ladder, seed) for ladder in climbed for subject in of_trees]
     for info in engines:
         for integrator in info.integrators if "trajectory" not in info.missing else ():
             found += [

@@ -27,10 +27,12 @@ from .condition import condition_cases
 from .frontier import frontier
 from .searches import AccelerationSearch, LongRun, Results, Search, StabilitySearch, TreeSearch, key
 from .stability import STRESSES, TOP, classify, problem, step
+from .trees.axes import TreeLadder
 
 COORDINATES = ("absolute", "relative")
 DRIFT_SAMPLES = 200  # about so many of a long run's energies are kept for its plot
 FEWEST_TO_CLASSIFY = 50  # samples of the energy
+BEYOND = ("NaN", "more than rounding", "wrong numbers that look right")  # of open mechanisms: no rounding explains it
 
 
 def summary(searches: Sequence[Search], results: Results, *, seed: int) -> StressSummary:
@@ -60,6 +62,7 @@ def _frontier(search: AccelerationSearch | TreeSearch, results: Results) -> Axis
         axis=ladder.name,
         says=ladder.says,
         engine=search.subject,
+        mechanism=ladder.base.name if isinstance(ladder, TreeLadder) else None,
         pair=search.family == "pairs",
         closed=found.closed,
         status="open" if not found.closed else "holds" if found.fails is None else "fails",
@@ -85,18 +88,23 @@ def _point(value: float, result: Result) -> CurvePoint:
         one_ulp=details.get("one ulp does"),
         condition=details.get("condition"),
         error_over_condition=details.get("error over ε·cond"),
+        error_over_bound=details.get("error over bound"),
         failure=details.get("failure"),
     )
 
 
 def kernel_errors(results: Results) -> KernelErrors:
     """Errors of furiko's own accelerations: where one is above the promised bound, and why."""
-    own = [result for result in results.values() if result.engine == KERNELS and "rung" in result.details]
+    rungs = [result for result in results.values() if result.engine == KERNELS and "rung" in result.details]
+    own = [result for result in rungs if "one ulp does" in result.details]
+    beyond = [
+        result for result in rungs if result.details["failure"] in BEYOND and "one ulp does" not in result.details
+    ]
     return KernelErrors(
         cases=len(own),
         promised=PROMISED,
         worst=max((r.measured for r in own if r.measured is not None), default=None),
-        broken=[_kernel_case(r) for r in own if r.outcome != "agrees"],
+        broken=[*(_kernel_case(r) for r in own if r.outcome != "agrees"), *map(_kernel_case, beyond)],
         exceptions=[_kernel_case(r) for r in own if r.outcome == "agrees" and r.details.get("exception")],
     )
 

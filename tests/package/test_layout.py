@@ -48,6 +48,8 @@ ROOMS = {
             ("kernels",),
             ("integration",),
             (".",),
+            ("rounding.bounds",),
+            ("rounding.spatial",),
             ("truth", "rounding"),
             ("spatial_spread",),
             ("proved",),
@@ -68,7 +70,12 @@ ROOMS = {
     ),
     "studies": (
         {"models", "records", "reference", "engines", "diagnosis", "checks"},
-        [(".",), ("bench", "maps", "stress", "sweep", "versions")],
+        [
+            (".",),
+            ("stress.axes", "stress.accelerations", "stress.case", "stress.failures"),
+            ("stress.trees",),
+            ("bench", "maps", "stress", "sweep", "versions"),
+        ],
     ),
     "derivations": (
         {"models", "reference"},

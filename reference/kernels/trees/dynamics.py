@@ -30,6 +30,7 @@ STATES_ALIKE = 300  # so many states cost plain numpy twice what one does
 WORTH = 3000  # pieces of plain numpy, some 0.5 s of a processor: what compiling takes
 FREEDOMS_A_THREAD = 8_000  # about 0.25 ms of work
 SIZES = 1e-100, 1e100  # of quaternions: beyond, squares leave the range of doubles
+LEAST_PIVOT = 2.0**-1022  # kg m² or kg: a smaller double is subnormal, and has fewer digits
 
 _COMPILED = f"{__package__}.machine"
 _spent = 0.0
@@ -54,7 +55,8 @@ def tree_accelerations(
 
     The residual that accelerations leave is a few ε of the terms of its equation, summed in magnitude over the bodies.
     Raises :class:`InvalidInput` for shapes that do not fit, numbers that are not finite or too large, a quaternion or
-    axis of length zero, and where a pivot of the mass matrix is not positive: something moves that weighs nothing.
+    axis of length zero, and where a pivot of the mass matrix is not positive: something moves that weighs nothing, or
+    so little that its number is subnormal.
     """
     known = kept_table(mechanism)
     q, v, torque, out = _shaped(known, q, v, torque, out)
@@ -144,7 +146,7 @@ def _judge(
 ) -> None:
     """Raise InvalidInput where the run noticed that its numbers mean nothing."""
     finite, largest, pivot = signs
-    if finite == 0 and largest <= LARGEST_ANGLE and pivot < 0:
+    if finite == 0 and largest <= LARGEST_ANGLE and pivot <= -LEAST_PIVOT:
         return
     for name, values in (("q", q), ("v", v), ("torque", torque)):
         if values is not None:
@@ -155,6 +157,11 @@ def _judge(
     _refuse("q", q, fits, f"an angle must be at most {LARGEST_ANGLE:g} rad")
     if not pivot < 0:
         raise InvalidInput("the mass matrix is singular in a state: a joint moves nothing that has mass, or armature")
+    if pivot > -LEAST_PIVOT:
+        raise InvalidInput(
+            f"a joint moves {-pivot:.2g} kg m² (or kg) in a state, which doubles hold to a few digits only: give "
+            "masses or lengths in a smaller unit, so that their numbers are larger"
+        )
     raise InvalidInput("the accelerations of a state are beyond the range of doubles")
 
 

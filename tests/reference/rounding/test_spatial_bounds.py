@@ -184,3 +184,99 @@ def test_a_ball_whose_block_is_inverted_loses_digits(monkeypatch):
     assert shares(truth, found)["accelerations"] < 1
     monkeypatch.setattr(rounding.Magnitudes, "_inverted", lambda *arguments: 0.0)
     assert shares(truth, found)["accelerations"] > 1
+
+
+def several_hinges(angle, light=1.0):
+    """A link on three hinges at right angles, and its state; the middle one is so far from a right angle."""
+    joints = tuple(Joint(name, axis=axis) for name, axis in zip("xyz", np.eye(3)[::-1], strict=True))
+    inertial = Inertial(2.0 * light, np.array([0.02, 0.01, -0.15]), np.diag([0.02, 0.018, 0.004]) * light)
+    mechanism = SpatialMechanism((RigidBody("arm", -1, joints=joints, inertial=inertial),), np.array([0, 0, -9.81]))
+    return mechanism, np.array([0.3, np.pi / 2 - angle, -0.8]), np.array([1.0, -2.0, 0.5])
+
+
+def inverted_at_once(truth, perturbation):
+    """Accelerations by an inverse of M as a whole that leaves a residual of ``perturbation`` of its norm: the best that
+    inverting a block can do. M⁻¹ is perturbed on the right, as Gauss' elimination of the columns does."""
+    mass, right = truth.mass_matrix.float, (truth.passive.float - truth.bias.float)
+    inverse = np.linalg.inv(mass)
+    rng = np.random.default_rng(1)
+    return (inverse + perturbation * rng.uniform(-1, 1, (3, 3)) * np.abs(inverse).max()) @ right
+
+
+def test_joints_that_are_inverted_together_have_room_for_it_and_others_have_not():
+    mechanism, q, v = several_hinges(1e-4)
+    truth = spatial_truth(mechanism, q, v)
+    found = inverted_at_once(truth, 2.0**-52)
+    residual = np.abs(truth.residual(found).float)
+    ratio = []
+    for together in (False, True):
+        units = rounding.Magnitudes(mechanism, q, v, world=False, together=together)
+        allowed = units.roundings * 2.0**-52 * units.residual(found, truth.mass_matrix.float, factorised=False)
+        ratio.append((residual / allowed).max())
+    assert ratio[0] > 1 > ratio[1]
+
+
+def test_what_is_singular_to_rounding_is_not_regular_and_a_light_tip_is():
+    for angle, regular in ((1.0, True), (1e-4, True), (1e-9, False)):
+        mechanism, q, v = several_hinges(angle)
+        mass = spatial_truth(mechanism, q, v).mass_matrix.float
+        assert rounding.Magnitudes(mechanism, q, v).regular(mass) == regular
+    bodies = (
+        *mechanism.bodies,
+        RigidBody("tip", 0, joints=(Joint("tip"),), inertial=Inertial(1e-12, np.ones(3), 1e-12 * np.eye(3))),
+    )
+    mechanism, q, v = replace(mechanism, bodies=bodies), np.array([0.3, 0.5, -0.8, 0.1]), np.zeros(4)
+    assert rounding.Magnitudes(mechanism, q, v).regular(spatial_truth(mechanism, q, v).mass_matrix.float)
+
+
+def test_underflow_is_in_the_bound_where_numbers_are_subnormal_and_nowhere_else():
+    mechanism, q, v = several_hinges(1.0)
+    for power in (0, 530):
+        slow = replace(mechanism, gravity=np.ldexp(mechanism.gravity, -2 * power))
+        rates = np.ldexp(v, -power)
+        truth = spatial_truth(slow, q, rates)
+        units = rounding.Magnitudes(slow, q, rates, world=False)
+        answer = truth.accelerations.float
+        unit = units.residual(answer, truth.mass_matrix.float)
+        # One smallest number more or less in each acceleration is what a double must be allowed.
+        error = truth.mass_matrix.float @ np.full(3, 5e-324)
+        assert (np.abs(error) <= units.roundings * (2.0**-52 * unit)).all()
+        plain = np.abs(truth.mass_matrix.float) @ np.abs(answer) + np.abs(truth.bias.float)
+        assert (unit.max() < 1e3 * plain.max()) == (power == 0)
+
+
+def sprung_ball(w):
+    """A link on a ball with a spring, nearly half a turn from its rest: w is the first component of its quaternion."""
+    joint = Joint("ball", kind="ball", stiffness=3.0)
+    inertial = Inertial(2.0, np.array([0.02, 0.01, -0.15]), np.diag([0.02, 0.018, 0.014]))
+    mechanism = SpatialMechanism((RigidBody("arm", -1, joints=(joint,), inertial=inertial),), np.array([0, 0, -9.81]))
+    return mechanism, np.array([w, 0.6, 0.0, 0.8]), np.zeros(3)
+
+
+@pytest.mark.parametrize(("w", "told"), [(1e-200, False), (-1e-200, False), (-1e-14, True), (0.3, True)])
+def test_a_spring_that_rounding_turns_the_other_way_is_no_fault_and_any_other_is(w, told):
+    """At half a turn both ways are as short; an angle of π − 2|w| is rounded to π where |w| is below rounding."""
+    mechanism, q, v = sprung_ball(w)
+    truth = spatial_truth(mechanism, q, v)
+    pull = truth.passive.float
+    other = pull * (1 - 2 * np.pi / np.linalg.norm(pull / 3.0))  # round the other way
+    off = np.abs(other - pull)
+    assert off.max() > 1
+    assert (off > rounding.allowed_passive(mechanism, q, v)).any() == told
+    answer = np.linalg.solve(truth.mass_matrix.float, other - truth.bias.float)
+    residual = np.abs(truth.residual(answer).float)
+    allowed = rounding.allowed_residual(mechanism, q, v, answer, truth.mass_matrix.float)
+    assert (residual > allowed).any() == told
+
+
+def test_numbers_beyond_the_range_of_doubles_accuse_nobody():
+    mechanism, q, v = several_hinges(1.0)
+    units = rounding.Magnitudes(mechanism, q, v)
+    mass = spatial_truth(mechanism, q, v).mass_matrix.float
+    assert not np.isnan(units.residual(np.full(3, 1e300), mass)).any()
+    free = SpatialMechanism(
+        (RigidBody("body", -1, joints=(Joint("free", kind="free"),), inertial=Inertial(1.0, np.zeros(3), np.eye(3))),),
+        np.zeros(3),
+    )
+    units = rounding.Magnitudes(free, np.array([0, 0, 0, 1.0, 0, 0, 0]), np.full(6, 1e200))
+    assert not np.isnan(units.residual(np.full(6, 1e200), np.eye(6))).any()

@@ -6,10 +6,11 @@ import re
 from html.parser import HTMLParser
 
 import pytest
-from stress_summaries import HEADER, document, summary
+from stress_summaries import HEADER, POINT, document, frontier, summary
 
 from furiko.reports.pages.chain_page import chain_page
 from furiko.reports.pages.stress_page import stress_page, write_pages
+from furiko.reports.words import figure
 
 
 class Checker(HTMLParser):
@@ -87,3 +88,15 @@ def test_both_pages_are_written(tmp_path):
     paths = write_pages(tmp_path, summary(), HEADER)
     assert [path.name for path in paths] == ["stress.html", "chain.html"]
     assert all(path.read_text(encoding="utf-8").rstrip().endswith("</html>") for path in paths)
+
+
+def test_open_mechanisms_have_a_table_of_their_own_with_the_share_of_the_bound():
+    point = {**POINT, "value": 4.0, "error": 1e-9, "error over bound": 3e4, "at": "4"}
+    tree = frontier(axis="arm-7: fast", mechanism="arm-7", engine="pinocchio-aba", curve=[point], **{"fails at": "4"})
+    page = stress_page(summary(frontiers=[frontier(), tree]), HEADER)
+    documents, trees = page.split('<h2 id="trees">Open mechanisms</h2>')
+    assert "arm-7: fast" not in documents.partition("<h3>Errors")[0]
+    assert "pinocchio-aba" not in documents.partition("<h3>Errors")[0]
+    assert "arm-7: fast" in trees
+    assert f"{figure(3e4)} of the bound" in trees
+    assert 'id="trees"' not in stress_page(summary(), HEADER)

@@ -101,7 +101,7 @@ def test_a_motion_that_is_not_known_well_enough_is_refused():
 
 @pytest.mark.parametrize(
     ("scene", "says"),
-    [("cart-pole", "open mechanism"), ("rods-100", "no \\[state\\] with a duration|no motion")],
+    [("rods-100", "no \\[state\\] with a duration|no motion")],
 )
 def test_what_has_no_motion_is_refused(scene, says):
     with pytest.raises(InvalidInput, match=says):

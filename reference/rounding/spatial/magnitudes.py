@@ -1,6 +1,6 @@
 """What rounding may do to an engine's terms and accelerations of a mechanism in space: bounds for each row.
 
-As in :mod:`.bounds`, an engine that is right computes the exact answer of a slightly wrong problem, and what it is off
+As in :mod:`..bounds`, an engine that is right computes the exact answer of a slightly wrong problem, and what it is off
 by is compared with the sum of the magnitudes of the row's terms. In space rotating a vector mixes its components, so
 that magnitudes are norms; and what holds a free base at rest adds up to zero, so that they are summed over the bodies
 before anything cancels. With b a body that degree of freedom i moves, c its centre of mass,
@@ -10,7 +10,7 @@ before anything cancels. With b a body that degree of freedom i moves, c its cen
     F_b = Σ w_j |q̇_j|,  U_b = Σ u_jb |q̇_j|   over all that move b: its angular velocity, its velocity, as added up
 
 the unit of entry ij of the mass matrix is Σ_b m_b u_ib u_jb + |I_b| w_i w_j, over what both move, and that of row i of
-the bias, as derived in :mod:`.bounds`,
+the bias, as derived in :mod:`..bounds`,
 
     Σ_b  m_b (3 F_b U_b u_ib + w_i U_b²) + w_i |I_b| F_b²  +  m_b |g| u_ib.
 
@@ -21,7 +21,13 @@ multiplies what the length itself multiplies. The three degrees of freedom of a 
 joint, share one magnitude, the norm: an engine may have them in other axes than MuJoCo's.
 
 Accelerations are judged by the residual that they leave. Its unit is that of the mass matrix times |a|, the bias', the
-forces that are applied; and for engines that factorise M, √M_ii Σ √M_jj |a_j| (Higham, theorem 10.3).
+forces that are applied; and for engines that factorise M, √M_ii Σ √M_jj |a_j| (Higham, theorem 10.3). That bound is one
+of the first order: where M is nearer to a singular matrix than its own rounding, a factorisation may fail, and nothing
+is known of what it leaves (:meth:`Magnitudes.regular`).
+
+A product below the smallest normal number is off by up to η = ε × that number, as in :mod:`..bounds`: whatever it is
+still to be multiplied by is at most (1 + Σm + Σ|I|)(1 + A)², with A the longest u, times 1 + |g| + F² + the sum of the
+|a|, and in a solution the largest entry of its factors, at most √(max M_ii / min D) with D the pivots.
 """
 
 from __future__ import annotations
@@ -32,9 +38,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ...models.spatial_mechanism import WORLD, Array, SpatialMechanism
-from .. import spatial_kinematics
-from .bounds import EPSILON, ROUNDINGS_PER_LINK
+from ....models.spatial import unit
+from ....models.spatial_mechanism import WORLD, Array, PlacedJoint, SpatialMechanism
+from ... import spatial_kinematics
+from ..bounds import EPSILON, ROUNDINGS_PER_LINK, SMALLEST
 
 FORCE_ROUNDINGS = 16  # of a spring's: quotient of quaternions, its norm, arc tangent, products
 
@@ -63,6 +70,7 @@ class Magnitudes:
     ``world``: whether the engine places bodies in the world and takes moments about the centre of mass of the whole.
     The lengths then are those of either way of computing, whichever is larger; otherwise those along the joints.
     ``origin``: whether it takes moments about the world's origin: the way from the joint there, and on to the centre.
+    ``together``: whether the joints of one body may be one joint of the engine's, whose block it inverts as a ball's.
     """
 
     def __init__(
@@ -73,12 +81,13 @@ class Magnitudes:
         *,
         world: bool = True,
         origin: bool = False,
+        together: bool = False,
         moved: spatial_kinematics.Motion | None = None,
     ) -> None:
         """``moved``: where all bodies are in this state, if that is known already."""
         self.mechanism, self.q = mechanism, np.asarray(q, dtype=np.float64)
         self.v = np.zeros(mechanism.nv) if v is None else np.asarray(v, dtype=np.float64)
-        self.world, self.origin = world, origin
+        self.world, self.origin, self.together = world, origin, together
         self._known = moved
         self._mass = np.abs([body.inertial.mass for body in mechanism.bodies])  # a file may have a negative one
         self._tensor = np.array([np.linalg.norm(body.inertial.tensor, 2) for body in mechanism.bodies])
@@ -109,7 +118,7 @@ class Magnitudes:
         own, off = levers.own * np.sqrt(self._mass), levers.off * np.sqrt(self._mass)
         found = own @ own.T + own @ off.T + off @ own.T
         found += (turns * self._tensor) @ turns.T
-        return np.asarray(found + self._armature)
+        return np.asarray(found + self._armature + self._underflow)
 
     @cached_property
     def _armature(self) -> Array:
@@ -122,7 +131,7 @@ class Magnitudes:
     @cached_property
     def bias(self) -> Array:
         """The unit of each row of the bias, (nv,)."""
-        return np.asarray(self._bias.sum(axis=1))
+        return np.asarray(self._bias.sum(axis=1) + self._underflow_in_motion)
 
     @cached_property
     def _bias(self) -> Array:
@@ -137,7 +146,7 @@ class Magnitudes:
     @cached_property
     def gravity(self) -> Array:
         """The unit of each row of gravity's share of the bias, (nv,)."""
-        return np.asarray(self._weights.sum(axis=1))
+        return np.asarray(self._weights.sum(axis=1) + self._underflow * (1 + np.linalg.norm(self.mechanism.gravity)))
 
     @cached_property
     def _weights(self) -> Array:
@@ -147,23 +156,31 @@ class Magnitudes:
     @cached_property
     def passive(self) -> Array:
         """Σ|terms| of the dampers' and springs' forces, (nv,)."""
-        found = self.mechanism.per_freedom("damping") * self.rates(self.v)
+        found = self.mechanism.per_freedom("damping") * self.rates(self.v) + SMALLEST
         for one in self.mechanism.joints:
             here, joint = self.q[one.columns_q], one.joint
             if joint.kind in ("hinge", "slide"):
                 found[one.at_v] += joint.stiffness * (abs(here[0]) + abs(joint.springref))
                 continue
-            found[one.columns_v][-3:] += joint.stiffness * np.pi
+            found[one.columns_v][-3:] += joint.stiffness * (np.pi + self._jump(one))
             if joint.kind == "free":
                 rest = np.linalg.norm(self.mechanism.bodies[one.body].position)
                 found[one.columns_v][:3] += joint.stiffness * (np.linalg.norm(here[:3]) + rest)
         return found
 
+    def _jump(self, placed: PlacedJoint) -> float:
+        """Over ε, what the pull of a ball's or a free joint's spring jumps by at half a turn, where that is so near
+        that rounding decides which way round is the shorter one; else nothing."""
+        body, here = self.mechanism.bodies[placed.body], unit(self.q[placed.columns_q][-4:])
+        rest = unit(body.quaternion) if placed.joint.kind == "free" else np.array([1.0, 0.0, 0.0, 0.0])
+        return 2 * np.pi / EPSILON if abs(float(here @ rest)) <= FORCE_ROUNDINGS * EPSILON else 0.0
+
     def rates(self, values: Array) -> Array:
         """|values| (nv,), the norm for each of three that are components of a vector."""
         found = np.abs(np.asarray(values, dtype=np.float64))
         for part in self._threes:
-            found[part] = np.linalg.norm(found[part])
+            largest = float(found[part].max())
+            found[part] = largest * np.linalg.norm(found[part] / (largest or 1.0))  # squares may be out of range
         return found
 
     def once(self, values: Array) -> Array:
@@ -201,7 +218,20 @@ class Magnitudes:
                 squares[part] = squares[part].sum()  # whichever axes the engine has
             root = np.sqrt(squares)
             rows = rows + root * (root @ swings)
-        return np.asarray(rows)
+        rows = rows + self._growth(mass) * (self._underflow_in_motion + self._underflow * swings.sum())
+        return np.where(np.isnan(rows), np.inf, rows)  # beyond the range of doubles nothing is known
+
+    def regular(self, mass: Array, accuracy: float = EPSILON) -> bool:
+        """Whether M (nv, nv) is further from singular than its rounding: only then is :meth:`residual` a bound.
+
+        As :meth:`..bounds.Amplitudes.regular` has it: scaled by the roots of its unit's diagonal on both sides, M is
+        off by a matrix whose norm is at most its largest sum of a row. Where M's smallest eigenvalue is above that,
+        factorisations succeed (Higham, theorem 10.7).
+        """
+        root = np.sqrt(np.diag(self.mass_matrix))
+        scale = np.outer(root, root)
+        off = self.roundings * accuracy * float((self.mass_matrix / scale + 1.0).sum(axis=1).max(initial=0.0))
+        return bool(np.linalg.eigvalsh(mass / scale).min(initial=np.inf) > off)
 
     def joint_forces(self, accelerations: Array) -> Array:
         """The units of force [N] and moment [N m] of each moving link on what carries it, (links, 2).
@@ -246,21 +276,58 @@ class Magnitudes:
         large: the ``shares`` of the bodies that hang on the joint, in all rows that move them.
         """
         found = np.zeros_like(rows)
-        for one in self.mechanism.joints:
-            if one.joint.freedoms < 3:
+        for body, block in self._blocks():
+            own = slice(0, block.stop - block.start)
+            below = self._below(body)
+            hanging = np.flatnonzero(below[self._first_moved] & (np.arange(len(rows)) >= block.start))
+            root = np.sqrt(np.diag(mass)[hanging])
+            if not (root > 0).all():
                 continue
-            block, own = one.columns_v, slice(0, one.joint.freedoms)
-            below = self._below(one.body)
-            hanging = np.flatnonzero(below[self._first_moved] & (np.arange(len(rows)) >= one.at_v))
-            try:
-                inverse = np.linalg.inv(mass[np.ix_(hanging, hanging)])[own, own]
+            try:  # of M scaled to a diagonal of ones: its inverse is in the range of doubles, whatever the units are
+                inverse = np.linalg.inv(mass[np.ix_(hanging, hanging)] / root[:, None] / root)[own, own]
                 scale = np.sqrt(np.abs(np.diag(np.linalg.inv(inverse))))
             except np.linalg.LinAlgError:
                 continue  # a singular matrix has no accelerations that could be judged
             grown = float(np.linalg.norm(scale[:, None] * inverse * scale, 2))
+            scale = scale * root[own]
             found[block] += scale * grown * np.linalg.norm(rows[block] / scale)
-            found += grown * self._moves[:, one.body] * shares[:, below].sum(axis=1)
+            found += grown * self._moves[:, body] * shares[:, below].sum(axis=1)
         return found
+
+    def _blocks(self) -> list[tuple[int, slice]]:
+        """Each block of M that is inverted as a whole: the body that it moves, and its rows."""
+        found: dict[tuple[int, int], slice] = {}
+        for number, one in enumerate(self.mechanism.joints):
+            key = (one.body, 0 if self.together else number)
+            start = found[key].start if key in found else one.at_v
+            found[key] = slice(start, one.columns_v.stop)
+        return [(body, block) for (body, _), block in found.items() if block.stop - block.start > 1]
+
+    @cached_property
+    def _underflow(self) -> float:
+        """What underflow may do to a product of masses and lengths, over ε."""
+        longest = float((self._levers.own + self._levers.off).max(initial=0.0))
+        return SMALLEST * float(1 + self._mass.sum() + self._tensor.sum()) * (1 + longest) ** 2
+
+    @cached_property
+    def _underflow_in_motion(self) -> float:
+        """The same where accelerations of gravity and of rates multiply it."""
+        spin = float((self.once(self.v) @ self._turns).max(initial=0.0))
+        return self._underflow * (1 + float(np.linalg.norm(self.mechanism.gravity)) + spin * spin)
+
+    @staticmethod
+    def _growth(mass: Array) -> float:
+        """The largest entry that the factors of M may have; a pivot below ε of the diagonal is rounding itself."""
+        diagonal = np.diag(mass)
+        largest = float(diagonal.max(initial=0.0))
+        if not largest > 0:
+            return 1.0
+        try:
+            factors = np.linalg.cholesky((mass / largest)[::-1, ::-1])
+            least = float(np.diag(factors).min()) ** 2
+        except np.linalg.LinAlgError:
+            least = 0.0
+        return float(np.sqrt(1 / max(least, EPSILON)))
 
     def _below(self, body: int) -> NDArray[np.bool_]:
         """Whether each body is this one or hangs on it, (bodies,)."""
@@ -374,45 +441,3 @@ def magnitudes(mechanism: SpatialMechanism, q: Array, v: Array) -> list[Magnitud
     """Those of each state, ``q`` (B, nq), ``v`` (B, nv): the bodies are placed in all of them at once."""
     moved = spatial_kinematics.motion(mechanism, q, v)
     return [Magnitudes(mechanism, q[k], v[k], moved=moved.of_state(k)) for k in range(len(q))]
-
-
-def allowed_mass_matrix(mechanism: SpatialMechanism, q: Array, *, world: bool = True) -> Array:
-    """What each entry of an engine's M may be off by, (nv, nv), in the state ``q`` (nq,)."""
-    units = Magnitudes(mechanism, q, world=world)
-    return units.roundings * EPSILON * units.mass_matrix
-
-
-def allowed_bias(mechanism: SpatialMechanism, q: Array, v: Array, *, world: bool = True) -> Array:
-    """What each row of an engine's bias may be off by, (nv,) [N m or N]."""
-    units = Magnitudes(mechanism, q, v, world=world)
-    return units.roundings * EPSILON * units.bias
-
-
-def allowed_gravity(mechanism: SpatialMechanism, q: Array, *, world: bool = True) -> Array:
-    """What each row of an engine's gravity terms may be off by, (nv,) [N m or N]."""
-    units = Magnitudes(mechanism, q, world=world)
-    return units.roundings * EPSILON * units.gravity
-
-
-def allowed_passive(mechanism: SpatialMechanism, q: Array, v: Array) -> Array:
-    """What each row of an engine's passive forces may be off by, (nv,) [N m or N]."""
-    return FORCE_ROUNDINGS * EPSILON * Magnitudes(mechanism, q, v).passive
-
-
-def allowed_residual(
-    mechanism: SpatialMechanism,
-    q: Array,
-    v: Array,
-    accelerations: Array,
-    mass: Array,
-    torque: Array | None = None,
-    *,
-    factorised: bool = True,
-    world: bool = True,
-) -> Array:
-    """What each row of M a + bias − passive − torque may be, (nv,), for an engine's ``accelerations`` a (nv,).
-
-    ``mass``: M (nv, nv), to a few digits; ``factorised``: whether the engine factorises it.
-    """
-    units = Magnitudes(mechanism, q, v, world=world)
-    return units.roundings * EPSILON * units.residual(accelerations, mass, torque, factorised=factorised)
