@@ -23,6 +23,7 @@ from .vocabulary import Vocabulary
 
 DEEPEST = 60  # brackets within brackets
 LARGEST_POWER = 12
+LOST_POWERS = ("2", "3", "4")  # what a copied page makes of x² where it has nothing for a high figure
 SIDE_BY_SIDE = ("symbol", "function", "open", "fraction", "number", "name", "matrix")  # a product without a sign
 
 
@@ -138,7 +139,13 @@ class _Parser:
             elif token.kind in SIDE_BY_SIDE or (token.kind == "bar" and not self.in_bars):
                 if token.kind == "number" and isinstance(parts[-1][1], Number):
                     fail(token.at, "two numbers side by side; write * between them")
-                if token.at > self.tokens[self.place - 1].end:
+                last = self.tokens[self.place - 1]
+                if token.kind == "number" and token.text in LOST_POWERS and last.kind != "number":
+                    fail(
+                        token.at,
+                        f"{token.text} behind a factor: a power printed high, or a factor? Write ^ or * before it",
+                    )
+                if token.at > last.end:
                     self.blanks.append(token.at)
                 parts.append((True, self.factor(depth)))
             else:

@@ -9,6 +9,7 @@ from unicodedata import combining
 LEFT, RIGHT = "[⎡⎢⎣⎛⎜⎝", "]⎤⎥⎦⎞⎟⎠"
 PIECE = re.compile(rf"[{re.escape(LEFT)}](?P<inner>[^{re.escape(LEFT + RIGHT)}=;\\]*)[{re.escape(RIGHT)}]")
 GAP = re.compile(r"[ \t\u00a0]{2,}|\t")
+GOES_ON = re.compile(r"^\s*[-+−*/·×]\s*$")
 COMMA = re.compile(",")
 MOST_LINES, MOST_COLUMNS = 60, 8
 
@@ -35,6 +36,8 @@ def from_drawn(text: str) -> str:
         for k, line in enumerate(lines) for m in PIECE.finditer(line)
     ]  # fmt: skip
     stacks = [stack for stack in _stacks(pieces) if len(stack) > 1]
+    if any(GOES_ON.search(lines[piece.line][piece.end :]) for stack in stacks for piece in stack[:-1]):
+        return text  # a sum or a fraction in brackets, over two lines
     if not stacks:
         return text
     written: dict[_Piece, str] = {}

@@ -1,0 +1,127 @@
+"""What stands around a row, bold words, lists, remarks, labels, says nothing of mechanics and takes nothing away."""
+
+import pytest
+
+from furiko.derivations.grading.grade import grade_text
+from furiko.models.errors import InvalidInput
+
+CART = """
+system = "mechanism"
+from = "up"
+sense = "clockwise"
+[[bodies]]
+name = "cart"
+coordinate = "x"
+joint = "slide"
+mass = "M"
+[[bodies]]
+coordinate = "theta"
+mass = "m"
+length = "l"
+"""
+LATEX = (
+    r"(M + m)\ddot{x} + m l \ddot\theta \cos\theta - m l \dot\theta^2 \sin\theta = 0",
+    r"m l^2 \ddot\theta + m l \ddot x \cos\theta - m g l \sin\theta = 0",
+)
+PLAIN = (
+    "(M + m)*x'' + m*l*theta''*cos(theta) - m*l*theta'**2*sin(theta) = 0",
+    "m*l**2*theta'' + m*l*x''*cos(theta) - m*g*l*sin(theta) = 0",
+)
+UNICODE = ("(M + m)ẍ + m l θ̈ cos θ - m l θ̇² sin θ = 0", "m l² θ̈ + m l ẍ cos θ - m g l sin θ = 0")
+SOLVED = (
+    "x'' = (m*l*theta'**2*sin(theta) - m*g*sin(theta)*cos(theta)) / (M + m*sin(theta)**2)",
+    "theta'' = ((M + m)*g*sin(theta) - m*l*theta'**2*sin(theta)*cos(theta)) / (l*(M + m*sin(theta)**2))",
+)
+AROUND = {
+    "bold headings": "**Cart:**\n\n{0}\n\n**Pole:**\n\n{1}",
+    "bold words in front": "**Cart:** {0}\n\n**Pole:** {1}",
+    "a list with bold words": "- **Cart**: {0}\n- **Pole**: {1}",
+    "a list of stars": "* {0}\n* {1}",
+    "stars of a comment": " * {0}\n * {1}",
+    "remarks behind": "{0}    the row of the cart\n{1}    gravity against the cart's pull",
+    "asides behind": "{0} (the row of the cart)\n{1} (gravity and the pull)",
+}
+
+
+def judged(rows):
+    return grade_text(f"{CART}[equations]\n1 = '''\n{rows}\n'''\n").verdict
+
+
+@pytest.mark.parametrize("rows", [PLAIN, UNICODE], ids=["powers with stars", "high figures"])
+@pytest.mark.parametrize("how", AROUND)
+def test_no_power_is_taken_for_the_mark_of_bold_words(how, rows):
+    assert judged(AROUND[how].format(*rows)) == "correct"
+    assert judged(AROUND[how].format(rows[0].replace("(M + m)", "M"), rows[1])) == "wrong"
+
+
+@pytest.mark.parametrize("behind", ["theta' 2 sin(theta)", "theta'2 sin(theta)", "sin(theta) theta' 2"])
+def test_a_figure_behind_a_factor_may_have_been_high(behind):
+    with pytest.raises(InvalidInput, match=r"2 behind a factor: a power printed high, or a factor\?"):
+        judged(f"(M + m) x'' + m l theta'' cos(theta) - m l {behind} = 0\n\n{PLAIN[1]}")
+
+
+@pytest.mark.parametrize("rows", [PLAIN, UNICODE], ids=["powers with stars", "high figures"])
+def test_dashes_in_front_of_all_rows_may_be_signs(rows):
+    with pytest.raises(InvalidInput, match="a dash in front of every line: the mark of a list, or a minus sign"):
+        judged("- {}\n- {}".format(*rows))
+
+
+def test_a_dash_in_front_of_an_acceleration_alone_is_the_mark_of_a_list():
+    assert judged("- {}\n- {}".format(*SOLVED)) == "correct"
+    assert judged("- {}\n- {}".format(*SOLVED).replace("- m*l", "+ m*l")) == "wrong"
+
+
+def test_a_fraction_in_brackets_over_two_lines_is_no_matrix():
+    rows = (
+        "x'' = [m*l*theta'^2*sin(theta) - m*g*sin(theta)*cos(theta)] /\n      [M + m*sin(theta)^2]\n\n"
+        "theta'' = [(M + m)*g*sin(theta) - m*l*theta'^2*sin(theta)*cos(theta)] /\n          [l*(M + m*sin(theta)^2)]"
+    )
+    assert judged(rows) == "correct"
+    assert judged(rows.replace("(M + m)*g", "M*g")) == "wrong"
+
+
+@pytest.mark.parametrize("heading", ["### Non-Linear System Equations", "Non-linear model of the cart"])
+def test_non_linear_denies_nothing(heading):
+    assert judged(f"{heading}\n1. **Cart:** ${LATEX[0]}$\n2. **Pole:** ${LATEX[1]}$") == "correct"
+
+
+def test_linear_denies():
+    with pytest.raises(InvalidInput, match="'Linear'"):
+        judged(f"### Linear System Equations\n1. **Cart:** ${LATEX[0]}$\n2. **Pole:** ${LATEX[1]}$")
+
+
+@pytest.mark.parametrize(
+    "how",
+    [
+        r"\begin{{align}} {0}, \quad \text{{(of \eqref{{a}})}}\\ {1}. \quad \text{{(of \eqref{{b}})}} \end{{align}}",
+        r"$${0} \quad \text{{(Eq. 1)}}$$ $${1} \quad \text{{(Eq. 2)}}$$",
+        r"$$(Eq.\; 1)\qquad {0}$$" + "\n" + r"$$(Eq.\; 2)\qquad {1}$$",
+        "${{e.block`\\begin{{aligned}} {0} \\\\ {1} \\end{{aligned}}`}}",
+        "1. $x : {0}$ \\\n2. $\\theta : {1}$",
+    ],
+    ids=["where from", "numbers in words", "numbers in front", "Observable", "labels within the dollars"],
+)
+def test_numbers_and_labels_of_rows(how):
+    assert judged(how.format(*LATEX)) == "correct"
+    assert judged(how.format(LATEX[0].replace("(M + m)", "M"), LATEX[1])) == "wrong"
+
+
+def test_an_equation_in_two_displays():
+    one, two = LATEX[0].split("=")
+    assert judged(f"$${one}$$$$={two}$$\n$${LATEX[1]}$$") == "correct"
+    assert judged(f"$${one}$$$$={two} + m g$$\n$${LATEX[1]}$$") == "wrong"
+
+
+def test_displays_without_fractions_are_no_program():
+    rows = "1.  **(a)**:\n    $$\n    {}\n    $$\n2.  **(b)**:\n    $$\n    {}\n    $$"
+    assert judged(rows.format(*LATEX)) == "correct"
+
+
+def test_a_sentence_says_what_a_letter_is():
+    rows = (
+        "we derive two coupled equations for the accelerations (where S = sin θ):\n"
+        "• x'' = (m*l*theta'^2*S - m*g*S*cos(theta)) / (M + m*S^2)\n"
+        "• theta'' = ((M + m)*g*S - m*l*theta'^2*S*cos(theta)) / (l*(M + m*S^2))"
+    )
+    assert judged(rows) == "correct"
+    assert judged(rows.replace("S = sin", "S = cos")) == "wrong"
