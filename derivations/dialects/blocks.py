@@ -116,7 +116,10 @@ def equations_in(line: str) -> list[str]:
     if model:
         return [row.strip() for row in model["rows"].split(";") if row.strip()]
     if "───" in line or _is_drawn(line):
-        raise InvalidInput("column 1: an expression printed on several lines; print it by str(…), srepr(…) or latex(…)")
+        raise InvalidInput(
+            "column 1: an expression printed on several lines: write each fraction in one line, (a)/(b); sympy prints such "
+            "lines by str(…), srepr(…) or latex(…)"
+        )
     line = _without_dashes(line)
     rules = RULES.match(line)
     if rules:

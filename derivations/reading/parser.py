@@ -8,7 +8,8 @@ primary   = number | symbol | "(" sum ")" | call | "\\frac" group group
           | "[" rows "]" | "\\begin{bmatrix}" rows "\\end{bmatrix}"
           | "|" sum "|"
           | ("d/dt" "(" sum ")" | "diff" "(" sum "," "t" ")")
-call      = ("cos"|"sin"|"tan"|"sgn"|"abs") [ "^" whole number ] ( "(" sum ")" | [number] symbol ) | "sqrt" "(" sum ")"
+call      = ("cos"|"sin"|"tan"|"sec"|"csc"|"cot"|"sgn"|"abs") [ "^" whole number ] ( "(" sum ")" | [number] symbol )
+          | "sqrt" "(" sum ")"
 """
 
 from __future__ import annotations

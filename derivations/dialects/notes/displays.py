@@ -280,7 +280,7 @@ def _require_words(piece: str) -> None:
 
 
 def _sides(part: str) -> list[str]:
-    part = re.sub(r"(?<!\\)[,;.。，、](?:\s|\\[,;:! ]|~|\$)*$", "", re.sub(r"(?<!\\)\s+$", "", part.lstrip()))
+    part = re.sub(r"(?<!\\)[,;.:。，、：](?:\s|\\[,;:! ]|~|\$)*$", "", re.sub(r"(?<!\\)\s+$", "", part.lstrip()))
     sides, start = [], 0
     for at, end in _places(part, EQUALS):
         sides.append(part[start:at])

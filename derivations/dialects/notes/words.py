@@ -141,7 +141,8 @@ def _of_lines(text: str) -> list[Found]:
         plain = without_bold(line)
         bare = MARKS.sub("", plain) if re.search(r"^[ \t]*(?:>|#|[-*+•▪‣◦][ \t]|\d{1,2}[.)][ \t])", plain) else plain
         if plain == line and line.lstrip()[:1] in "-+*":
-            bare = line  # a sign, as likely as the mark of a list
+            listed = MARKS.sub("", plain)  # a sign, as likely as the mark of a list, but before a word and a colon
+            bare = listed if LABEL.match(listed) else line
         label = LABEL.match(bare)
         if label and "=" in bare and not re.fullmatch(r"[A-Za-z]", label["label"].strip()):
             said.append(label["label"])

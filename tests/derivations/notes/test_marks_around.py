@@ -125,3 +125,34 @@ def test_a_sentence_says_what_a_letter_is():
     )
     assert judged(rows) == "correct"
     assert judged(rows.replace("S = sin", "S = cos")) == "wrong"
+
+
+MATRICES = {
+    "over two lines": "| M+m   m*l*cos(theta) | | x''     |   | {}*l*theta'^2*sin(theta) |\n"
+    "| m*l*cos(theta)  m*l^2 | | theta'' | = | m*g*l*sin(theta)            |",
+    "in one line": "|M+m, m*l*cos(theta); m*l*cos(theta), m*l^2| |x''; theta''| = "
+    "|{}*l*theta'^2*sin(theta); m*g*l*sin(theta)|",
+    "with blanks": "|M+m m*l*cos(θ); m*l*cos(θ) m*l²| |ẍ; θ̈| = |{} l θ̇² sin θ; m g l sin θ|",
+}
+
+
+@pytest.mark.parametrize("how", MATRICES)
+def test_matrices_in_plain_bars(how):
+    assert judged(MATRICES[how].format("m")) == "correct"
+    assert judged(MATRICES[how].format("2*m")) == "wrong"
+
+
+@pytest.mark.parametrize("wave", [r"\sec(\theta)", r"\sec\theta", r"\frac{1}{\sin\theta}\tan\theta"])
+def test_the_secant_is_one_over_the_cosine(wave):
+    row = rf"{wave}\cos\theta ((M + m)\ddot{{x}} + m l \ddot\theta \cos\theta - m l \dot\theta^2 \sin\theta) = 0"
+    assert judged(f"$${row}$$\n$${LATEX[1]}$$") == "correct"
+    assert judged(f"$${row.replace('(M + m)', 'M')}$$\n$${LATEX[1]}$$") == "wrong"
+
+
+def test_the_cosecant_and_the_cotangent():
+    rows = [
+        r"\csc\theta \left( m l \ddot\theta + m \ddot x \cos\theta \right) = m g",
+        r"(M + m)\ddot{x} \cot\theta + m l \ddot\theta \cos\theta \cot\theta - m l \dot\theta^2 \cos\theta = 0",
+    ]
+    assert judged(f"$${rows[1]}$$\n$${rows[0]}$$") == "correct"
+    assert judged(f"$${rows[1]}$$\n$${rows[0]} \\cot\\theta$$") == "wrong"
