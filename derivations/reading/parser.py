@@ -75,6 +75,7 @@ class _Parser:
         self.tokens = tokenize(line, names, words)
         self.slashes = slashes or Slashes()
         self.place = 0
+        self.is_latex = "\\" in line  # where a power is typed, and none is lost
         self.in_bars = False
         self.blanks: list[int] = []  # where things stand side by side, with a blank between
 
@@ -141,7 +142,7 @@ class _Parser:
                 if token.kind == "number" and isinstance(parts[-1][1], Number):
                     fail(token.at, "two numbers side by side; write * between them")
                 last = self.tokens[self.place - 1]
-                if token.kind == "number" and token.text in LOST_POWERS and last.kind != "number":
+                if self.may_be_power(token, last):
                     fail(
                         token.at,
                         f"{token.text} behind a factor: a power printed high, or a factor? Write ^ or * before it",
@@ -152,6 +153,10 @@ class _Parser:
             else:
                 break
         return parts[0][1] if len(parts) == 1 else Product(tuple(parts), at)
+
+    def may_be_power(self, figure: Token, last: Token) -> bool:
+        """Whether a figure behind a factor may be a high one of a page that was copied as plain text."""
+        return figure.kind == "number" and figure.text in LOST_POWERS and last.kind != "number" and not self.is_latex
 
     def below(self, parts: list[tuple[bool, Node]], depth: int) -> None:
         """Behind ``a/2``: whether a symbol at once behind the number belongs below as well is the author's secret."""

@@ -121,7 +121,8 @@ class _Sorter:
             if name in needed | below:
                 self.found.defined[written] = sides[-1]
             elif name not in stages and not all(
-                is_abbreviation(name, side, self.names) or _is_constant(side, self.names) for side in sides
+                is_abbreviation(name, side, self.names) or _is_beside(name, side, needed | below, self.names)
+                for side in sides
             ):
                 raise InvalidInput(
                     f"{written[:30]} = … is said, and no equation needs it: leave it out, or give it in a field of its "
@@ -143,8 +144,17 @@ def _is_product(sides: Statement, values: Values) -> bool:
     return any(uses(name, [sides[0]]) for name in matrices)
 
 
+def _is_beside(name: str, side: str, needed: set[str], names: Names) -> bool:
+    """Whether a constant is said beside its like, l_{c1} with the l_{c2} that rows need, or is a matrix of numbers."""
+    like = re.sub(r"[0-9]+$", "", name)
+    numbers = MATRIX.search(side) and not used(re.sub(r"\\(?:begin|end)\s*\{[a-z]+\}", " ", side))
+    return bool(numbers) or (
+        like != name and _is_constant(side, names) and any(re.sub(r"[0-9]+$", "", x) == like for x in needed)
+    )
+
+
 def _is_constant(side: str, names: Names) -> bool:
-    """Whether it is made of the mechanism's own quantities and numbers: what such a name is, nobody needs to ask."""
+    """Whether it is made of the mechanism's own quantities and numbers."""
     found = used(re.sub(r"\\(?:begin|end)\s*\{[a-z]+\}", " ", side))
     return all(x in names.quantities and x not in names.coordinates for x in found) and not RATE.search(side)
 
