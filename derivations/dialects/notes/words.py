@@ -50,7 +50,7 @@ LEAD = re.compile(
 # Behind a formula, apart from it: words of a language, and no sign
 BEHIND = re.compile(
     r"(?:\t|[ ]{2})\s*(?P<words>(?:[^\W\d_θϑφϕψαω][\w'’-]*[ ,]+){1,12}?(?=[^\W\d_]{3})(?!(?:sin|cos|tan)\b)[\w'’-]+(?:[ ,]+[\w'’-]+){0,12}\.?)[ \t]*$"
-    r"|[ ]\((?P<aside>[^\W\d_θϑφϕψαω][\w'’-]*(?:[ ,]+[^\W\d_][\w'’-]+){1,12})\)[ \t]*$"
+    r"|[ ]\((?P<aside>[\u3040-\u30ff\u4e00-\u9fff]{2,20}|[^\W\d_θϑφϕψαω][\w'’-]*(?:[ ,]+[^\W\d_][\w'’-]+){1,12})\)[ \t]*$"
 )
 # A sentence that says what a letter is: … accelerations (where Δ = θ₁ - θ₂):
 WHERE = re.compile(

@@ -156,3 +156,24 @@ def test_the_cosecant_and_the_cotangent():
     ]
     assert judged(f"$${rows[1]}$$\n$${rows[0]}$$") == "correct"
     assert judged(f"$${rows[1]}$$\n$${rows[0]} \\cot\\theta$$") == "wrong"
+
+
+def test_strings_that_a_program_puts_together():
+    rows = '"law": (\n    "{};"\n    " {}   (倒立摆两体方程)"\n),'
+    assert judged(rows.format(*PLAIN)) == "correct"
+    assert judged(rows.format(PLAIN[0].replace("(M + m)", "M"), PLAIN[1])) == "wrong"
+
+
+def test_an_index_at_once_before_a_letter_is_no_force_of_a_hinge():
+    rows = (
+        r"$$N_x = m\ddot{x} + ml\ddot\theta\cos\theta - ml\dot\theta^2\sin\theta$$"
+        "\n"
+        r"$$N_y = mg - ml(\ddot\theta\sin\theta + \dot\theta^2\cos\theta)$$"
+        "\n"
+        r"$$\begin{align} M\ddot{x} &= -N_x \\ &= -m\ddot{x} - ml\ddot\theta\cos\theta + ml\dot\theta^2\sin\theta"
+        r" \end{align}$$"
+        "\n"
+        r"$$0 = N_yl\sin\theta - N_xl\cos\theta$$"
+    )
+    assert judged(rows) == "correct"
+    assert judged(rows.replace("= N_yl", "= 2N_yl")) == "wrong"
