@@ -177,3 +177,51 @@ def test_an_index_at_once_before_a_letter_is_no_force_of_a_hinge():
     )
     assert judged(rows) == "correct"
     assert judged(rows.replace("= N_yl", "= 2N_yl")) == "wrong"
+
+
+DRAWN = """
+       m l (θ'^2 sin θ - θ'' cos θ)
+x'' = ---------------------------------
+                   M + m
+
+      g sin θ - x'' cos θ
+θ'' = -------------------
+               l
+"""
+NESTED = """
+//                          ( m l θ'^2 sin θ )
+//        g sin θ - cos θ   |----------------|
+//                          (      M + m     )
+// θ'' = --------------------------------------
+//                 (      m cos^2 θ  )
+//               l | 1 - ------------|
+//                 (        M + m    )
+
+//        m l (θ'^2 sin θ - θ'' cos θ)
+// x'' = -----------------------------
+//                  M + m
+"""
+
+
+def test_fractions_drawn_over_lines():
+    assert judged(DRAWN) == "correct"
+    assert judged(DRAWN.replace("M + m", "M - m")) == "wrong"
+
+
+def test_fractions_within_fractions_and_tall_brackets():
+    assert judged(NESTED) == "correct"
+    assert judged(NESTED.replace("1 - ---", "2 - ---")) == "wrong"
+
+
+@pytest.mark.parametrize(
+    "drawn",
+    [
+        "          2\n      θ'  m l\nx'' = -----------\n        M + m",
+        "               2\n      m l θ'  sin θ\nx'' = -------------\n          M + m",
+        "                   2\n      m l sin θ   θ'\nx'' = ----------\n          M + m",
+    ],
+    ids=["a power above", "a power above its rate", "more than the bar covers"],
+)
+def test_what_else_stands_above_a_bar_is_refused(drawn):
+    with pytest.raises(InvalidInput, match="printed on several lines"):
+        judged(f"{drawn}\n\nθ'' = (g sin θ - x'' cos θ)/l")
