@@ -1,3 +1,4 @@
+# ruff: noqa: E501 -- patterns stand on one line
 r"""Several equations in one text, as pages print them: gather, cases, a brace before an array, \qquad, "and".
 
 What names a term (\underbrace), numbers an equation or remarks on it (\text{…}) is taken away; a text that is then
@@ -67,6 +68,10 @@ RULES = re.compile(r"^\s*\{+\s*(?P<inner>[^{}]*(?:->|→)[^{}]*)\}+\s*$", re.DOT
 LIST = re.compile(r"^\s*\{(?P<inner>[^{}]*==[^{}]*)\}\s*$", re.DOTALL)
 TWO_EQUALS = re.compile(r"(?<![=<>!])==(?!=)")
 BULLET = re.compile(r"(?m)^\s*[•▪‣◦]\s*")
+DASHED = re.compile(r"^\s*[-−–][ \t]+(?!\*\*|[^\W\d_]{2,}[^=:\n]{0,40}[:：])[^$]*=[^$]*$")
+SOLVED = re.compile(  # an acceleration alone on the left: no sign in front of it has a sense
+    r"^\s*[-−–][ \t]+(?=(?:\\ddot\s*\{?\s*\\?[A-Za-z]+\s*\}?(?:_\{?\w{1,3}\}?)?|[^\W\d_]+(?:_?\w{1,3})?(?:''|″)|[^\W\d_]\u0308[₀-₉]?)\s*=)"
+)
 COUNTED = re.compile(r"(?m)^\s*\(?(?P<k>[0-9]{1,2})\)\s+(?=\S)")
 # Behind a display, $$…$$ (1), it is within no formula
 NUMBER = re.compile(
@@ -111,7 +116,11 @@ def equations_in(line: str) -> list[str]:
     if model:
         return [row.strip() for row in model["rows"].split(";") if row.strip()]
     if "───" in line or _is_drawn(line):
-        raise InvalidInput("column 1: an expression printed on several lines; print it by str(…), srepr(…) or latex(…)")
+        raise InvalidInput(
+            "column 1: an expression printed on several lines: write each fraction in one line, (a)/(b); sympy prints such "
+            "lines by str(…), srepr(…) or latex(…)"
+        )
+    line = _without_dashes(line)
     rules = RULES.match(line)
     if rules:
         line = ARROW.sub(" = ", rules["inner"])
@@ -132,6 +141,18 @@ def equations_in(line: str) -> list[str]:
     pieces = _pieces(bare)
     rows = [LAGRANGE.sub(" ", _led(piece)) for piece in pieces] if len(pieces) > 1 else [bare]
     return [_without_number(row) for row in rows]
+
+
+def _without_dashes(text: str) -> str:
+    """A list of solved rows without its marks. Raises InvalidInput where each mark may be a minus sign as well."""
+    lines = [line for line in text.split("\n") if line.strip()]
+    if len(lines) < 2 or not all(DASHED.match(line) for line in lines):
+        return text
+    solved = [SOLVED.match(line) for line in lines]
+    if not all(solved):
+        raise InvalidInput("a dash in front of every line: the mark of a list, or a minus sign? Leave the marks out, or "
+                           "write the signs without a blank behind")  # fmt: skip
+    return "\n".join(line[m.end() :] for line, m in zip(lines, solved, strict=True) if m)
 
 
 def _is_drawn(text: str) -> bool:
@@ -167,7 +188,11 @@ def _without_remarks(line: str) -> str:
         # A word that stands apart, at an end of its row; any other may be a name, and a factor
         heads = ROW_STARTS.search(before) and (inner.rstrip().endswith(":") or HEAD_ENDS.match(behind))
         tails = APART.search(before) and ROW_STOPS.match(behind)
-        is_word = re.search(r"[^\W\d_]{3}|\(\d+\)", inner) and "=" not in inner and not WHERE.match(found[0])
+        is_word = (
+            re.search(r"[^\W\d_]{3}|\(\d+\)|^\s*\([^\W\d_]{2,}[^()]*\)\s*$", inner)
+            and "=" not in inner
+            and not WHERE.match(found[0])
+        )
         return " " if is_word and (heads or tails) else found[0]
 
     return REMARK.sub(remark, line)

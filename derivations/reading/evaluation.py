@@ -17,6 +17,14 @@ from .tokens import fail
 LARGEST_ANGLE_FACTOR = 16  # cos(16 θ) at most: harmonics stay small, and nobody writes more
 QUARTER = fmpq(1, 2)  # a quarter turn is π/2
 Value = Quotient | Grid
+# What is divided by what: the tangent, and the reciprocals
+RATIOS: dict[str, tuple[int | None, int]] = {
+    "tan": (SIN, COS),
+    "cot": (COS, SIN),
+    "sec": (None, COS),
+    "csc": (None, SIN),
+}
+NAMES_OF_RATIOS = {"tan": "tangent", "cot": "cotangent", "sec": "secant", "csc": "cosecant"}
 
 
 class Evaluation:
@@ -179,12 +187,13 @@ class Evaluation:
             return self._sign(node)
         angle = self.angle(node.argument)
         size = 1 + sum(abs(h) for h in angle.halves.values()) // 2
-        if node.function == "tan":
-            cosine = self._wave(angle, COS)
-            if not cosine:
-                fail(node.at, "the tangent of a right angle")
-            tangent = Quotient(self._wave(angle, SIN), {}, size)
-            return tangent.times(Quotient(cosine, {}, size).inverse(), self.budget)
+        if node.function in RATIOS:
+            above, below = RATIOS[node.function]
+            bottom = self._wave(angle, below)
+            if not bottom:
+                fail(node.at, f"the {NAMES_OF_RATIOS[node.function]} of an angle that has none")
+            ratio = Quotient(bottom, {}, size).inverse()
+            return ratio if above is None else Quotient(self._wave(angle, above), {}, size).times(ratio, self.budget)
         return Quotient(self._wave(angle, SIN if node.function == "sin" else COS), {}, size)
 
     def _sign(self, node: Call) -> Quotient:

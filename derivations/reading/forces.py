@@ -19,8 +19,8 @@ from .declaration import QUANTITIES
 from .motion.joint_forces import is_held
 
 FORCE = re.compile(
-    r"(?<![A-Za-z\\^{])(?<!\^\s)(?P<name>(?:[TNRSHVPF]|\\lambda)(?![a-z])(?:_\{[A-Za-z0-9]{1,3}\}|_?[0-9](?![0-9])|_[A-Za-z]|[₀-₉])?)"
-    r"(?![A-Za-z])"
+    r"(?<![A-Za-z\\^{])(?<!\^\s)(?P<name>(?:[TNRSHVPF]|\\lambda)(?![a-z])(?:_\{[A-Za-z0-9]{1,3}\}|_?[0-9](?![0-9A-Za-z])"
+    r"|_[A-Za-z]|[₀-₉]|(?![A-Za-z0-9_₀-₉])))"
 )
 WORD = re.compile(r"\\?[A-Za-z]+(?:_\{\w+\}|_?\w+)?")
 MOST_FORCES, MOST_ROWS = 6, 16

@@ -8,7 +8,8 @@ primary   = number | symbol | "(" sum ")" | call | "\\frac" group group
           | "[" rows "]" | "\\begin{bmatrix}" rows "\\end{bmatrix}"
           | "|" sum "|"
           | ("d/dt" "(" sum ")" | "diff" "(" sum "," "t" ")")
-call      = ("cos"|"sin"|"tan"|"sgn"|"abs") [ "^" whole number ] ( "(" sum ")" | [number] symbol ) | "sqrt" "(" sum ")"
+call      = ("cos"|"sin"|"tan"|"sec"|"csc"|"cot"|"sgn"|"abs") [ "^" whole number ] ( "(" sum ")" | [number] symbol )
+          | "sqrt" "(" sum ")"
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from .vocabulary import Vocabulary
 
 DEEPEST = 60  # brackets within brackets
 LARGEST_POWER = 12
+LOST_POWERS = ("2", "3", "4")  # what a copied page makes of x² where it has nothing for a high figure
 SIDE_BY_SIDE = ("symbol", "function", "open", "fraction", "number", "name", "matrix")  # a product without a sign
 
 
@@ -73,6 +75,7 @@ class _Parser:
         self.tokens = tokenize(line, names, words)
         self.slashes = slashes or Slashes()
         self.place = 0
+        self.is_latex = "\\" in line  # where a power is typed, and none is lost
         self.in_bars = False
         self.blanks: list[int] = []  # where things stand side by side, with a blank between
 
@@ -138,12 +141,22 @@ class _Parser:
             elif token.kind in SIDE_BY_SIDE or (token.kind == "bar" and not self.in_bars):
                 if token.kind == "number" and isinstance(parts[-1][1], Number):
                     fail(token.at, "two numbers side by side; write * between them")
-                if token.at > self.tokens[self.place - 1].end:
+                last = self.tokens[self.place - 1]
+                if self.may_be_power(token, last):
+                    fail(
+                        token.at,
+                        f"{token.text} behind a factor: a power printed high, or a factor? Write ^ or * before it",
+                    )
+                if token.at > last.end:
                     self.blanks.append(token.at)
                 parts.append((True, self.factor(depth)))
             else:
                 break
         return parts[0][1] if len(parts) == 1 else Product(tuple(parts), at)
+
+    def may_be_power(self, figure: Token, last: Token) -> bool:
+        """Whether a figure behind a factor may be a high one of a page that was copied as plain text."""
+        return figure.kind == "number" and figure.text in LOST_POWERS and last.kind != "number" and not self.is_latex
 
     def below(self, parts: list[tuple[bool, Node]], depth: int) -> None:
         """Behind ``a/2``: whether a symbol at once behind the number belongs below as well is the author's secret."""

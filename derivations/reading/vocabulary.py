@@ -21,8 +21,9 @@ LETTERS = {
     "l": "l", "ℓ": "l", "\\ell": "l", "m": "m", "g": "g",
     "rho": "r", "ρ": "r", "\\rho": "r", "I": "I", "pi": "p", "π": "p", "\\pi": "p",
 }  # fmt: skip
-FUNCTIONS = {"cos": "cos", "sin": "sin", "tan": "tan", "\\cos": "cos", "\\sin": "sin", "\\tan": "tan", "inv": "inv",
-             "det": "det", "\\det": "det",             "solve": "solve", "sqrt": "sqrt", "\\sqrt": "sqrt"}  # fmt: skip
+FUNCTIONS = {"cos": "cos", "sin": "sin", "tan": "tan", "\\cos": "cos", "\\sin": "sin", "\\tan": "tan",
+             "\\sec": "sec", "\\csc": "csc", "\\cot": "cot", "inv": "inv",
+             "det": "det", "\\det": "det", "solve": "solve", "sqrt": "sqrt", "\\sqrt": "sqrt"}  # fmt: skip
 # Families of letters that are angles where they are used: the likeliest first, which is also their order.
 ANGLES: dict[str, tuple[str, ...]] = {
     "α": ("\\alpha", "alpha", "α"),

@@ -23,6 +23,8 @@ DEEPEST = 40  # brackets in one another
 ENTRY = re.compile(r"(?P<name>\w+)\s*[\[(]\s*(?P<k>\d{1,2})\s*[\])]")
 
 TYPED = re.compile(r"(?m)^\s*(?:(?:static|const|constexpr)\s+)*(?:double|float|real_t|scalar_t|Scalar)\s+\w+\s*=[^\n]*")
+# A line of LaTeX, and no comment
+PRINTED = re.compile(r"(?m)^(?![ \t]*(?://|#|%|\*|--|!|;))[^\n]*\\(?:ddot|dot|cos|sin)(?![A-Za-z])")
 WAVE = re.compile(r"\b[dD]?(?:sin|cos)f?\s*\(|\.(?:sin|cos)\s*\(|solve|inverse", re.IGNORECASE)
 
 
@@ -76,7 +78,7 @@ def _depth(text: str) -> int:
 
 def program_of(text: str) -> Program | None:
     """The program of a text; None where its language is another's to read."""
-    if "\\begin" in text or "\\frac" in text or "Symbol(" in text:
+    if "\\begin" in text or "\\frac" in text or "Symbol(" in text or PRINTED.search(text):
         return None
     program = from_words(text)
     if program is not None:

@@ -18,6 +18,12 @@ from .time_indices import in_indices
 
 HIGH = re.compile(r"(?<=[\w)\]'])[²³]")
 LOW = re.compile(r"(?<=[A-Za-z}\])])[ \t]*(?P<mark>[_^])[ \t]*(?=[\w{\\])")  # m _ { 1 } of a converter
+IN_BRACES = re.compile(r"\{\s*\\(?P<wave>sin|cos|tan)\s*\}(?=\s*\^)")
+# The number of an equation in front of it, (Eq. 1)\qquad
+HEAD = re.compile(
+    r"(?P<start>^|\$|\\\[|\n|\\\\)\s*\(\s*(?:[Ee]qn?|Gl|[ÉéEe]c|式)\.?(?:\\[;, ]|\s|~)*[0-9]{1,3}(?:\.[0-9]{1,3})?[a-z]?\s*\)\s*(?:\\q?quad(?![A-Za-z])\s*)+"
+)
+JOINED = re.compile(r"\$\$\s*\$\$(?=\s*(?:=|[+−-](?:[^$=]|\$(?!\$))*\$\$))")  # one equation in two displays
 SPACED = re.compile(r"(?<![A-Za-z\\])(?:c\s+o\s+s|s\s+i\s+n|t\s+a\s+n)(?=\s*[({\\])")
 _END = r"(?:\s|\\[,;:! ]|[.,;$`])*(?:$|\\\\|\\end|\\\]|\\\)|\n|\$|\}\s*$)"
 # Sine and tangent in Spanish, Italian, Portuguese, French, German and Russian
@@ -117,11 +123,12 @@ def plainly_printed(data: dict[str, Any]) -> dict[str, Any]:
 
 def _plain(text: str) -> str:
     if "*" in text and "\\" not in text:  # as a program writes, but for its powers
-        text = HIGH.sub(lambda m: ("**" if "**" in text else "^") + "23"["²³".index(m[0])], text)
+        text = HIGH.sub(lambda m: "^" + "23"["²³".index(m[0])], text)
     text = SPACED.sub(lambda m: re.sub(r"\s", "", m[0]) + " ", text)
     text = EMPHASIS.sub(lambda m: m["before"] + m["behind"], MUST.sub(" = ", text))
     text = COUNT.sub("", SINE.sub(_wave, text))
     if "\\" in text:
+        text = JOINED.sub(" ", HEAD.sub(lambda m: m["start"], IN_BRACES.sub(r"\\\g<wave> ", text)))
         text = LOW.sub(r"\g<mark>", text)
         text = TIMES.sub("", UNIT.sub("", CITED.sub(" ", text)))
         text = LAW.sub(lambda m: m["start"] + m["blank"], OF_TIME.sub("(t)", text))

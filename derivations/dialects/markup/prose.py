@@ -18,11 +18,13 @@ AROUND = re.compile(
 )
 INLINE = re.compile(r"(?<!\$)\$[^$]{1,200}\$(?!\$)|\\\([^$]{1,200}?\\\)")
 ALONE = re.compile(
-    r"^\s*(?:[-*+]\s+|[0-9]{1,2}\.\s+|>\s*)?(?:\$\$(?P<two>[^$]+)\$\$|\$`?(?P<one>[^$]+?)`?\$|\\\((?P<round>.+?)\\\))\s*[.,;]?\s*(?:\\\\|<br\s*/?>)?\s*$"
+    r"^\s*(?:[-*+]\s+|[0-9]{1,2}\.\s+|>\s*)?(?:\$\$(?P<two>[^$]+)\$\$|\$`?(?P<one>[^$]+?)`?\$|\\\((?P<round>.+?)\\\))\s*[.,;]?\s*(?:\\{1,2}|<br\s*/?>)?\s*$"
 )
+# In front of a row, the coordinate whose row it is: \theta : …
+HEAD = re.compile(r"^\s*\\?[A-Za-zθϑφϕψαβ]{1,12}(?:_(?:\w|\{\w{1,4}\}))?\s*:(?!=)\s*(?=[^:]*=)")
 DENIED = re.compile(
     r"\b(?:wrong|incorrect|mistaken?|erroneous|not|isn't|doesn't|falsch|nicht|kein\w*|faux|fausse|incorrecte?|instead|rather than|should be"
-    r"|neglect\w*|approximat\w*|linear\w*|small)\b|誤|間違|でない|ではない|近似|無視|線形",
+    r"|neglect\w*|approximat\w*|(?<!non-)(?<!non )(?<!non‐)linear\w*|small)\b|誤|間違|でない|ではない|近似|無視|線形",
     re.IGNORECASE,
 )
 WORDS = re.compile(r"[^\W\d_]{2,}")
@@ -79,7 +81,8 @@ def from_inline(text: str) -> str:
     found = [ALONE.match(line) for line in lines]
     if len(lines) < 2 or not all(found):
         return text
-    return "\n".join((m["one"] or m["two"] or m["round"]).strip().rstrip(" .,;") for m in found if m)
+    said = [HEAD.sub("", (m["one"] or m["two"] or m["round"]).strip().rstrip(" .,;")) for m in found if m]
+    return "\n".join(said)
 
 
 def from_headed(text: str) -> str:

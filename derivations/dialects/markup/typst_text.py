@@ -35,9 +35,11 @@ def typst_text(text: str) -> str:
     text = INDEX.sub(lambda m: f"{m['x']}_{{{re.sub(r'[ ,]', '', m['i'])}}}", text)
     text = _without_words(text)
     lines = [line for line in text.split("\n") if line.strip()]
-    if len(lines) < 2 or not all(BLOCK.match(line) for line in lines) or not MARKS.search(text) or "\\" in text:
+    if not lines or not all(BLOCK.match(line) for line in lines) or not MARKS.search(text) or "\\" in text:
         return text
     pieces = [piece for line in lines for piece in _equations(BLOCK.sub(lambda m: m["inner"], line))]
+    if len(pieces) < 2:
+        return text
     return "\n".join(typst_dots(FIGURES.sub(r"\g<x>_{\g<i>}", piece)) for piece in pieces)
 
 

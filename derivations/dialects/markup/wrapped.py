@@ -13,6 +13,7 @@ from ..statements import is_program
 from .around.comments import uncommented
 from .around.drawn import from_drawn
 from .around.elements import without_elements
+from .around.fractions import from_fractions
 from .around.sites import from_sites
 from .around.strings import from_strings, undoubled
 from .own_macros import with_own_macros
@@ -52,7 +53,7 @@ def _unwrapped(text: str) -> str:
         return text
     fenced = FENCED.search(text) is not None
     text = with_own_macros(from_sites(undoubled(without_elements(text))))
-    text = typst_text(from_drawn(text))
+    text = typst_text(from_drawn(from_fractions(text)))
     text = TAGS.sub(lambda m: _display(m["a"] or m["b"] or ""), text)
     if ".. math::" in text:
         text = DIRECTIVE.sub(_of_directive, text)

@@ -54,6 +54,7 @@ BLANK = re.compile(r"(?:\s|[&.,;~$]|\\[,;:! ]|\\q?quad(?![A-Za-z])|\\(?:left|rig
 _AND = r"(?:and|und|et|with|where|mit|wobei|dove|où|avec|con|donde|en donde|siendo|где|其中|ただし|ここで)"
 NEXT = re.compile(
     rf"[,;]?\s+{_AND}[\s:,]+(?=\\?[A-Za-zα-ωΑ-Ω][^=,;]{{0,40}}?=)|[,;](?:\s|~|\\[,;:! ])+(?=\\?[A-Za-zα-ωΑ-Ω][^=;]{{0,40}}?=)"
+    r"|[,;](?=(?:\\d?dot\s*)?\{?\\?[A-Za-zα-ωΑ-Ω]+(?:_\w|_\{\w{1,4}\})?\}?(?:_\w|_\{\w{1,4}\})?\s*=)"
 )
 MOST_PIECES = 60
 END = "⁂"
@@ -148,6 +149,8 @@ def _text(found: re.Match[str]) -> str:
         r"(?:and|und|et|y|e|och|oraz|with|where|mit|wobei|où|avec|con|en donde|donde|dove|где|и|及び|および|ただし|其中|or|oder|ou|,|;|&)[\s:,]*",
         inner,
     ):
+        return " \\qquad "
+    if re.fullmatch(r"\([^\W\d_]{2,}[^()=]*\)", inner):  # (Eq. 1), (de …): where it stands, or comes from
         return " \\qquad "
     if re.fullmatch(r"[\w ]{1,3}|cos|sin|tan|sgn|sign|diff|const|total|com|pendulum|wheel|cart|pole|rod|bob", inner):
         return found[0]
@@ -277,7 +280,7 @@ def _require_words(piece: str) -> None:
 
 
 def _sides(part: str) -> list[str]:
-    part = re.sub(r"(?<!\\)[,;.。，、](?:\s|\\[,;:! ]|~|\$)*$", "", re.sub(r"(?<!\\)\s+$", "", part.lstrip()))
+    part = re.sub(r"(?<!\\)[,;.:。，、：](?:\s|\\[,;:! ]|~|\$)*$", "", re.sub(r"(?<!\\)\s+$", "", part.lstrip()))
     sides, start = [], 0
     for at, end in _places(part, EQUALS):
         sides.append(part[start:at])

@@ -4,7 +4,7 @@ r"""An energy among words: the last thing that T, V, L or H is said to be, and t
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from ....models.errors import InvalidInput
@@ -47,9 +47,14 @@ class Energy:
     positions: dict[str, str] = field(default_factory=dict)
 
 
+MOTION, HEIGHT = re.compile(r"T|K|E_?k(?:in)?|KE|Ttot"), re.compile(r"V|U|E_?p(?:ot)?|PE|Vtot|Utot")
+
+
 def energy(kind: str, statements: Sequence[Statement], names: Names) -> Energy:
     """What the statements of one field say. Raises InvalidInput where none says the energy, or more than is needed."""
     said, values, moved = _sorted(kind, [rooted(sides, names) for sides in statements], names)
+    if kind == "lagrangian":  # T and V of a page that says L as well: their difference is what L must be
+        said = [*(side for side in _difference(values) if said != [side]), *said]
     wrong = next((side for side in said[:-1] if kind in SUMS and SUMS[kind].match(side)), None)
     if wrong:
         raise InvalidInput(f"{wrong.strip()[:20]}: the Lagrangian is T - U, and the Hamiltonian T + U; which is meant? Where U "
@@ -109,12 +114,22 @@ def _sorted(
                 f"{' = '.join(sides).strip()[:60]!r} is no name's value: give the energy, and what its letters are"
             )
     single = [sides[0] for sides in statements if len(sides) == 1]
+    if kind == "lagrangian" and not said and not single:
+        said = _difference(values)
     if not said and len(single) == 1:
         return single, values, moved
     if not said or single:
         raise InvalidInput(f"which of these is the {kind}{' energy' if kind in ('kinetic', 'potential') else ''}? Write it "
                            f"as {'TVLH'[list(LEFT).index(kind)]} = …")  # fmt: skip
     return said, values, moved
+
+
+def _difference(values: Mapping[str, tuple[str, list[str]]]) -> list[str]:
+    """T - V, where both are said and L is not; nothing else."""
+    parts = [
+        [written for name, (written, _) in values.items() if pattern.fullmatch(name)] for pattern in (MOTION, HEIGHT)
+    ]
+    return [" - ".join(part[0] for part in parts)] if all(len(part) == 1 for part in parts) else []
 
 
 def _has_index(side: str) -> bool:

@@ -31,6 +31,7 @@ def with_entries(statements: Sequence[Statement], names: Names) -> list[Statemen
     M_{12} = M_{21} = … says both. A letter that is a quantity as well, as g, is meant only with arguments, g(q).
     """
     _require_names_once(statements, names)
+    statements = [_value_last(sides) for sides in statements]
     count = len(names.coordinates)
     also = [s for sides in statements for s in _also(sides, statements)]
     made = [*statements, *also]
@@ -44,6 +45,13 @@ def with_entries(statements: Sequence[Statement], names: Names) -> list[Statemen
     written = [_put(sides, literals, names) for sides in statements]
     texts = [side for sides in written for side in sides if alone(side) is None]
     return written + [sides for sides in also if uses(alone(sides[0]) or "", texts)]
+
+
+def _value_last(sides: Statement) -> Statement:
+    """M_{12} = … = M_{21} with what both are at the end."""
+    first, *between = sides
+    last = between.pop() if len(between) > 1 else ""
+    return (first, last, *between) if all(ENTRY.fullmatch(alone(side) or "") for side in (first, last)) else sides
 
 
 def _require_names_once(statements: Sequence[Statement], names: Names) -> None:

@@ -23,6 +23,7 @@ from .displays import Statement, has_arrow, statements_of
 from .energies import Energy, energy, evident_rates
 from .entries import with_columns_apart, with_entries, with_points, without_arguments
 from .letters import Names, alone, names_of, with_accents, with_bold_apart
+from .momentum_rates import with_momentum_rates
 from .partial import rows_of_partial
 from .points import of_squared_speeds, of_unknown_points
 from .products import apart, index_first, with_transposes
@@ -33,6 +34,7 @@ from .words import formulas_of
 ENERGIES = ("kinetic", "potential", "lagrangian", "hamiltonian")
 MOST_ROWS = 16
 ROOT = re.compile(r"^\s*\\sqrt\s*\{(?P<inner>.*)\}\s*$", re.DOTALL)
+SAID_L = re.compile(r"(?<![A-Za-z0-9_\\])L(?=\s*=[^=\n]*(?:\\dot|[\u0307]|(?<=[\w}])['′]))")
 IN_FONT = re.compile(r"\\math(?:cal|scr)\s*(?:\{\s*L\s*\}|L(?![A-Za-z]))")
 WORDED = re.compile(
     r"\$|\\[\[(]|```|(?<![^\W\d_])[^\W\d_]{3,40} [^\W\d_]{2,40} [^\W\d_]{2}|[\u3040-\u30ff\u4e00-\u9fff]{3}|(?<![\w)\]'])\*\*"
@@ -147,6 +149,8 @@ def _with_energy(
             text = with_momenta(text, names)
         if kind == "lagrangian" and "L" in names.all:  # L is a length, and the letter in a font the Lagrangian
             text = IN_FONT.sub("ℒ ", text)
+            if "ℒ" not in text and len(SAID_L.findall(text)) == 1:  # or in no font, where it is said with rates
+                text = SAID_L.sub("ℒ", text)
         said = of_squared_speeds(with_points(by_rule(_statements(text, names)), names), names)
         found: Energy = energy(kind, of_unknown_points(said, names), names)
     except InvalidInput as error:
@@ -176,7 +180,7 @@ def _with_equations(data: dict[str, Any], names: Names, new: dict[str, str], ste
             raise InvalidInput(f"equations.{label:.40}: {error}") from None
     try:
         statements = with_transposes(with_columns_apart(dotted_columns(by_rule(statements), names), names), names)
-        statements = with_points(statements, names)
+        statements = with_momentum_rates(with_points(statements, names), names)
         statements = with_states(without_arguments(statements, names), names, _texts(data.get("define")))
         statements = with_entries(of_unknown_points(dotted_columns(statements, names), names), names)
         found: Sorted = sorted_statements(with_columns(statements, names), names)

@@ -48,7 +48,7 @@ def index_first(text: str) -> str:
 
 
 def apart(text: str, names: Names) -> str:
-    """The text with a blank before such a factor: m_3 is a declared quantity, and no quantity has two figures."""
+    """The text with a sign before such a factor: m_3 is a declared quantity, and no quantity has two figures."""
     if "\\" not in text:
         return text
 
@@ -57,6 +57,6 @@ def apart(text: str, names: Names) -> str:
         others = any(re.fullmatch(rf"{letter}[0-9]{{2}}", name) for name in names.all)
         if others or letter + found["index"] not in names.quantities:
             return found[0]
-        return f"{found['x']}_{found['index']} {found['factor']} "
+        return f"{found['x']}_{found['index']} \\cdot {found['factor']} "
 
     return RUN.sub(one, text)

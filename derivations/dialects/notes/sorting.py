@@ -20,6 +20,7 @@ RATE = re.compile(r"\\d?dot|''|'|″|[\u0307\u0308]|\\frac\{d\}\{dt\}")
 ACCELERATION = re.compile(r"\\ddot|''|″|\u0308|\\frac\{d\}\{dt\}")
 PARTIAL = re.compile(r"\\partial|∂|\\nabla|\\int(?![A-Za-z])")
 SQUARED = re.compile(rf"^\s*(?P<name>{NAME})\s*(?:\^\s*(?:\{{\s*2\s*\}}|2)|²)\s*$")
+MATRIX = re.compile(r"matrix\}|array\}")
 ZERO = re.compile(r"^\s*(?:0|\\mathbf\s*\{?0\}?|\\vec\s*\{?0\}?)\s*$")
 MOST_DEFINITIONS = 30
 Values = dict[str, tuple[str, Statement]]
@@ -50,7 +51,10 @@ def sorted_statements(statements: Sequence[Statement], names: Names) -> Sorted:
     sorter.rows_of_drives()
     sorter.definitions()
     for sides in sorter.left:
-        _sort_row(sides, sorter.found)
+        if _is_product(sides, sorter.values):
+            sorter.found.steps += pairwise(sides)
+        else:
+            _sort_row(sides, sorter.found)
     return sorter.found
 
 
@@ -116,7 +120,10 @@ class _Sorter:
         for name, (written, sides) in self.values.items():
             if name in needed | below:
                 self.found.defined[written] = sides[-1]
-            elif name not in stages and not all(is_abbreviation(name, side, self.names) for side in sides):
+            elif name not in stages and not all(
+                is_abbreviation(name, side, self.names) or _is_beside(name, side, needed | below, self.names)
+                for side in sides
+            ):
                 raise InvalidInput(
                     f"{written[:30]} = … is said, and no equation needs it: leave it out, or give it in a field of its "
                     "own (positions, kinetic, potential, lagrangian)"
@@ -129,11 +136,36 @@ class _Sorter:
             raise InvalidInput(f"more than {MOST_DEFINITIONS} names are said; give the equations with these put in")
 
 
+def _is_product(sides: Statement, values: Values) -> bool:
+    r"""C(q, \dot q) \dot q = a column: what a product of a matrix that is said comes to, and no row."""
+    if any(ACCELERATION.search(side) for side in sides) or not MATRIX.search(sides[-1]):
+        return False
+    matrices = [name for name, (_, said) in values.items() if MATRIX.search(said[-1])]
+    return any(uses(name, [sides[0]]) for name in matrices)
+
+
+def _is_beside(name: str, side: str, needed: set[str], names: Names) -> bool:
+    """Whether a constant is said beside its like, l_{c1} with the l_{c2} that rows need, or is a matrix of numbers."""
+    like = re.sub(r"[0-9]+$", "", name)
+    numbers = MATRIX.search(side) and not used(re.sub(r"\\(?:begin|end)\s*\{[a-z]+\}", " ", side))
+    return bool(numbers) or (
+        like != name and _is_constant(side, names) and any(re.sub(r"[0-9]+$", "", x) == like for x in needed)
+    )
+
+
+def _is_constant(side: str, names: Names) -> bool:
+    """Whether it is made of the mechanism's own quantities and numbers."""
+    found = used(re.sub(r"\\(?:begin|end)\s*\{[a-z]+\}", " ", side))
+    return all(x in names.quantities and x not in names.coordinates for x in found) and not RATE.search(side)
+
+
 def _without_abstract(left: list[Statement], said: set[str], names: Names) -> list[Statement]:
     r"""Without M q̈ + h = τ or Σ F = m a of letters that nobody says, where there are rows enough besides."""
     abstract = [sides for sides in left if is_abstract(sides, said, names)]
     rows = [sides for sides in left if sides not in abstract]
-    enough = len(rows) >= len(names.coordinates) or any(re.search(r"matrix\}|array\}", " ".join(row)) for row in rows)
+    enough = len(rows) >= len(names.coordinates) or any(
+        MATRIX.search(" ".join(row)) and ACCELERATION.search(" ".join(row)) for row in rows
+    )
     return rows if enough else left
 
 

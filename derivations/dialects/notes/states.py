@@ -7,7 +7,8 @@ Each entry of the derivative is written out as a coordinate's rate or accelerati
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 
 from ....models.errors import InvalidInput
 from ..names import plain_name
@@ -26,7 +27,9 @@ BY_TIME = re.compile(
 )
 BOLD = re.compile(r"\\(?:mathbf|boldsymbol|bm|pmb|vec|underline)")
 BOLD_WHOLE = re.compile(r"^\s*\{(?P<x>[^{}]*(?:\{[^{}]*\}[^{}]*)?)\}\s*$")  # the braces of \\mathbf{\\dot x}
+OUTPUT = re.compile(r"^\s*(?:\\(?:mathbf|boldsymbol|bm|vec)\s*\{?\s*)?[yz]\s*\}?\s*(?:\(\s*t\s*\))?\s*$")
 MOST_STATES = 16
+RATES = re.compile(r"\\d?dot|[\u0307\u0308'′]|\b(?:sin|cos)")
 
 
 def entries(side: str) -> list[str]:
@@ -48,6 +51,10 @@ def with_states(statements: Sequence[Statement], names: Names, define: Mapping[s
     ``define``: what the file itself says of names. A text without such a derivative stays as it is.
     """
     statements = _by_entries(statements, names, {p for name in define if (p := plain_name(name))})
+    # what the file says is a place of its own, y_2 = y_1 + s, has rates as a coordinate has
+    places = tuple(p for name, value in define.items() if (p := plain_name(name)) and p not in names.coordinates
+                   and uses_any(names.coordinates, value) and not derived(value) and not RATES.search(value))  # fmt: skip
+    names = replace(names, coordinates=(*names.coordinates, *places))
     said = {plain: value for name, value in define.items() if (plain := plain_name(name)) and _motion(value, names)}
     kept: list[Statement] = []
     for sides in statements:
@@ -58,13 +65,18 @@ def with_states(statements: Sequence[Statement], names: Names, define: Mapping[s
         said |= listed
         if not listed or (len(sides) == 2 and alone(sides[0]) in listed):
             kept.append(sides)
-    made = [_derived(sides, said, names) for sides in kept]
+    made = [_derived(sides, said, names) for sides in _of_matrices(kept, said, names)]
     if made == kept or not said:
         return list(statements)
     made = [sides for sides in made if alone(sides[0]) not in said]
     texts = [" ".join(sides) for sides in made]
     own = {plain_name(name) for name in define}
     return made + [(spelled(name), value) for name, value in said.items() if name not in own and uses(name, texts)]
+
+
+def uses_any(of: Iterable[str], text: str) -> bool:
+    """Whether a text has one of these names."""
+    return any(uses(name, [text]) for name in of)
 
 
 def _by_entries(statements: Sequence[Statement], names: Names, own: set[str]) -> list[Statement]:
@@ -148,6 +160,26 @@ def _derived(sides: Statement, said: Mapping[str, str], names: Names) -> Stateme
         return sides
     rates = [_rate(said[name], names) for name in listed]
     return " \\begin{bmatrix} " + " \\\\ ".join(rates) + " \\end{bmatrix} ", sides[-1]
+
+
+def _of_matrices(statements: Sequence[Statement], said: Mapping[str, str], names: Names) -> list[Statement]:
+    r"""The statements with the state's column for its letter in \dot x = A x + B u, and without the output y = C x + D u."""
+    made = list(statements)
+    for sides in statements:
+        listed = _state(sides[0], list(said), names) if len(sides) == 2 else []
+        letter = listed[0][:-1] if listed and all(name in said for name in listed) else ""
+        if len(letter) != 1 or "\\begin" in sides[1]:
+            continue
+        bold = rf"{BOLD.pattern}\s*(?:\{{\s*{letter}\s*\}}|{letter}(?![A-Za-z]))(?!\s*_)"
+        plain = "" if letter in names.all else rf"|(?<![A-Za-z\\_{{]){letter}(?!\s*_)(?![A-Za-z])"
+        whole = re.compile(bold + plain)
+        column = " \\begin{bmatrix} " + " \\\\ ".join(said[name] for name in listed) + " \\end{bmatrix} "
+        parts = whole.split(sides[1])
+        if len(parts) < 2:
+            continue
+        made = [other for other in made if other == sides or not (OUTPUT.match(other[0]) and whole.search(other[-1]))]
+        made = [(sides[0], column.join(parts)) if other == sides else other for other in made]
+    return made
 
 
 def _state(side: str, order: list[str], names: Names) -> list[str]:

@@ -7,7 +7,8 @@ import re
 from dataclasses import dataclass
 
 from ....models.errors import InvalidInput
-from ..markup.prose import AROUND, DENIED
+from ..markup.prose import AROUND, DENIED, is_whole
+from ..markup.prose import BRACED as DISPLAYSTYLE
 
 _ENVIRONMENTS = (
     "cases|dcases|equation|align|alignat|gather|eqnarray|multline|flalign|displaymath|dmath|math|aligned|gathered|split"
@@ -20,7 +21,11 @@ FORMULA = re.compile(
     re.DOTALL,
 )
 MARKS = re.compile(
-    r"(?m)^[ \t]*(?:>[ \t]?|#{1,6}[ \t]+|[-*+•▪‣◦][ \t]+(?=[^\d\s])|\d{1,2}[.)][ \t]+|\|[ \t]*)|(?<!\*)\*\*(?!\*)|(?<!_)__(?!_)|[ \t]*\|[ \t]*$"
+    r"(?m)^[ \t]*(?:>[ \t]?|#{1,6}[ \t]+|[-*+•▪‣◦][ \t]+(?=[^\d\s])|\d{1,2}[.)][ \t]+|\|[ \t]*)|[ \t]*\|[ \t]*$"
+)
+# Pairs of ** and __; ** behind a name, a number or a bracket is a power
+BOLD = re.compile(
+    r"(?<![A-Za-z0-9α-ωΑ-Ωϑϕϵ₀-₉_)\]}'′″\u0307\u0308*])(?P<mark>\*\*|__)(?=[^\s*_])(?P<inner>[^*\n]+?)(?<=\S)(?P=mark)(?![*_])"
 )
 IMAGE = re.compile(r"!?\[[^\[\]\n]{0,80}\]\([^()\n]{0,200}\)|<!--.{0,400}?-->|https?://\S{1,200}", re.DOTALL)
 # What a page has around its formulas; a style may hide them, or strike them out
@@ -42,6 +47,16 @@ LABEL = re.compile(r"^[ \t]*(?P<label>(?:\([\w ]{1,12}\)[ \t]*)?[^\W\d_][^\n=$\\
 LEAD = re.compile(
     r"^[ \t]*(?:[Ww]here|[Ww]ith|[Aa]nd|[Hh]ere|[Ll]et|[Dd]efine|[Mm]it|[Ww]obei|[Uu]nd|[Dd]ove|[Oo]ù|[Aa]vec|[Ss]oit|[Cc]on|[Dd]onde|где|其中|ただし|or|oder|i\.e\.)[ \t:,]+(?=[^=]{1,40}=)"
 )
+# Behind a formula, apart from it: words of a language, and no sign
+BEHIND = re.compile(
+    r"(?:\t|[ ]{2})\s*(?P<words>(?:[^\W\d_θϑφϕψαω][\w'’-]*[ ,]+){1,12}?(?=[^\W\d_]{3})(?!(?:sin|cos|tan)\b)[\w'’-]+(?:[ ,]+[\w'’-]+){0,12}\.?)[ \t]*$"
+    r"|[ ]\((?P<aside>[\u3040-\u30ff\u4e00-\u9fff]{2,20}|[^\W\d_θϑφϕψαω][\w'’-]*(?:[ ,]+[^\W\d_][\w'’-]+){1,12})\)[ \t]*$"
+)
+# A sentence that says what a letter is: … accelerations (where Δ = θ₁ - θ₂):
+WHERE = re.compile(
+    r"^(?P<words>[^=+*/^_·\\{}\[\]]{12,400}?)[(,]\s*(?:where|with|wobei|mit|où|avec|donde|con|dove|где|其中)\s+(?P<said>[^\W\d_]\w{0,8}\s*:?=[^=:,;()]{1,60}(?:\([^()=]{1,40}\)[^=:,;()]{0,40})?)\)?\s*[:.：]?\s*$"
+)
+ADDS = re.compile(r"\b(?:plus|minus|times|over|by|if|when|while|for|unless|only|without|with|and|or)\b", re.IGNORECASE)
 ONLY_WORDS = re.compile(r"^[^=\\^_{}]*$")
 APPROXIMATE = re.compile(r"\\(?:approx|ll|gg|sim|simeq|lesssim|rightarrow|to)(?![A-Za-z])|[≈≪≫≃]")
 
@@ -79,7 +94,8 @@ def formulas_of(text: str) -> list[Found]:
             raise InvalidInput(
                 f"{formula.strip()[:40]}: an approximation in a sentence; the exact equations are judged"
             )
-        found.append(Found(formula, inline))
+        shown = DISPLAYSTYLE.match(formula)
+        found.append(Found(shown["inner"] if shown and is_whole(shown["inner"]) else formula, inline))
     displayed = any(not f.inline for f in found)
     return [f if displayed else Found(f.text, inline=True) for f in found]
 
@@ -106,7 +122,12 @@ def _plain_words(text: str) -> str:
     """Words without what markdown and LaTeX put around them."""
     text = IMAGE.sub(" ", text)
     text = SECTION.sub(lambda m: f" {m['x'] or ''} ", AROUND.sub(" ", text))
-    return MARKS.sub(" ", LAYOUT.sub(" ", text))
+    return MARKS.sub(" ", without_bold(LAYOUT.sub(" ", text)))
+
+
+def without_bold(text: str) -> str:
+    """Without the marks of bold words; a power stays."""
+    return BOLD.sub(lambda m: m["inner"], text)
 
 
 def _of_lines(text: str) -> list[Found]:
@@ -117,15 +138,19 @@ def _of_lines(text: str) -> list[Found]:
     kept: list[str] = []
     said: list[str] = []
     for line in text.split("\n"):
-        bare = (
-            MARKS.sub("", line) if re.search(r"\*\*|__|^[ \t]*(?:>|#|[-*+•▪‣◦][ \t]|\d{1,2}[.)][ \t])", line) else line
-        )
-        if line.lstrip()[:1] in "-+*" and not re.search(r"\*\*", line):
-            bare = line  # a sign, as likely as the mark of a list
+        plain = without_bold(line)
+        bare = MARKS.sub("", plain) if re.search(r"^[ \t]*(?:>|#|[-*+•▪‣◦][ \t]|\d{1,2}[.)][ \t])", plain) else plain
+        if plain == line and line.lstrip()[:1] in "-+*":
+            listed = MARKS.sub("", plain)  # a sign, as likely as the mark of a list, but before a word and a colon
+            bare = listed if LABEL.match(listed) else line
         label = LABEL.match(bare)
         if label and "=" in bare and not re.fullmatch(r"[A-Za-z]", label["label"].strip()):
             said.append(label["label"])
             bare = " " * label.end() + bare[label.end() :]
+        where = WHERE.match(bare)
+        if where and len(WORD.findall(where["words"])) > 2:
+            said.append(where["words"])
+            bare = where["said"]
         lead = LEAD.match(bare)
         if lead:
             bare = bare[lead.end() :]
@@ -133,6 +158,11 @@ def _of_lines(text: str) -> list[Found]:
             said.append(bare)
             kept.append("")
             continue
+        remark = BEHIND.search(bare)
+        words = (remark["words"] or remark["aside"]) if remark else ""
+        if remark and "=" in bare[: remark.start()] and not ADDS.match(words):
+            said.append(words)
+            bare = bare[: remark.start()]
         kept.append(bare)
     deny(" ".join(said))
     made = "\n".join(kept)

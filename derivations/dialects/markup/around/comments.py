@@ -42,8 +42,9 @@ def _without_marks(text: str) -> str:
         text = "\n".join(MAIL.sub("", line, count=1) for line in text.split("\n"))
     lines = text.split("\n")
     said = [line for line in lines if line.strip()]
-    if said and all(COMMENT.match(line) for line in said):
-        return "\n".join(COMMENT.sub("", line, count=1) for line in lines)
+    for mark in (COMMENT, STARRED):
+        if said and all(mark.match(line) for line in said):
+            return "\n".join(mark.sub("", line, count=1) for line in lines)
     return text
 
 

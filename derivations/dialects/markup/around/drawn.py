@@ -9,6 +9,11 @@ from unicodedata import combining
 LEFT, RIGHT = "[⎡⎢⎣⎛⎜⎝", "]⎤⎥⎦⎞⎟⎠"
 PIECE = re.compile(rf"[{re.escape(LEFT)}](?P<inner>[^{re.escape(LEFT + RIGHT)}=;\\]*)[{re.escape(RIGHT)}]")
 GAP = re.compile(r"[ \t\u00a0]{2,}|\t")
+GOES_ON = re.compile(r"^\s*[-+−*/·×]\s*$")
+BLANK = re.compile(r"(?<![-+−*/·])\s+(?![-+−*/·])")
+IN_LINE = re.compile(r"\|(?P<inner>[^|\n=]*;[^|\n=]*)\|")
+WIDE = re.compile(r"\|[^|]*\S(?:[ ]{2,}|\t)\S[^|]*\|")
+TABLE = re.compile(r"(?m)^\s*\|?\s*:?-{3,}")
 COMMA = re.compile(",")
 MOST_LINES, MOST_COLUMNS = 60, 8
 
@@ -27,6 +32,7 @@ class _Piece:
 
 def from_drawn(text: str) -> str:
     """The text with each drawn matrix in the line that names it; any other text as it is."""
+    text = _of_bars(text)
     lines = text.split("\n")
     if len(lines) < 2 or len(lines) > MOST_LINES or "\\" in text:
         return text
@@ -35,6 +41,8 @@ def from_drawn(text: str) -> str:
         for k, line in enumerate(lines) for m in PIECE.finditer(line)
     ]  # fmt: skip
     stacks = [stack for stack in _stacks(pieces) if len(stack) > 1]
+    if any(GOES_ON.search(lines[piece.line][piece.end :]) for stack in stacks for piece in stack[:-1]):
+        return text  # a sum or a fraction in brackets, over two lines
     if not stacks:
         return text
     written: dict[_Piece, str] = {}
@@ -49,6 +57,39 @@ def from_drawn(text: str) -> str:
         place = named[0] if named else stack[(len(stack) - 1) // 2]
         written |= dict.fromkeys(stack, "") | {place: matrix}
     return "\n".join(_line(k, line, [p for p in written if p.line == k], written) for k, line in enumerate(lines))
+
+
+def _of_bars(text: str) -> str:
+    """The text with brackets for bars that hold matrices: | a; b | in a line, or lines of | a  b | | c |."""
+    if "|" not in text or "\\" in text or TABLE.search(text):
+        return text
+    text = IN_LINE.sub(_in_line, text)
+    lines = text.split("\n")
+    counts = [line.count("|") for line in lines]
+    for k in range(len(lines) - 1):
+        both = counts[k : k + 2]
+        if both[0] == both[1] and both[0] > 3 and both[0] % 2 == 0 and all(map(WIDE.search, lines[k : k + 2])):
+            lines[k : k + 2] = [_bracketed(line) for line in lines[k : k + 2]]
+    return "\n".join(lines)
+
+
+def _bracketed(line: str) -> str:
+    """Every other bar as an opening bracket; of a line that has brackets already, the line itself."""
+    parts = line.split("|")
+    return "".join(part + ("[" if k % 2 == 0 else "]") for k, part in enumerate(parts[:-1])) + parts[-1]
+
+
+def _in_line(found: re.Match[str]) -> str:
+    """[[a, b], [c, d]] for | a, b; c, d |, whose entries commas or wide blanks part, or blanks where it is square."""
+    rows = [row.strip() for row in found["inner"].split(";")]
+    for separator in (COMMA, GAP, BLANK):
+        wide = [[entry.strip() for entry in separator.split(row)] for row in rows]
+        square = len(rows) == len(wide[0]) or separator is not BLANK
+        if len(wide[0]) > 1 and len({len(row) for row in wide}) == 1 and square:
+            matrix = _matrix([", ".join(row) for row in wide])
+            return matrix or found[0]
+    parts = {len(BLANK.split(row)) for row in rows}  # a column, unless its blanks may part entries as well
+    return "[" + ", ".join(rows) + "]" if all(rows) and parts != {len(rows)} else found[0]
 
 
 def _width(text: str) -> int:

@@ -18,6 +18,8 @@ SCRIPT = re.compile(
 )
 # Markdown takes one backslash of \\\\[ … \\\\] away
 ESCAPED = re.compile(r"(?<!\\)\\\\(?P<of>[\[(])(?P<inner>(?:(?!\\\\[\[(]).)+?)(?<!\\)\\\\[\])]", re.DOTALL)
+# Observable's ${tex`…`} and ${tex.block`…`}, whatever its name
+OBSERVABLE = re.compile(r"\$\{\s*\w{1,8}(?P<block>\.block)?\s*`(?P<inner>[^`$]{1,8000})`\s*\}")
 STRUCK = re.compile(r"~~[ \t]*[$`][^~]{1,2000}[$`][ \t]*~~")
 TEMPLATE = re.compile(
     r"\{\{\s*(?:NumBlk|EquationRef|EqnRef|Equation box 1|bi|math|equation)\s*\|[^{}$]{0,40}?(?=\$)|(?<=\$)\s*\|[^{}$]{0,60}\}\}",
@@ -77,6 +79,7 @@ def from_sites(text: str) -> str:
     if "<" in text and not re.search(r"<m(?:row|i|o|n|frac|sup|sub|over)\b", text):
         text = WIKI.sub(_of_wiki, text)
         text = INDENT.sub("", TEMPLATE.sub("", text))
+    text = OBSERVABLE.sub(lambda m: _display(m["inner"]) if m["block"] else f"${m['inner']}$", text)
     text = SCRIPT.sub(lambda m: _display(m["inner"]), text)
     text = ESCAPED.sub(_of_escaped, text)
     text = TAGS.sub(lambda m: _display(next(m[k] for k in ("inner", "wp", "wps", "reddit") if m[k] is not None)), text)

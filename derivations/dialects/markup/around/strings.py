@@ -14,6 +14,10 @@ PRINTED = re.compile(
     r"^\s*(?:\w{1,20}\s*=\s*)?(?:display|print|Markdown|Math|Latex|Tex|MathTex|st\.(?:latex|markdown|write)|plt\.(?:title|text)|ax\.set_title)?\s*\(*\s*(?P<raw>[rR]|L|raw|md|tex|latex|@R_str)?(?P<q>\"\"\"|\"|')(?P<inner>(?:(?!(?P=q)).)+)(?P=q)\s*\)*\s*;?\s*$",
     re.DOTALL,
 )
+BESIDE = re.compile(
+    r"^\s*(?:[\"']?\w{1,20}[\"']?\s*[:=])?\s*\((?P<inner>(?:\s*[rR]?\"(?:[^\"\\\n]|\\.)*\"){2,40}\s*)\)\s*,?;?\s*$"
+)
+LITERAL = re.compile(r"\"(?P<of>(?:[^\"\\\n]|\\.)*)\"")
 OBJECT = re.compile(r"^\s*\{\s*\"(?:[^\"\\]|\\.)*\"\s*:.*\}\s*,?\s*$", re.DOTALL)
 FORMULA_KEY = re.compile(
     r"(?i)^(?:\w{0,12}_?(?:equations?|formulas?|latex|tex|math|eom|odes?|dynamics|source|content)\w{0,4}|[a-z]{1,8}_?[0-9]?)$"
@@ -48,6 +52,9 @@ def _of_object(text: str) -> str:
 def from_strings(text: str) -> str:
     """What such strings hold; any other text as it is."""
     text = TICKED.sub(lambda m: f"${m['inner']}$", text)
+    beside = BESIDE.match(text)
+    if beside and "=" in beside["inner"]:  # strings that a program puts together
+        return "".join(m["of"] for m in LITERAL.finditer(beside["inner"]))
     string = PRINTED.match(text)
     if string and "=" in string["inner"]:
         return undoubled(string["inner"]) if not string["raw"] or string["raw"] == "md" else string["inner"]
