@@ -102,6 +102,8 @@ def product(a: Value, b: Value) -> Value:
     if isinstance(a, Outside) and isinstance(b, Array):
         a = vector(a, b.shape[0]) if b.is_vector else a
     if isinstance(b, Outside) and isinstance(a, Array):
+        if a.kind == "array" and len(a.entries) > 1 and a.shape[-1] == 1 and len(a.shape) == 2:  # a column B @ u
+            a = Array(a.entries, (len(a.entries),), "loose")
         b = vector(b, a.shape[-1]) if a.kind != "loose" or len(a.entries) > 1 else b
     if not isinstance(a, Array) or not isinstance(b, Array):
         return entrywise(a, b, times)

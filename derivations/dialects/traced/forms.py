@@ -68,9 +68,11 @@ class Forms:
                 order = self._order(meaning, scope, parameters, value)
             else:
                 raise NotFollowed(f"are these {self.count} values the accelerations? Then call them so; or {ADVICE}")
-            for entry in entries:
+            for k, entry in zip(order, entries, strict=True):
                 if MARK.fullmatch(entry.text):
                     return None
+                if any(meaning.order.get(p) == (2, k) for p in self._paths([entry])):  # ddt = diff(p, t)
+                    raise NotFollowed("an acceleration stands in what it is; give the equations, or solve for it")
             rows = [(self._second(k), e.text) for k, e in zip(order, entries, strict=True)]
             return self._checked(rows, meaning)
         raise NotFollowed(f"the function returns {len(entries)} values for {self.count} coordinates; {ADVICE}")
@@ -131,7 +133,8 @@ class Forms:
                 half = at + self.count if rates == list(range(self.count)) else at + 1
                 if half < len(entries) and half not in rates:
                     found.append((self._second(k), entries[half].text))
-        if state is None and len({left for left, _ in found}) == self.count == len(rates):
+        is_by_names = state is None or all(len(place) == 1 for place in state)
+        if is_by_names and len({left for left, _ in found}) == self.count == len(rates):
             return self._checked(found, meaning)
         raise NotFollowed(f"which values of the state are rates is not plain from what is returned; {ADVICE}")
 

@@ -8,12 +8,12 @@ from typing import Any
 
 from ....models.errors import InvalidInput
 from ..letters.every_text import rows_of
-from ..statements import DOWNWARDS
 from . import nodes
 from .follow import Follower
 from .forms import Forms, Rows, needed
 from .known import Known, known, readable
 from .library import modules_of
+from .lost_steps import require_steps
 from .matlab import matlab_tree
 from .meaning import ADVICE, Meaning
 from .names import MARK, Scope
@@ -54,7 +54,7 @@ def traced(data: dict[str, Any]) -> tuple[dict[str, Any], dict[str, str]] | None
     if one is None:
         return None
     label, text, found = one
-    if DOWNWARDS.search(text):
+    if found.is_downwards(text):
         return None  # refused where functions are read
     if len(text) > LONGEST_TEXT or "Symbol(" in text:
         return None
@@ -102,6 +102,7 @@ class Reader(Forms):
         if found is None:
             found = self._of_functions()
         rows, meaning = found
+        require_steps(self.tree, self.known)
         return self._fields(rows, meaning)
 
     # which part of the text
@@ -272,7 +273,8 @@ class Reader(Forms):
         made, texts = shortened(made, texts)
         define = self.data.get("define", {})
         used = " ".join([*texts, *made.values()])
-        kept = {k: v for k, v in define.items() if self._is_kept(str(k), v, used)} if isinstance(define, dict) else {}
+        define = {k: self.known.defined.get(str(k), v) for k, v in define.items()} if isinstance(define, dict) else {}
+        kept = {k: v for k, v in define.items() if self._is_kept(str(k), v, used)}
         bodies = self.data.get("bodies")
         if isinstance(bodies, list):
             bodies = [self._renamed(b) for b in bodies]
@@ -294,8 +296,8 @@ class Reader(Forms):
     def _is_kept(self, name: str, value: Any, used: str) -> bool:
         if (re.search(r"[\[({]", name) and not name.endswith("(t)")) or name.endswith("_"):
             return False
-        if isinstance(value, str) and name == f"{value.strip()}(t)":
-            return False  # f(t) is f
+        if isinstance(value, str) and (name == f"{value.strip()}(t)" or name == value.strip().strip("_") != value):
+            return False  # f(t) is f, and g_ is g
         return not (isinstance(value, str) and "[" in value and not re.search(rf"(?<!\w){re.escape(name)}(?!\w)", used))
 
 
