@@ -29,7 +29,7 @@ class Declared(Expressions):
 
     @cached_property
     def called(self) -> dict[str, str]:
-        """typedef Eigen::Matrix<double, 2, 1> Vector; using Vector = …: what a type's name stands for, where it is one."""
+        """typedef Eigen::Matrix<double, 2, 1> Vector; using Vector = …: what a type's name stands for."""
         found: dict[str, set[str]] = {}
         for one in RENAMED.finditer(self.source.decode("utf-8", "replace")):
             found.setdefault(one["name"] or one["new"], set()).add(one["kind"] or one["old"])
@@ -49,7 +49,7 @@ class Declared(Expressions):
 
     def of_type(self, kind: str, kind_node: Node | None) -> nodes.Node | None:
         """Eigen's Matrix2d and Vector3d, std::array<double, 4>, and names that the text gives to them."""
-        kind = self.called.get(kind.split("&")[0].replace("const", "").strip(), kind)
+        kind = self.called.get(kind.split("&", maxsplit=1)[0].replace("const", "").strip(), kind)
         found = re.search(r"\b(?P<what>Matrix|Vector|mat|vec|dvec)(?P<n>[2-9])[df]?\b", kind)
         if found:
             n = nodes.Number(found["n"])

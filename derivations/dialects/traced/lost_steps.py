@@ -54,6 +54,31 @@ def _is_step(word: str, known: Known) -> bool:
     return (STEP.fullmatch(word) or STEP.fullmatch(last)) is not None and not known.is_quantity(last)
 
 
+def stepped(one: nodes.Assign, known: Known) -> tuple[str, str, nodes.Node] | None:
+    """new_w, w and alpha of new_w = w + alpha*dt; None of other statements."""
+    match one:
+        case nodes.Assign(
+            target=nodes.Word(name=new),
+            value=nodes.Binary(sign="+", left=nodes.Word(name=old), right=added),
+            sign="",
+        ) if new != old:
+            bare = _per_step(added, known)
+            return None if bare is None else (new, old, bare)
+    return None
+
+
+def _per_step(node: nodes.Node, known: Known) -> nodes.Node | None:
+    """alpha of alpha*dt or dt*alpha; None without a step."""
+    if not isinstance(node, nodes.Binary) or node.sign != "*":
+        return None
+    if _is_step(nodes.dotted(node.right) or "", known):
+        return node.left
+    if _is_step(nodes.dotted(node.left) or "", known):
+        return node.right
+    left = _per_step(node.left, known)
+    return None if left is None else nodes.Binary("*", left, node.right)
+
+
 def _added(one: nodes.Assign) -> tuple[str, nodes.Node | None]:
     """The name that is stepped, and what is added."""
     name = _name(one.target)

@@ -122,3 +122,71 @@ def test_calls_of_a_cpp_vector_count_from_nought(tmp_path):
         " dy(1) = -m*g*l*sin(th)/(I + m*l*l);\n return dy;\n}\n"
     )
     assert verdict(tmp_path, ONE_BODY + program) == "correct"
+
+
+CART = """system = 'mechanism'
+from = 'up'
+[[bodies]]
+name = 'cart'
+coordinate = 'x'
+joint = 'slide'
+mass = 'm_c'
+drive = 'f'
+[[bodies]]
+coordinate = 'theta'
+mass = 'm_p'
+length = 'l'
+[define]
+'q[0]' = 'x'
+'q[1]' = 'theta'
+'q_dot[0]' = "x'"
+'q_dot[1]' = "theta'"
+'u[0]' = 'f'
+[equations]
+1 = '''
+"""
+
+
+@pytest.mark.parametrize(
+    ("column", "right"), [("[[1], [0]]", "correct"), ("[[0], [1]]", "wrong"), ("[[1], [1]]", "wrong")]
+)
+def test_a_column_times_an_input_drives_what_it_says(tmp_path, column, right):
+    program = (
+        "def f(q, q_dot, u):\n    _, theta = q\n    _, theta_dot = q_dot\n"
+        "    D = np.array([[m_c + m_p, m_p*l*np.cos(theta)], [m_p*l*np.cos(theta), m_p*l**2]])\n"
+        "    C = np.array([-m_p*l*theta_dot**2*np.sin(theta), 0])\n    G = np.array([0, -m_p*g*l*np.sin(theta)])\n"
+        f"    B = np.array({column})\n    return np.concatenate([q_dot, np.linalg.solve(D, B @ u - C - G)])\n"
+    )
+    assert verdict(tmp_path, CART + program) == right
+
+
+PENDULUM_STEP = (
+    "def step(state, action):\n    th = state[0]\n    w = state[1]\n    dt = 0.05\n"
+    "    new_w = w + (-m*g*l*np.sin(th)/(I + m*l**2)) * dt\n    new_th = th + new_w * dt\n"
+    "    return np.array([new_th, new_w])\n"
+)
+WITH_STATE = ONE_BODY.replace("[define]\n", "[define]\n'state[0]' = 'th'\n'state[1]' = \"th'\"\n")
+
+
+def test_a_step_that_gives_a_new_state_back_is_read(tmp_path):
+    assert verdict(tmp_path, WITH_STATE + PENDULUM_STEP) == "correct"
+    assert verdict(tmp_path, WITH_STATE + PENDULUM_STEP.replace("(-m", "(m")) == "wrong"
+
+
+@pytest.mark.parametrize(
+    ("was", "now"), [("[new_th, new_w]", "[new_w, new_th]"), ("th + new_w", "th + l"), ("2)) * dt", "2))")]
+)
+def test_a_new_state_that_is_no_step_of_the_old_one_is_refused(tmp_path, was, now):
+    with pytest.raises(InvalidInput, match=r"state|step"):
+        verdict(tmp_path, WITH_STATE + PENDULUM_STEP.replace(was, now))
+
+
+@pytest.mark.parametrize(("sign", "right"), [("-", "correct"), ("+", "wrong")])
+def test_a_rate_of_a_momentum_that_is_called_ddt_is_no_acceleration(tmp_path, sign, right):
+    script = (
+        "syms m l g t th(t) q_d\nT = m*l^2*diff(th,t)^2/2;\nV = -m*g*l*cos(th);\nL = T - V;\n"
+        "L = subs(L, diff(th,t), q_d);\ndLdqd = diff(L, q_d);\n"
+        f"ddt = diff(subs(dLdqd, q_d, diff(th,t)), t);\ndLdq = diff(L, th);\neq1 = ddt {sign} dLdq == 0;\n"
+    )
+    text = ONE_BODY.replace("inertia = 'I'\n", "").replace('[define]\nw = "th\'"\n', "")
+    assert verdict(tmp_path, text + script) == right
