@@ -349,7 +349,7 @@ class GrammarReader(Reader):
             values = moved[places[k][1]]
             if len(values) > 1:
                 raise Doubtful(f"{places[k][1][-1]} is changed more than once; give the equations alone")
-            accelerations.append(formula(values[0]))
+            accelerations.append(self._in_the_end(formula(values[0]), scope))
             mark = MARK.fullmatch(accelerations[-1].text)
             if mark and STEP.fullmatch(mark[1].split("|")[-1]) and not self.known.is_quantity(mark[1].split("|")[-1]):
                 raise Doubtful(f"{places[k][1][-1]} is changed by the step alone; give the equations alone")
@@ -357,6 +357,15 @@ class GrammarReader(Reader):
         self.own_state = [places[k][0] for k in range(self.count)] + rates
         entries = [*(Formula(Outside(rate).mark) for rate in rates), *accelerations]
         return self._of_state(entries, scope, parameters)
+
+    def _in_the_end(self, value: Formula, scope: Scope) -> Formula:
+        """omega += alpha*dt; …; alpha = …: what the name comes to behind the step, for the next one."""
+        mark = MARK.fullmatch(value.text)
+        path = path_of(mark[1]) if mark else ()
+        held = scope.find(str(path[0])) if len(path) == 1 else self.follower.expressions.changed.get(path)
+        if isinstance(held, Broken):
+            raise Doubtful(held.why)
+        return held if isinstance(held, Formula) else value
 
     def _says_accelerations(self) -> bool:
         """Whether [define] has a name for each acceleration, and one of these is a field or name that is stepped with."""

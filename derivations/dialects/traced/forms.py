@@ -421,7 +421,11 @@ class Forms:
         if len(rows) != self.count and not any(o[0] == -1 for o in meaning.order.values()):
             raise NotFollowed(f"{len(rows)} accelerations for {self.count} coordinates; {ADVICE}")
         meaning.by_names(self._paths(Formula(f"{left} {right}") for left, right in rows))
-        return [(self._said(left, meaning), self._said(right, meaning)) for left, right in rows], meaning
+        made = [(self._said(left, meaning), self._said(right, meaning)) for left, right in rows]
+        same = next((left for left, right in made if left.strip("() ") == right.strip("() ")), None)
+        if same is not None:
+            raise NotFollowed(f"what {same} comes to is not said; give the line that computes it")
+        return made, meaning
 
 
 def _loose(value: Value) -> Value:

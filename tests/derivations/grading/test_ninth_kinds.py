@@ -190,3 +190,16 @@ def test_a_rate_of_a_momentum_that_is_called_ddt_is_no_acceleration(tmp_path, si
     )
     text = ONE_BODY.replace("inertia = 'I'\n", "").replace('[define]\nw = "th\'"\n', "")
     assert verdict(tmp_path, text + script) == right
+
+
+AFTER = "void step() { omega += alpha*dt; theta += omega*dt; ALPHA }"
+ONE_POINT = ONE_BODY.replace("inertia = 'I'\n", "").replace("coordinate = 'th'", "coordinate = 'theta'").replace(
+    "w = \"th'\"", "omega = \"theta'\""
+)  # fmt: skip
+
+
+def test_an_acceleration_for_the_next_step_is_what_the_program_computes_last(tmp_path):
+    assert verdict(tmp_path, ONE_POINT + AFTER.replace("ALPHA", "alpha = -g/l*sin(theta);")) == "correct"
+    assert verdict(tmp_path, ONE_POINT + AFTER.replace("ALPHA", "alpha = g/l*sin(theta);")) == "wrong"
+    with pytest.raises(InvalidInput, match="not said"):
+        verdict(tmp_path, ONE_POINT + AFTER.replace("ALPHA", ""))
