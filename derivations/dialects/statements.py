@@ -160,7 +160,11 @@ def _parameters(text: str) -> tuple[str, ...]:
         re.sub(r"^.*[\s&*](\w+)(?:\s*\[\d?\])?$", r"\1", part, flags=re.DOTALL) if part[:1] != "[" else part
         for part in bare
     ]  # double y[4], const state_type &x
-    return tuple(name for name in bare if name and name not in ("self", "this", "*", "/"))
+    named = tuple(name for name in bare if name and name not in ("self", "this", "*", "/"))
+    twice = next((name for name in named if name not in ("~", "_") and named.count(name) > 1), None)
+    if twice is not None:
+        raise InvalidInput(f"{twice} is the name of two parameters; give each its own")
+    return named
 
 
 def _lines(text: str) -> list[str]:

@@ -115,7 +115,13 @@ def declared(
     space = Space.general(len(bodies), own)
     symbols = {name: space.own(name) for name in names}
     plain = [base + index for base, index in coordinates]
-    if len(set(plain)) < len(plain) or set(plain) & set(names):
+    twice = sorted(set(plain) & set(names))
+    if twice and len(set(plain)) == len(plain):
+        raise InvalidInput(
+            f"bodies: {twice[0]} is a coordinate, and what a body has is made of other letters; every coordinate needs "
+            "a name of its own"
+        )
+    if len(set(plain)) < len(plain):
         raise InvalidInput("bodies: every coordinate needs a name of its own")
     words = _words(coordinates, frozenset(names), apart)
     made = tuple(_body(b, place, bodies, symbols, space, words) for place, b in enumerate(bodies))

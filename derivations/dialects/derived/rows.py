@@ -91,11 +91,18 @@ def trees_of(text: str) -> list[tuple[tuple[nodes.Statement, ...], bool]]:
 
 
 def _of_start(tree: tuple[nodes.Statement, ...] | None) -> tuple[nodes.Statement, ...] | None:
-    """The statements of a class whose only function is __init__, as if they stood alone; any other text as it is."""
+    """The statements of a class whose only function is __init__, or of the only function, where it takes nothing, as if
+    they stood alone; any other text as it is."""
     functions = [s for s in tree or () if isinstance(s, nodes.Define)]
-    if tree is None or [f.name for f in functions] != ["__init__"]:
+    if tree is None or len(functions) != 1:
         return tree
-    return (*(s for s in tree if not isinstance(s, nodes.Define)), *functions[0].body)
+    (only,) = functions
+    if only.name == "__init__":
+        return (*(s for s in tree if not isinstance(s, nodes.Define)), *only.body)
+    if only.parameters or any(isinstance(s, nodes.Assign) and repr(nodes.Word(only.name)) in repr(s) for s in tree):
+        return tree
+    body = only.body[:-1] if isinstance(only.body[-1], nodes.Return) else only.body
+    return (*(s for s in tree if not isinstance(s, nodes.Define)), *body)
 
 
 def _only_text(data: dict[str, Any]) -> tuple[str, str, str]:
@@ -270,6 +277,8 @@ class ScriptReader(Reader):
         if named:
             return top, _number(top.names[named[-1]])
         functions = [n for n in self.follower.functions if LAGRANGIAN.fullmatch(n)]
+        if not functions and {*self.follower.functions} <= {"__init__", "__call__"}:
+            functions = [n for n in self.follower.functions if n == "__call__"]
         if len(functions) == 1:
             scope, value, _ = self.follower.of_function(self.follower.functions[functions[0]])
             if value is None:

@@ -55,11 +55,18 @@ class GrammarCalls(Calls):
                 return self.through(found, node, scope)
             if found is None and of.name in self.functions:
                 return self.through(self.chosen(of.name, node), node, scope)
+            if found is None and self.is_vector_of(of.name, scope) and len(node.arguments) == 1:
+                return self.expressions.entry(Outside((of.name,)), self.given(node, scope), 0)  # x(1)
         if isinstance(of, nodes.Member) and of.of == nodes.Word("self") and of.name in self.functions:
             return self.through(self.chosen(of.name, node), node, scope)
         if isinstance(of, nodes.Member):
             return self.of_member(of, node, scope)
         return super().call(node, scope)
+
+    def is_vector_of(self, name: str, scope: Scope) -> bool:
+        """Whether a parameter of C++ is called, as Eigen's and CasADi's vectors are."""
+        is_cpp = self.follower.language.grammar == "tree_sitter_cpp"
+        return is_cpp and any(name in one.parameters for one in scope.all)
 
     def of_member(self, of: nodes.Member, node: nodes.Call, scope: Scope) -> Value:
         """A method of a value."""

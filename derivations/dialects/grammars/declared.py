@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from ..traced import nodes
@@ -11,6 +12,11 @@ from .expressions import Expressions
 
 if TYPE_CHECKING:
     from tree_sitter import Node
+
+RENAMED = re.compile(
+    r"\btypedef\s+(?P<kind>[\w:]{1,40}\s*(?:<[^;<>]{1,60}>)?)\s+(?P<name>\w{1,40})\s*;"
+    r"|\busing\s+(?P<new>\w{1,40})\s*=\s*(?P<old>[\w:]{1,40}\s*(?:<[^;<>]{1,60}>)?)\s*;"
+)
 
 
 def is_count(value: nodes.Node) -> bool:
@@ -20,6 +26,14 @@ def is_count(value: nodes.Node) -> bool:
 
 class Declared(Expressions):
     """Declarations of C++'s arrays, vectors, matrices and structs."""
+
+    @cached_property
+    def called(self) -> dict[str, str]:
+        """typedef Eigen::Matrix<double, 2, 1> Vector; using Vector = …: what a type's name stands for."""
+        found: dict[str, set[str]] = {}
+        for one in RENAMED.finditer(self.source.decode("utf-8", "replace")):
+            found.setdefault(one["name"] or one["new"], set()).add(one["kind"] or one["old"])
+        return {name: kinds.pop() for name, kinds in found.items() if len(kinds) == 1}
 
     def unfilled(self, name: Node, kind: str, kind_node: Node | None) -> nodes.Node | None:
         """What a name stands for that is declared without a value: an array of a known size, or nothing yet."""
@@ -34,7 +48,8 @@ class Declared(Expressions):
         return None
 
     def of_type(self, kind: str, kind_node: Node | None) -> nodes.Node | None:
-        """Eigen's Matrix2d and Vector3d, std::array<double, 4>."""
+        """Eigen's Matrix2d and Vector3d, std::array<double, 4>, and names that the text gives to them."""
+        kind = self.called.get(kind.split("&", maxsplit=1)[0].replace("const", "").strip(), kind)
         found = re.search(r"\b(?P<what>Matrix|Vector|mat|vec|dvec)(?P<n>[2-9])[df]?\b", kind)
         if found:
             n = nodes.Number(found["n"])

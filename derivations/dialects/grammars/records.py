@@ -98,6 +98,8 @@ class GrammarExpressions(Expressions):
                 raise NotFollowed(found.why)
             if found is not None:
                 return found
+            if not of.path and isinstance(node.of, nodes.Word) and self.top.names.get(node.of.name) is of:
+                return Outside((node.of.name, node.name))  # of a thing that the class or the text has
             if not of.path:
                 raise NotFollowed(f"{dotted(node) or node.name} is read before it is given a value")
             return Outside((*of.path, node.name))
@@ -108,7 +110,8 @@ class GrammarExpressions(Expressions):
                 raise NotFollowed(found.why)
             if found is not None:
                 return found
-            if node.name in COUNTS and not self.names.known.is_quantity(node.name):
+            declared = any(key.endswith(f".{node.name}") for key in self.names.known.defined)
+            if node.name in COUNTS and not declared and not self.names.known.is_quantity(node.name):
                 return self.count(of)
             own = self.free(node.name, scope) if node.name not in self.names.known.defined else None
             if isinstance(own, Local) and not own.parameters and of.path == ("self",):

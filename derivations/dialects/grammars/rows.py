@@ -9,11 +9,11 @@ from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
 from ....models.errors import InvalidInput
-from ..statements import DOWNWARDS
 from ..traced import nodes
 from ..traced.forms import Rows
 from ..traced.known import Known
-from ..traced.meaning import Meaning, Path, path_of
+from ..traced.lost_steps import STEP
+from ..traced.meaning import Meaning, Path, path_of, rendered
 from ..traced.names import MARK, Scope
 from ..traced.rows import TOO_DEEP, Reader, one_text, prefix_for
 from ..traced.values import (
@@ -33,7 +33,6 @@ from .follow import GrammarFollower
 from .functions import Functions
 from .languages.language import Language
 from .parsed import parsed
-from .steps import STEP
 
 DOWN = "g is a negative number here; give it without its sign, and the sign in the rows"
 NO_FUNCTION = "no function with the equations of motion is found; give the text of the one that has them"
@@ -58,7 +57,7 @@ def from_grammars(data: dict[str, Any]) -> tuple[dict[str, Any], dict[str, str]]
         statements = reader.program()
         if not _is_program(statements):
             return None
-        if DOWNWARDS.search(text):
+        if found.is_downwards(text):
             raise NotFollowed(DOWN)
         made = GrammarReader(data, found, statements, language, prefix_for(text))
         made.follower.changed = frozenset(reader.changed)
@@ -82,6 +81,11 @@ def _all(part: object) -> Iterator[nodes.At]:
             yield part
         for one in fields(part):
             yield from _all(getattr(part, one.name))
+
+
+def from_zero_key(key: str) -> str:
+    """x[0] of 'x(0)' in [define]: Eigen and CasADi count from 0 in round brackets, too."""
+    return re.sub(r"\(\s*(\d+)\s*\)$", r"[\1]", key)
 
 
 def places_in(body: Sequence[nodes.Statement]) -> dict[str, set[int]]:
@@ -116,6 +120,8 @@ class GrammarReader(Reader):
     def __init__(
         self, data: dict[str, Any], found: Known, tree: Sequence[nodes.Statement], language: Language, prefix: str
     ) -> None:
+        if language.grammar == "tree_sitter_cpp":
+            found = replace(found, defined={from_zero_key(k): v for k, v in found.defined.items()})
         super().__init__(data, found, tree, matlab=False, prefix=prefix)
         self.follower = GrammarFollower(found, tree, language, prefix)
         self.own_state: list[Path] | None = None
@@ -316,9 +322,11 @@ class GrammarReader(Reader):
     def _by_steps(self, scope: Scope, parameters: Sequence[str]) -> tuple[Rows, Meaning] | None:
         """theta += omega*dt; omega += acceleration*dt."""
         moved = self.follower.moved
+        if self._says_accelerations():  # a step of another order, as velocity Verlet's, says nothing more
+            moved = {}
         places: dict[int, tuple[Path, Path]] = {}
         for path, values in moved.items():
-            k = self.known.coordinate(str(path[-1]))
+            k = self._coordinate_at(path)
             if k is None or isinstance(values[0], Broken):
                 continue
             mark = MARK.fullmatch(formula(values[0]).text)
@@ -330,7 +338,7 @@ class GrammarReader(Reader):
                 raise Doubtful(f"{path[-1]} is changed more than once; give the equations alone")
             places[k] = path, path_of(mark[1])
         if len(places) != self.count or any(rate not in moved for _, rate in places.values()):
-            stepped = [str(p[-1]) for p in moved if self.known.coordinate(str(p[-1])) is not None]
+            stepped = [str(p[-1]) for p in moved if self._coordinate_at(p) is not None]
             if stepped:
                 raise Doubtful(
                     f"{stepped[0]} is stepped, and what its rate's step is, is not plain; give the equations alone"
@@ -341,7 +349,7 @@ class GrammarReader(Reader):
             values = moved[places[k][1]]
             if len(values) > 1:
                 raise Doubtful(f"{places[k][1][-1]} is changed more than once; give the equations alone")
-            accelerations.append(formula(values[0]))
+            accelerations.append(self._in_the_end(formula(values[0]), scope))
             mark = MARK.fullmatch(accelerations[-1].text)
             if mark and STEP.fullmatch(mark[1].split("|")[-1]) and not self.known.is_quantity(mark[1].split("|")[-1]):
                 raise Doubtful(f"{places[k][1][-1]} is changed by the step alone; give the equations alone")
@@ -350,10 +358,29 @@ class GrammarReader(Reader):
         entries = [*(Formula(Outside(rate).mark) for rate in rates), *accelerations]
         return self._of_state(entries, scope, parameters)
 
+    def _in_the_end(self, value: Formula, scope: Scope) -> Formula:
+        """omega += alpha*dt; …; alpha = …: what the name comes to behind the step, for the next one."""
+        mark = MARK.fullmatch(value.text)
+        path = path_of(mark[1]) if mark else ()
+        held = scope.find(str(path[0])) if len(path) == 1 else self.follower.expressions.changed.get(path)
+        if isinstance(held, Broken):
+            raise Doubtful(held.why)
+        return held if isinstance(held, Formula) else value
+
+    def _says_accelerations(self) -> bool:
+        """Whether [define] has a name for each acceleration, and one of these is a field or name that is stepped with."""
+        said = [self.known.of_rate(name, 2) for name, text in self.known.defined.items() if text.strip().endswith("''")]
+        return {k for k in said if k is not None} == set(range(self.count))
+
+    def _coordinate_at(self, path: Path) -> int | None:
+        """The coordinate that a name or a field is: as [define] says of the field, or by its own name."""
+        said = self.known.defined.get(rendered(path, self.follower.names.first))
+        return self.known.coordinate(str(path[-1]) if said is None else said.replace("\\", ""))
+
     def _is_no_rate(self, path: Path, k: int) -> bool:
         """Whether what a coordinate is changed by is a step alone, or another coordinate's rate by its name."""
         last = str(path[-1])
-        of = self.known.of_rate(last, 1)
+        of = self.known.of_rate(self.known.defined.get(rendered(path, self.follower.names.first), last), 1)
         return (of is not None and of != k) or (STEP.fullmatch(last) is not None and not self.known.is_quantity(last))
 
     def _has_all(self, value: Value) -> bool:

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from functools import cached_property
 
 from ..traced import nodes
+from ..traced.lost_steps import STEP
 from ..traced.names import Scope
-from ..traced.values import Broken, Formula, NotFollowed, Outside, Value
+from ..traced.values import Array, Broken, Formula, NotFollowed, Outside, Record, Value
 from .places import Places
 
-STEP = re.compile(
-    r"(?:self\.)?(?:dt|h|delta|deltaTime|timestep|timeStep|time_step|DT|dT|step|STEP|Time\.deltaTime|Time\.fixedDeltaTime|deltatime|elapsed|dt_|DELTA)"
-)
 STALE = "{0} is computed from what was changed before; compute first, step then"
 
 
@@ -28,6 +25,30 @@ def assigned_in(part: object) -> Iterator[nodes.Assign]:
             yield part
         for one in fields(part):
             yield from assigned_in(getattr(part, one.name))
+
+
+def words_in(part: object, kind: type | tuple[type, ...] = (nodes.Word, nodes.Member)) -> Iterator[nodes.Node]:
+    """All parts of one kind of an expression, the whole among them."""
+    if isinstance(part, tuple | list):
+        for one in part:
+            yield from words_in(one, kind)
+    elif is_dataclass(part) and not isinstance(part, type):
+        if isinstance(part, kind):
+            yield part  # type: ignore[misc]
+        for one in fields(part):
+            yield from words_in(getattr(part, one.name), kind)
+
+
+def _entries(value: Value) -> list[Formula]:
+    return value.entries if isinstance(value, Array) else [value] if isinstance(value, Formula) else []
+
+
+def step_name(node: nodes.Node) -> str:
+    """dt, this.dt, clock.step()"""
+    if isinstance(node, nodes.Call) and not node.arguments and not node.named:
+        of = nodes.dotted(node.of)
+        return f"{of}()" if of else ""
+    return nodes.dotted(node) or ""
 
 
 class Steps(Places):
@@ -49,10 +70,10 @@ class Steps(Places):
         added = self._added(statement, target)
         if added is None:
             return False
-        if path[-1] in ("t", "time"):
+        if path[-1] in ("t", "time") or self._is_wrapped(added[1], target):
             return True
         before = self._before(target, scope)
-        is_stale = isinstance(before, Broken) and path in self.moved
+        is_stale = path in self.moved
         if not is_stale and not (isinstance(before, Outside) and self._is_state(path)):
             return False
         sign, node = added
@@ -69,8 +90,28 @@ class Steps(Places):
         self.moved.setdefault(path, []).append(made)
         if statement.sign not in ("+", "-", ""):
             self.doubts.append(f"{path[-1]} is changed more than once; give the equations alone")
-        self._forget(target, scope, Broken(STALE.format(path[-1])))
+        is_kept = self._has_step(node) and not self._is_held(path, scope)
+        self._forget(target, scope, Outside(path) if is_kept else Broken(STALE.format(path[-1])))
         return True
+
+    def _is_wrapped(self, node: nodes.Node, target: nodes.Node) -> bool:
+        """theta -= floor(theta/(2π))*2π: the angle is the same."""
+        return any(
+            isinstance(one, nodes.Call)
+            and (nodes.dotted(one.of) or "").split(".")[-1] in ("floor", "round", "trunc", "rint")
+            and any(self._plain(part, self.top) == target for part in words_in(one.arguments))
+            for one in words_in(node, nodes.Call)
+        )
+
+    def _has_step(self, node: nodes.Node) -> bool:
+        """Whether a step of time stands in what is added: then the old value and the new one are one in the limit."""
+        return any(self._is_step(one) for one in words_in(node, object))
+
+    def _is_held(self, path: tuple[str | int, ...], scope: Scope) -> bool:
+        """Whether another name has the old value, x_old = x: the new one is another thing then."""
+        mark = Outside(path).mark
+        held = [value for one in scope.all for value in one.names.values()]
+        return any(value == Outside(path) or mark in (e.text for e in _entries(value)) for value in held)
 
     def _path(self, node: nodes.Node, scope: Scope) -> tuple[str | int, ...] | None:
         """Where a quantity from outside stands."""
@@ -85,6 +126,8 @@ class Steps(Places):
                 of = self.expressions.value(node.of, scope)
             except NotFollowed:
                 return None
+            if isinstance(of, Record) and isinstance(node.of, nodes.Word) and self.top.names.get(node.of.name) is of:
+                return (node.of.name, node.name)  # of a thing that the class has
             return (*of.path, node.name) if isinstance(of, Outside) else None
         return None
 
@@ -113,7 +156,7 @@ class Steps(Places):
         except NotFollowed as error:
             return Broken(str(error))
 
-    def _forget(self, target: nodes.Node, scope: Scope, value: Broken) -> None:
+    def _forget(self, target: nodes.Node, scope: Scope, value: Value) -> None:
         if isinstance(target, nodes.Word):
             holder = (
                 scope
@@ -125,6 +168,8 @@ class Steps(Places):
         of = self.expressions.value(target.of, scope) if isinstance(target, nodes.Member) else None
         if isinstance(of, Outside) and isinstance(target, nodes.Member):
             self.expressions.changed[(*of.path, target.name)] = value
+        elif isinstance(of, Record) and isinstance(target, nodes.Member):
+            of.fields[target.name] = value
 
     @cached_property
     def _own_steps(self) -> set[str]:
@@ -135,7 +180,7 @@ class Steps(Places):
             target = nodes.dotted(one.target) or ""
             added = self._added(one, one.target) if target else None
             if added is not None and isinstance(added[1], nodes.Binary) and added[1].sign == "*":
-                factors[target] = {nodes.dotted(added[1].left) or "", nodes.dotted(added[1].right) or ""}
+                factors[target] = {step_name(added[1].left), step_name(added[1].right)}
             if factors:
                 set_later |= set(nodes.set_by(one.target))
         found = {
@@ -149,8 +194,10 @@ class Steps(Places):
         return self.known.is_quantity(last) or last in self.known.drives or self.known.of_rate(last, 1) is not None
 
     def _is_step(self, node: nodes.Node) -> bool:
-        name = nodes.dotted(node) or ""
-        return (STEP.fullmatch(name) is not None and not self.known.is_quantity(name)) or name in self._own_steps
+        name = step_name(node)
+        last = name.rpartition(".")[2]  # env.conf.h
+        is_named = STEP.fullmatch(name) is not None or STEP.fullmatch(last) is not None
+        return (is_named and not self.known.is_quantity(last)) or name in self._own_steps
 
     def _per_step(self, node: nodes.Node) -> nodes.Node:
         """omega of omega*dt. Raises NotFollowed for a sum, of which not every part may have the step."""

@@ -105,7 +105,8 @@ class _Lua(Parser):
         """{} that is filled entry by entry: as long as the last place that is a number."""
         places = [int(k) for k in re.findall(rf"(?<![\w.]){name}\s*\[\s*([0-9]{{1,2}})\s*\]\s*=(?!=)", self.source)]
         if not places:
-            return nodes.Listed(())
+            is_named = re.search(rf"(?<![\w.]){name}\s*\.\s*[A-Za-z_]\w*\s*=(?!=)", self.source) is not None
+            return nodes.Fields((), ()) if is_named else nodes.Listed(())
         zeros = nodes.Call(nodes.Word("zeros"), (nodes.Number(str(max(places))),))
         return nodes.Call(nodes.Word("unfilled·"), (nodes.Text(name), zeros))
 
@@ -204,6 +205,8 @@ class _Lua(Parser):
                 is_key = isinstance(place, nodes.Text)
                 node = nodes.Member(node, place.text) if is_key and isinstance(place, nodes.Text) else nodes.At(
                     node, (from_one(place),))  # fmt: skip
+            elif self.token.kind == "text" and isinstance(node, nodes.Word | nodes.Member):  # require "x"
+                node = nodes.Call(node, (nodes.Text(self.next().text[1:-1]),))
             elif self.is_sign(".", ":") and self.tokens[self.at + 1].kind == "word":
                 self.at += 1
                 node = nodes.Member(node, self.next().text)

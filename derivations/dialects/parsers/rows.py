@@ -9,7 +9,6 @@ from typing import Any
 from ....models.errors import InvalidInput
 from ..grammars.languages.language import Language
 from ..grammars.rows import DOWN, GrammarReader
-from ..statements import DOWNWARDS
 from ..traced import nodes
 from ..traced.forms import Rows
 from ..traced.meaning import Meaning
@@ -50,7 +49,7 @@ def from_parsers(data: dict[str, Any]) -> tuple[dict[str, Any], dict[str, str]] 
         raise InvalidInput(
             f"equations.{label:.40}: two parameters of {twice} have one name; give each a name of its own"
         )
-    if DOWNWARDS.search(text):
+    if found.is_downwards(text):
         raise InvalidInput(f"equations.{label:.40}: {DOWN}")
     try:
         return ProgramReader(data, found, statements, language, prefix_for(text)).read()

@@ -97,11 +97,13 @@ def _common(a: Array, b: Array) -> tuple[int, ...]:
     )
 
 
-def product(a: Value, b: Value) -> Value:
+def product(a: Value, b: Value) -> Value:  # noqa: PLR0911 -- one for each kind
     """The product of matrices and vectors; of numbers too."""
     if isinstance(a, Outside) and isinstance(b, Array):
         a = vector(a, b.shape[0]) if b.is_vector else a
     if isinstance(b, Outside) and isinstance(a, Array):
+        if a.kind == "array" and len(a.entries) > 1 and a.shape[-1] == 1 and len(a.shape) == 2:  # a column B @ u
+            return Array([times(x, vector(b, 1).entries[0]) for x in a.entries], (len(a.entries),), "array")
         b = vector(b, a.shape[-1]) if a.kind != "loose" or len(a.entries) > 1 else b
     if not isinstance(a, Array) or not isinstance(b, Array):
         return entrywise(a, b, times)

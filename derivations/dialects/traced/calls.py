@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from . import library, nodes
-from .arrays import determinant, entrywise, product, spread, turned
+from .arrays import determinant, entrywise, product, spread, turned, vector
 from .expressions import LONGEST_STATE, Expressions
 from .names import Scope
 from .nodes import dotted
@@ -339,9 +339,18 @@ class Calls:
             parts = first if first is not None else given
             if axis is None and len(given) > 1 and isinstance(given[1], Formula):
                 axis = given[1].whole
+        parts = [self.said_vector(part) for part in parts]
         if name == "cat" and self.expressions.matlab:
             axis, parts = (formula(given[0]).whole or 1) - 1, given[1:]
         return library.joined(name, parts, axis)
+
+    def said_vector(self, value: Value) -> Value:
+        """q_dot as a vector, where [define] says what 'q_dot[0]' and 'q_dot[1]' are."""
+        if not isinstance(value, Outside):
+            return value
+        said = self.expressions.names.known.defined
+        count = next(k for k in range(LONGEST_STATE + 1) if f"{value.path[-1]}[{k}]" not in said)
+        return vector(value, count) if count > 1 else value
 
     def length(self, given: list[Value], name: str) -> Value:
         """len(y)"""

@@ -15,8 +15,7 @@ from .names import Names, Scope, require_followed
 from .nodes import dotted, set_by
 from .values import Array, Broken, Formula, Local, NotFollowed, Outside, Several, Value, copied, outside_of
 
-MOST_STEPS, DEEPEST = 3000, 12
-GIVEN_BACK = "return"
+MOST_STEPS, DEEPEST, MOST_TURNS, GIVEN_BACK = 3000, 12, 100, "return"
 NOT_FOLLOWED = "'{}': assignments and one return are followed; write out what a loop or condition comes to"
 HARMLESS = frozenset((
     "print", "disp", "fprintf", "printf", "plot", "show", "figure", "title", "xlabel", "ylabel", "legend", "grid",
@@ -205,6 +204,8 @@ class Follower:
                 raise NotFollowed("a loop over several names at once; write it out")
             value = self.expressions.value(statement.over, scope)
             numbers: list[Value] = [Formula(str(k)) for k in reach(value)]
+            if len(numbers) > MOST_TURNS:
+                raise NotFollowed(f"a loop of more than {MOST_TURNS} turns; write out what it comes to")
         except NotFollowed as error:
             self._broken(statement.body, scope, f"{statement.line[:40]!r}: {error}")
             return None

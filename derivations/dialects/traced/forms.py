@@ -31,6 +31,7 @@ class Forms:
     known: Known
     follower: Follower
     refused: list[str]
+    kept_state: list[Path] | None = None  # the places of the state without a support whose motion is given
 
     @property
     def count(self) -> int:
@@ -51,9 +52,9 @@ class Forms:
         self, value: Value, scope: Scope, parameters: Sequence[str], names: Sequence[str] = ()
     ) -> tuple[Rows, Meaning] | None:
         """``names``: what the program calls the value, its parts, or the function that gives it back."""
-        entries = self._flat(value)
+        entries, self.kept_state = self._own(self._flat(value), parameters)
         if len(entries) == 2 * self.count:
-            return self._of_state(entries, scope, parameters)
+            return self._residual(entries, scope, parameters) or self._of_state(entries, scope, parameters)
         if len(entries) == self.count:
             meaning = self._meaning(parameters, entries, scope)
             each = [self.known.of_rate(name, 2) for name in names]
@@ -68,12 +69,53 @@ class Forms:
                 order = self._order(meaning, scope, parameters, value)
             else:
                 raise NotFollowed(f"are these {self.count} values the accelerations? Then call them so; or {ADVICE}")
-            for entry in entries:
+            for k, entry in zip(order, entries, strict=True):
                 if MARK.fullmatch(entry.text):
                     return None
+                if any(meaning.order.get(p) == (2, k) for p in self._paths([entry])):  # ddt = diff(p, t)
+                    raise NotFollowed("an acceleration stands in what it is; give the equations, or solve for it")
             rows = [(self._second(k), e.text) for k, e in zip(order, entries, strict=True)]
             return self._checked(rows, meaning)
         raise NotFollowed(f"the function returns {len(entries)} values for {self.count} coordinates; {ADVICE}")
+
+    def _own(self, entries: list[Formula], parameters: Sequence[str]) -> tuple[list[Formula], list[Path] | None]:
+        """The entries without those of a support whose motion is given, where [define] says all of the state."""
+        bodies = self.data.get("bodies")
+        given = [str(b.get("coordinate")) for b in bodies or () if isinstance(b, dict) and "motion" in b]
+        size = 2 * (self.count + len(given))
+        if not given or len(entries) != size:
+            return entries, None
+        first, said = self.follower.names.first, self.known.defined
+        for name in parameters:
+            keys = [(f"{name}[{k + first}]", f"{name}({k + 1})") for k in range(size)]
+            state = [next((said[key].replace(" ", "") for key in pair if key in said), "") for pair in keys]
+            if not all(state) or not all(f"{of}{rate}" in state for of in given for rate in ("", "'")):
+                continue
+            kept = [k for k in range(size) if state[k].rstrip("'") not in given]
+            for k in sorted({*range(size)} - {*kept}):
+                mark = MARK.fullmatch(entries[k].text)
+                means = said.get(str(path_of(mark[1])[-1]), "") if mark and len(path_of(mark[1])) == 1 else ""
+                at = path_of(mark[1])[-1] if mark and path_of(mark[1])[:-1] == (name,) else None
+                means = state[at] if isinstance(at, int) and at < size else means.replace(" ", "")
+                if means != f"{state[k]}'":
+                    raise NotFollowed(
+                        f"{name}: what is given back for {state[k]}, whose motion is given, is not its rate"
+                    )
+            return [entries[k] for k in kept], [(name, k) for k in kept]
+        return entries, None
+
+    def _residual(self, entries: list[Formula], scope: Scope, parameters: Sequence[str]) -> tuple[Rows, Meaning] | None:
+        """M*zdot + V of an implicit solver, where [define] says the entries of zdot: what is left over is 0."""
+        meaning = self._meaning(parameters, entries, scope)
+        own = [p for p, o in meaning.order.items() if o[0] == 2 and p[0] in parameters and isinstance(p[-1], int)]
+        second = [e for e in entries if set(self._paths([e])) & set(own)]
+        if len(second) != self.count or any(MARK.fullmatch(e.text) for e in second):
+            return None
+        for rest in (e for e in entries if e not in second):  # zdot(1) - z(3) says that a rate is itself
+            sides = re.fullmatch(r"(.+?)\+?\(?-(.+)", self._said(rest.text, meaning).replace(" ", ""))
+            if sides is None or sides[1].strip("()") != sides[2].strip("()"):
+                raise NotFollowed("which of these are equations of motion is not plain; give these alone")
+        return self._checked([(e.text, "0") for e in second], meaning, needs_second=False)
 
     def _is_acceleration(self, name: str) -> bool:
         """Whether a name says that it is of accelerations."""
@@ -97,7 +139,7 @@ class Forms:
 
     def _of_state(self, entries: list[Formula], scope: Scope, parameters: Sequence[str]) -> tuple[Rows, Meaning] | None:
         meaning = self._meaning(parameters, entries, scope)
-        state = self._state(meaning, parameters, entries)
+        state = self._known_state(meaning, parameters, entries)
         if state is not None:
             blank = Meaning(self.known, self.follower.names, parameters)
             try:
@@ -131,12 +173,28 @@ class Forms:
                 half = at + self.count if rates == list(range(self.count)) else at + 1
                 if half < len(entries) and half not in rates:
                     found.append((self._second(k), entries[half].text))
-        if state is None and len({left for left, _ in found}) == self.count == len(rates):
+        is_by_names = state is None or all(len(place) == 1 and place[0] in parameters for place in state)
+        if is_by_names and len({left for left, _ in found}) == self.count == len(rates):
             return self._checked(found, meaning)
         raise NotFollowed(f"which values of the state are rates is not plain from what is returned; {ADVICE}")
 
+    def _known_state(
+        self, meaning: Meaning, parameters: Sequence[str], entries: Sequence[Formula]
+    ) -> list[Path] | None:
+        """None, too, where [define] says all rates that are given back, and they are of another vector, q_dot."""
+        state = self._state(meaning, parameters, entries)
+        if state is None:
+            return None
+        marks = [MARK.fullmatch(e.text) for e in entries]
+        paths = [path_of(m[1]) for m in marks if m]
+        is_said = all(meaning.order.get(p, (9, 0))[0] == 1 and isinstance(p[-1], int) for p in paths)
+        is_apart = is_said and not {p[:-1] for p in paths} & {p[:-1] for p in state}
+        return None if len(paths) == self.count and is_apart else state
+
     def _state(self, meaning: Meaning, parameters: Sequence[str], entries: Sequence[Formula]) -> list[Path] | None:
         """The places of the state, in its order; None where that is not plain."""
+        if self.kept_state is not None:
+            return self.kept_state
         size = 2 * self.count
         bases: dict[Path, set[int]] = {}
         own = self._paths(entries)
@@ -363,7 +421,11 @@ class Forms:
         if len(rows) != self.count and not any(o[0] == -1 for o in meaning.order.values()):
             raise NotFollowed(f"{len(rows)} accelerations for {self.count} coordinates; {ADVICE}")
         meaning.by_names(self._paths(Formula(f"{left} {right}") for left, right in rows))
-        return [(self._said(left, meaning), self._said(right, meaning)) for left, right in rows], meaning
+        made = [(self._said(left, meaning), self._said(right, meaning)) for left, right in rows]
+        same = next((left for left, right in made if left.strip("() ") == right.strip("() ")), None)
+        if same is not None:
+            raise NotFollowed(f"what {same} comes to is not said; give the line that computes it")
+        return made, meaning
 
 
 def _loose(value: Value) -> Value:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from ..names import base_and_index, plain_name
+from ..statements import DOWNWARDS
 from ..table import known_of
 
 GRAVITY = frozenset((
@@ -53,6 +54,7 @@ SLIDING = ("v", "vel", "velocity", "vx")
 SLIDING_TWICE = ("a", "acc", "accel", "acceleration", "dv", "vdot", "dvdt", "ax")
 
 
+OF_TIME = re.compile(r"\b(?:sin|cos)\b.*(?<![\w\\])t(?!\w)")
 TWINS = (("theta", "th"), ("th", "theta"), ("phi", "varphi"), ("varphi", "phi"))  # where only one is declared
 
 
@@ -72,6 +74,15 @@ class Known:
     relative: bool = False
     free: frozenset[str] = field(default=frozenset())
 
+    def is_turned(self, name: str) -> bool:
+        """Whether [define] says that this gravity is counted upwards: g = '-G'."""
+        return any(re.fullmatch(rf"-\s*{re.escape(name)}", text.strip()) for text in self.defined.values())
+
+    def is_downwards(self, text: str) -> bool:
+        """Whether a text has a gravity that is a negative number, and [define] does not say so."""
+        found = DOWNWARDS.search(text)
+        return found is not None and not any(self.is_turned(word) for word in re.findall(r"[A-Za-z_]+", found[0]))
+
     def is_quantity(self, name: str) -> bool:
         """Whether a body has it."""
         return (plain_name(name.strip("_")) or "") in self.quantities
@@ -84,7 +95,7 @@ class Known:
         for spelled in (plain, *(plain.replace(a, b, 1) for a, b in TWINS if plain.startswith(a))):
             if spelled in self.coordinates and plain not in self.quantities:
                 return self.coordinates.index(spelled)
-        return None
+        return self.written.index(plain) if plain in self.written and plain not in self.quantities else None
 
     def of_rate(self, name: str, order: int) -> int | None:
         """The coordinate whose rate (order 1) or acceleration (order 2) is called so, by what stands in the name."""
@@ -127,6 +138,7 @@ def known(data: Mapping[str, Any]) -> Known:
     written = tuple(readable(name, found.quantities) for name in named)
     define = data.get("define")
     defined = {str(k): v for k, v in define.items() if isinstance(v, str)} if isinstance(define, dict) else {}
+    defined = {k: as_written(v, named, written) for k, v in defined.items()}
     defined |= {plain: v for k, v in defined.items() if (plain := _one_entry(k)) not in defined}
     slides = tuple(b.get("joint") == "slide" for b in moving)
     given = {str(b["drive"]).strip() for b in bodies if "drive" in b}
@@ -134,7 +146,15 @@ def known(data: Mapping[str, Any]) -> Known:
     coordinates = tuple(plain_name(name) or "" for name in named)
     said = [str(v) for v in (*defined.values(), *defined, *(b.get("coordinate", "") for b in bodies))]
     free = frozenset(w for text in said for w in re.findall(r"[^\W\d]\w*", text))
-    return Known(coordinates, written, slides, found.quantities, drives, defined, found.relative, free)
+    quantities = found.quantities | _of_motions(defined)
+    return Known(coordinates, written, slides, quantities, drives, defined, found.relative, free)
+
+
+def _of_motions(defined: Mapping[str, str]) -> frozenset[str]:
+    """a and w of a motion that is given, [define] y_s = 'a*sin(w*t)': quantities, whatever numbers they have."""
+    said = [text for text in defined.values() if OF_TIME.search(text)]
+    words = {w for text in said for w in re.findall(r"[^\W\d]\w*", text)} - {"t", "sin", "cos", "pi"}
+    return frozenset(plain for word in words if (plain := plain_name(word)))
 
 
 def _one_entry(name: str) -> str:
@@ -149,6 +169,14 @@ def readable(name: str, taken: frozenset[str]) -> str:
     """A coordinate's name for the rows: t1 is an angle here, and the reader's t is time."""
     found = re.fullmatch(r"t_?([1-9])", name)
     return f"theta{found[1]}" if found and f"theta{found[1]}" not in taken else name
+
+
+def as_written(text: str, named: Sequence[str], written: Sequence[str]) -> str:
+    """What [define] says, with the coordinates as the rows have them: theta1' of t1'."""
+    for name, readable_name in zip(named, written, strict=True):
+        if name != readable_name:
+            text = re.sub(rf"(?<![\w\\]){re.escape(name)}(?!\w)", readable_name, text)
+    return text
 
 
 def _split(coordinate: str) -> tuple[str, str]:

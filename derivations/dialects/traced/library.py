@@ -36,7 +36,7 @@ SAME = frozenset((
     "numpy", "tolist", "item", "list", "tuple", "simplify", "asanyarray", "ascontiguousarray", "full", "vec", "evalf",
     "expand", "trigsimp", "as_tensor", "to", "contiguous", "requires_grad_", "Float", "DM", "evalc", "astype", "cpu",
     "requires_grad", "real", "SX", "MX", "nsimplify", "deepcopy", "toarray", "atleast_1d", "single", "collapse",
-    "Parameter",
+    "Parameter", "unstack", "unbind",
 ))  # fmt: skip
 MADE = frozenset((
     "array", "tensor", "Tensor", "Matrix", "matrix", "mat", "ImmutableMatrix", "MutableDenseMatrix", "asmatrix",
@@ -61,6 +61,7 @@ SOLVES = frozenset((
 ))  # fmt: skip
 
 
+TIME_FIRST = re.compile(r"^«t»\*(?P<rate>«[^«»]+»|[0-9.]+)$")  # sin(t*w), which the readers of time have as w*t
 IMPORTED = re.compile(
     r"(?m)^\s*(?:import\s+(?:sympy|numpy|casadi|torch|jax|math)[\w.]*\s+as|from\s+torch\s+import(?=\s+nn\b))\s+(?P<name>\w+)"
 )
@@ -203,7 +204,8 @@ def wave(name: str, value: Value) -> Value:
             return ZERO
         if short == "cos" and x.text == "0":
             return ONE
-        return Formula(f"{short}({x.text})")
+        of = TIME_FIRST.sub(r"\g<rate>*«t»", x.text)
+        return Formula(f"{short}({of})")
 
     if isinstance(value, Array):
         return Array([one(x) for x in value.entries], value.shape, value.kind)

@@ -233,7 +233,7 @@ class Meaning:
             return counted
         for s in said:
             if s.strip("_") in GRAVITY:
-                return "g"
+                return s if self.known.is_turned(s) else "g"
             if is_entry and not re.fullmatch(r"\w+", s):
                 return f"({s})"  # [define] 'u[0]' = 'F - b*x'
         drive = self.drive(path)

@@ -12,6 +12,7 @@ from .values import Array, Broken, Formula, Local, NotFollowed, Outside, Value
 SHORT = 48  # characters of a formula that needs no name of its own
 MARK = re.compile(r"«([^«»]+)»")
 DECIMAL = re.compile(r"-?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:e[+-]?[0-9]+)?")
+NUMBERS_ALONE = re.compile(r"(?:(?<![A-Za-z])(?:pi|sqrt|sin|cos|tan|abs)(?![A-Za-z])|[0-9.]e|[-+*/^()0-9.\s])+")
 
 
 def _is_gravity(name: str) -> bool:
@@ -108,15 +109,15 @@ class Names:
         return value
 
     def _formula(self, name: str, value: Formula, line: str) -> Value:
-        constant = DECIMAL.fullmatch(value.text) is not None
-        if constant and _is_gravity(name) and value.text.startswith("-"):
+        constant = NUMBERS_ALONE.fullmatch(value.text) is not None
+        if constant and _is_gravity(name) and "-" in value.text.replace("e-", "") and not self.known.is_turned(name):
             raise NotFollowed("g is a negative number here; give it without its sign, and the sign in the rows")
         is_own = self.known.is_quantity(name) and self.known.coordinate(name) is None
         if (is_own or _is_gravity(name)) and name not in self.read:
             if not constant and any(m.split("|")[-1] == name for m in MARK.findall(value.text)):
                 raise NotFollowed(f"{name} is computed from another {name} here; give each a name of its own")
             if constant or self._is_constant(value):
-                return Outside((name,))  # m1 = 1.0, I = m*l^2/12: what is right for every value is right for it
+                return Outside((name,))  # m1 = 1.0, I = 7/12, m*l^2/12: what is right for every value is right for it
             if name.strip("_") in self.known.drives:
                 return Outside((name,))
         return self.line(value, line)

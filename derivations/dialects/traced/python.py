@@ -6,6 +6,7 @@ import ast
 import re
 import textwrap
 
+from ....models.errors import InvalidInput
 from . import nodes
 
 SIGNS: dict[type[ast.operator], str] = {
@@ -157,6 +158,9 @@ def _bound(target: ast.expr) -> str:
 
 def _parameters(args: ast.arguments) -> tuple[str, ...]:
     names = [a.arg for a in (*args.posonlyargs, *args.args, *args.kwonlyargs)]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise InvalidInput(f"{twice} is the name of two parameters, which is an error in Python; give each its own")
     return tuple(name for name in names if name not in NOT_SELF)
 
 
@@ -178,6 +182,10 @@ def _tree(node: ast.expr) -> nodes.Node:  # noqa: PLR0911, PLR0912 -- one for ea
             return nodes.Turned(_tree(of))
         case ast.Attribute(attr=name, value=of):
             return nodes.Member(_tree(of), name)
+        case ast.Subscript(value=ast.Attribute(attr="r_", value=of), slice=ast.Tuple(elts=parts)) if not any(
+            isinstance(part, ast.Slice) for part in parts
+        ):  # np.r_[a, b]
+            return nodes.Call(nodes.Member(_tree(of), "concatenate"), (nodes.Listed(tuple(map(_tree, parts))),))
         case ast.Subscript(value=of, slice=ast.Tuple(elts=places)):
             return nodes.At(_tree(of), tuple(map(_tree, places)))
         case ast.Subscript(value=of, slice=place):

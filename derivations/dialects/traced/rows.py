@@ -8,17 +8,17 @@ from typing import Any
 
 from ....models.errors import InvalidInput
 from ..letters.every_text import rows_of
-from ..statements import DOWNWARDS
 from . import nodes
 from .follow import Follower
 from .forms import Forms, Rows, needed
 from .known import Known, known, readable
 from .library import modules_of
+from .lost_steps import require_steps, stepped
 from .matlab import matlab_tree
-from .meaning import ADVICE, Meaning
+from .meaning import ADVICE, Meaning, path_of
 from .names import MARK, Scope
 from .python import python_tree
-from .values import Array, Broken, Doubtful, Local, NotFollowed, Several, Value
+from .values import Array, Broken, Doubtful, Local, NotFollowed, Outside, Several, Value, formula
 
 LONGEST_TEXT = 20_000
 LONG_SCRIPT = 6  # statements
@@ -54,7 +54,7 @@ def traced(data: dict[str, Any]) -> tuple[dict[str, Any], dict[str, str]] | None
     if one is None:
         return None
     label, text, found = one
-    if DOWNWARDS.search(text):
+    if found.is_downwards(text):
         return None  # refused where functions are read
     if len(text) > LONGEST_TEXT or "Symbol(" in text:
         return None
@@ -102,6 +102,7 @@ class Reader(Forms):
         if found is None:
             found = self._of_functions()
         rows, meaning = found
+        require_steps(self.tree, self.known)
         return self._fields(rows, meaning)
 
     # which part of the text
@@ -237,12 +238,40 @@ class Reader(Forms):
         equations = [e for e in follower.equations[before:] if self._has_accelerations(e[1])]
         if equations and value is not None:
             return self._equations(equations)
+        stepped_ones = None if value is None else self._of_new_values(define, value, scope)
+        if stepped_ones is not None:
+            return stepped_ones
         if value is not None and self._is_derivative(value):
             raise NotFollowed(reasons[-1] if reasons else ADVICE)
         made = self._by_parameter(scope, define) or self._by_names(scope, define.parameters)
         if made is None and reasons:
             raise NotFollowed(reasons[-1])
         return made
+
+    def _of_new_values(self, define: nodes.Define, value: Value, scope: Scope) -> tuple[Rows, Meaning] | None:
+        """new_w = w + alpha*dt; new_th = th + new_w*dt; return [new_th, new_w]: a step that changes nothing."""
+        steps = [s for one in define.body if isinstance(one, nodes.Assign) and (s := stepped(one, self.known))]
+        rates = {k: s for s in steps if (k := self.known.of_rate(s[1], 1)) is not None}
+        places = {k: s for s in steps if (k := self.known.coordinate(s[1])) is not None}
+        if not steps or not isinstance(value, Array | Several):
+            return None
+        entries = self._flat(value)
+        if not len(steps) == len(entries) == 2 * self.count == len(rates) + len(places):
+            return None
+        for k, (new, old, bare) in places.items():
+            if not isinstance(bare, nodes.Word) or bare.name not in rates[k][:2]:
+                raise Doubtful(
+                    f"{new}: {old} is stepped with something else than its rate; give the accelerations alone"
+                )
+        for new, old, _ in steps:
+            mark = MARK.fullmatch(formula(scope.find(old) or Outside((old,))).text)
+            place = next((p for p in reversed(path_of(mark[1]) if mark else ()) if isinstance(p, int)), None)
+            own = [k for k, e in enumerate(entries) if e == formula(scope.names[new])]
+            if mark is None or not own or (isinstance(place, int) and place not in own):
+                raise Doubtful(f"{new} is not given back where {old} stands in the state; give the accelerations alone")
+        seconds = [formula(self.follower.expressions.value(rates[k][2], scope)) for k in range(self.count)]
+        meaning = self._meaning(define.parameters, seconds, scope)
+        return self._checked([(self._second(k), e.text) for k, e in enumerate(seconds)], meaning)
 
     def _is_derivative(self, value: Value) -> bool:
         """Whether a value is a state's derivative, with rates in it: then it alone counts, whatever names there are."""
@@ -272,7 +301,8 @@ class Reader(Forms):
         made, texts = shortened(made, texts)
         define = self.data.get("define", {})
         used = " ".join([*texts, *made.values()])
-        kept = {k: v for k, v in define.items() if self._is_kept(str(k), v, used)} if isinstance(define, dict) else {}
+        define = {k: self.known.defined.get(str(k), v) for k, v in define.items()} if isinstance(define, dict) else {}
+        kept = {k: v for k, v in define.items() if self._is_kept(str(k), v, used)}
         bodies = self.data.get("bodies")
         if isinstance(bodies, list):
             bodies = [self._renamed(b) for b in bodies]
@@ -294,8 +324,8 @@ class Reader(Forms):
     def _is_kept(self, name: str, value: Any, used: str) -> bool:
         if (re.search(r"[\[({]", name) and not name.endswith("(t)")) or name.endswith("_"):
             return False
-        if isinstance(value, str) and name == f"{value.strip()}(t)":
-            return False  # f(t) is f
+        if isinstance(value, str) and (name == f"{value.strip()}(t)" or name == value.strip().strip("_") != value):
+            return False  # f(t) is f, and g_ is g
         return not (isinstance(value, str) and "[" in value and not re.search(rf"(?<!\w){re.escape(name)}(?!\w)", used))
 
 

@@ -141,7 +141,9 @@ def outside_of(value: Value) -> Value:
 
 
 def copied(value: Value) -> Value:
-    """An array that changes with no other; any other value as it is."""
+    """An array, or a thing with fields, that changes with no other; any other value as it is."""
+    if isinstance(value, Record):
+        return Record(dict(value.fields), value.path)
     return value.copied() if isinstance(value, Array) else value
 
 

@@ -260,7 +260,8 @@ CASES = [
         one("pend <- function(t, y, p) {\n theta <- y[1]\n w <- y[2]\n a <- -g/l*sin(theta)\n list(c(w, a))\n}"),
     ),
     ("stale", "refuse", one("void step() { omega += -g/l*sin(theta)*dt; theta += omega*dt; omega += 0*dt; }")),
-    ("twice", "refuse", one("void step() { theta += omega*dt; alpha = -g/l*sin(theta); omega += alpha*dt; }")),
+    ("place first", "correct", one("void step() { theta += omega*dt; alpha = -g/l*sin(theta); omega += alpha*dt; }")),
+    ("place first, lost", "wrong", one("void step() { theta += omega*dt; alpha = -g*sin(theta); omega += alpha*dt; }")),
     (
         "friction hack",
         "refuse",
