@@ -6,7 +6,7 @@ JOBS ?= 2
 # Slow tests wait for a third of their time: for processes of their own, and for time limits that these shall pass.
 SLOW_JOBS ?= 3
 
-.PHONY: check test test-slow test-all lint docs engines notebooks models kernels architecture clean
+.PHONY: check test test-slow test-proofs test-all lint docs engines notebooks models kernels architecture clean
 
 check: $(VENV)/.check  ## run the catalogue against every engine; writes furiko-report/
 	$(BIN)/furiko check
@@ -14,10 +14,13 @@ check: $(VENV)/.check  ## run the catalogue against every engine; writes furiko-
 test: $(VENV)/.test  ## run the tests, less the slow ones: some minutes
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m "not slow"
 
-test-slow: $(VENV)/.test  ## run the slow tests alone
-	$(BIN)/python -m pytest -n $(SLOW_JOBS) --dist worksteal -m slow
+test-slow: $(VENV)/.test  ## run the slow tests alone, less the proofs
+	$(BIN)/python -m pytest -n $(SLOW_JOBS) --dist worksteal -m "slow and not proof"
 
-test-all: test test-slow  ## run every test
+test-proofs: $(VENV)/.test  ## prove what the collections of derivations say, which is to be done when one has changed
+	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m proof
+
+test-all: test test-slow test-proofs  ## run every test
 
 lint: $(VENV)/.test  ## ruff, mypy --strict and basedpyright
 	$(BIN)/ruff check .

@@ -34,6 +34,7 @@ def test_every_file_is_in_the_index_and_every_entry_is_proved():
         assert {"source", "mechanism", "coordinates", "form"} <= set(entry), name
 
 
+@pytest.mark.proof
 @pytest.mark.slow
 @pytest.mark.parametrize("name", INDEX)
 def test_the_verdict_said_is_proved(name):
@@ -42,6 +43,7 @@ def test_the_verdict_said_is_proved(name):
     assert (counterexample is None) == (found == "correct")
 
 
+@pytest.mark.proof
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name, entry in INDEX.items() if entry["verdict"] == "wrong"])
 def test_what_is_wrong_is_wrong_in_every_convention_that_its_file_leaves_open(name):

@@ -89,6 +89,7 @@ def test_every_file_is_in_the_index_and_every_entry_is_proved(collection):
     assert all(("why" in entry) == (entry["verdict"] == "wrong") for entry in index.values())
 
 
+@pytest.mark.proof
 @pytest.mark.slow
 @each(list(ENTRIES))
 def test_the_verdict_said_is_proved(collection, name):
@@ -97,6 +98,7 @@ def test_the_verdict_said_is_proved(collection, name):
     assert right == (ENTRIES[collection, name]["verdict"] == "correct")
 
 
+@pytest.mark.proof
 @pytest.mark.slow
 @each([key for key, entry in ENTRIES.items() if entry["verdict"] == "wrong"])
 def test_what_is_wrong_is_wrong_in_every_convention_that_its_file_leaves_open(collection, name):
