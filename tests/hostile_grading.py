@@ -17,6 +17,7 @@ import signal
 import string
 import sys
 import time
+import tomllib
 import traceback
 from collections import Counter
 from collections.abc import Callable
@@ -26,7 +27,8 @@ from declared_mechanisms import RIGHT
 from hostile_derivations import FRAGMENTS, hostile
 
 from furiko import InvalidInput
-from furiko.derivations.grading.grade import grade_text
+from furiko.derivations.grading.grade import grade_fields, grade_text
+from furiko.derivations.reading.submission import fields_of
 from furiko.derivations.robot.reading import read_robot
 from furiko.models.scene import scene_from_toml
 
@@ -34,6 +36,8 @@ MOST_SECONDS, MOST_MEGABYTES = 2.0, 300
 LIMIT = 20  # [s] until a process is ended
 COLLECTION = [path.read_text() for path in sorted((Path(__file__).parent / "derivations/collection").glob("*.toml"))
               if path.name != "index.toml"]  # fmt: skip
+ROWS = ["\n".join(map(str, rows.values())) for rows in (tomllib.loads(text).get("equations") for text in COLLECTION)
+        if isinstance(rows, dict)]  # fmt: skip
 PIECES = (
     *FRAGMENTS, "1e999999", "1e-999999", "x**x**x", "2**2**2**2", "^{99999999}", "**1e9", "_{999999999}", "theta99999999",
     "\u0000", "\u200b", "\ufeff", "\U0001d703", "\ud800", "a\u0307\u0307\u0307\u0307", "()" * 500, "[" * 200, "{" * 200,
@@ -182,9 +186,18 @@ def robots(draw: random.Random) -> str:
     return f"function = '''{text}'''\n{CART_POLE}"
 
 
+def texts(draw: random.Random) -> str:
+    """No TOML file, and no word of which mechanism it is about: rows, Lagrangians and programs with a few changes."""
+    text = draw.choice((*ROWS, FUNCTION))
+    for _ in range(draw.choice((0, 1, 2, 5))):
+        at = draw.randrange(len(text) + 1)
+        text = text[:at] + draw.choice((*PYTHON, *PIECES)) + text[at + draw.choice((0, 0, 1, 8)) :]
+    return text
+
+
 KINDS: dict[str, tuple[int, Callable[[random.Random], str]]] = {
     "mutated": (40, mutated), "hostile": (15, hostile), "long": (10, long_lines), "algebra": (10, large_algebra),
-    "toml": (12, toml_tricks), "robot": (13, robots),
+    "toml": (12, toml_tricks), "robot": (13, robots), "text": (10, texts),
 }  # fmt: skip
 
 
@@ -197,7 +210,7 @@ def one(kind: str, text: str) -> str:
                 return "no equations"
             read_robot(scene.system, scene.own)
             return "read"
-        return grade_text(text).verdict
+        return (grade_fields(fields_of(text, ".txt")) if kind == "text" else grade_text(text)).verdict
     except InvalidInput as error:
         said = str(error)
         return "refused in one line" if "\n" not in said and len(said) < 800 else f"NOT ONE LINE: {said[:200]!r}"

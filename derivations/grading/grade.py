@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import time
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -27,7 +28,8 @@ from .judge import Judgement, judge
 from .readback import readback
 from .wrong import if_as_declared, named_in_stages, wrong
 
-MOST_NEAR = 3  # usual mechanisms that mistakes are looked for in, where a derivation does not say which it is about
+MOST_SECONDS = 1.0  # of the processor, in which usual mechanisms are tried, and then no more
+MOST_NEAR = 2  # usual mechanisms that mistakes are looked for in, where a derivation does not say which it is about
 
 
 def grade(source: str | os.PathLike[str], *, pinned: Pinned | None = None) -> Grade:
@@ -78,7 +80,10 @@ def _unnamed(data: dict[str, Any]) -> Grade:
     fitting: list[tuple[str, Submission]] = []
     refused: list[str] = []
     named = [{"system": "mechanism", "bodies": bodies} for bodies in usual_bodies(data)]
+    started = time.process_time()
     for about in (*USUAL, *named):
+        if time.process_time() - started > MOST_SECONDS:
+            break
         read = _reader({**data, **about})
         try:
             first = read(0)

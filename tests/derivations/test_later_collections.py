@@ -23,7 +23,7 @@ import pytest
 from prove import rates_hold
 from truth import compare, conventions
 
-from furiko.derivations.grading.grade import grade
+from furiko.derivations.grading.grade import grade, grade_fields
 from furiko.models.errors import InvalidInput
 
 HERE = Path(__file__).parent
@@ -115,6 +115,26 @@ def test_none_is_misjudged(collection, name):
     if found is not None and found[0] != ENTRIES[collection, name]["verdict"]:
         assert found[0] == "correct"  # right on a condition that is said
         assert found[1]
+
+
+def fields_of(collection, name):
+    return tomllib.loads((HERE / collection / f"{name}.toml").read_text(encoding="utf-8"))
+
+
+NAMED = [(c, n) for (c, n), entry in ENTRIES.items() if "outside" not in entry and "bodies" not in fields_of(c, n)]
+
+
+@pytest.mark.slow
+@each(NAMED)
+def test_without_the_name_of_its_mechanism_none_is_misjudged(collection, name):
+    """What is right is right for the mechanism that is said then, or refused; what is wrong is refused."""
+    fields = {key: value for key, value in fields_of(collection, name).items() if key not in ("system", "links")}
+    try:
+        found = grade_fields(fields)
+    except InvalidInput:
+        return
+    assert found.verdict == ENTRIES[collection, name]["verdict"] == "correct"
+    assert found.assumes[0].startswith("it is about ")
 
 
 @each([key for key, entry in ENTRIES.items() if "outside" in entry])

@@ -22,6 +22,7 @@ USUAL: tuple[Mapping[str, Any], ...] = (
     *({"system": kind, "links": n} for kind in ("rods", "rod-chain", "links", "point-masses") for n in (1, 2, 3, 4)),
 )
 MOST_SHOWN = 2  # mistakes, in a refusal
+MOST_SAID = 240  # characters of what is wrong, or of why it cannot be read
 SAY = (
     f"Say which: --system {', '.join((*WORDS, *PRESETS))}; or n-leg, rods, rod-chain, links or point-masses with "
     "--links N. Any other is declared in a TOML file."
@@ -47,10 +48,10 @@ def refusal(nearest: Grade | None, name: str, refused: Sequence[str]) -> Invalid
     unsaid = "system: which mechanism it is about is not said"
     if nearest is None:
         (why, _), *_ = Counter(refused).most_common(1)
-        return InvalidInput(f"{unsaid}, and as none of the usual ones it can be read: {why}. {SAY}")
+        return InvalidInput(f"{unsaid}, and as none of the usual ones it can be read: {why[:MOST_SAID]}. {SAY}")
     says = [m.says for m in nearest.mistakes] or [f.says for f in nearest.findings]
     more = f"; and {len(says) - MOST_SHOWN} more" if len(says) > MOST_SHOWN else ""
-    wrong = " ".join(says[:MOST_SHOWN]) or "its equations are others"
+    wrong = " ".join(says[:MOST_SHOWN])[:MOST_SAID] or "its equations are others"
     return InvalidInput(
         f"{unsaid}, and it is right for none of the usual ones. If it is about {nearest.reading.mechanism} "
         f"(--system {name}), it is wrong: {wrong}{more} {SAY}"
