@@ -68,7 +68,8 @@ def _energies(p: Parts, b: int, body: Body) -> Iterator[AnyMistake]:
 
     def made(code: str, english: str, japanese: str, energy: Formula) -> Iterator[AnyMistake]:
         if energy:
-            yield AnyMistake(code, "energy", f"The {english.format(name=name)}.", f"{name} の{japanese}。", energy)
+            said = english.replace("{name}", name)  # no format: an angle's name may have braces of its own
+            yield AnyMistake(code, "energy", f"The {said}.", f"{name} の{japanese}。", energy)
 
     yield from made(
         "half-missing", "kinetic energy of {name} is missing its factor ½", "運動エネルギーの ½ が抜けています", t
