@@ -201,6 +201,11 @@ class Magnitudes:
 
         ``factorised``: whether the engine factorises M. One that eliminates a joint at a time inverts its block.
         """
+        with np.errstate(over="ignore", invalid="ignore"):  # beyond the range of doubles nothing is known
+            rows = self._rows(accelerations, mass, torque, factorised=factorised)
+        return np.where(np.isnan(rows), np.inf, rows)
+
+    def _rows(self, accelerations: Array, mass: Array, torque: Array | None, *, factorised: bool) -> Array:
         swings, rates = self.once(accelerations), self.once(self.v)
         for one in self.mechanism.joints:
             if one.joint.kind == "free":  # what a turning frame adds to an acceleration given in its axes
@@ -218,8 +223,7 @@ class Magnitudes:
                 squares[part] = squares[part].sum()  # whichever axes the engine has
             root = np.sqrt(squares)
             rows = rows + root * (root @ swings)
-        rows = rows + self._growth(mass) * (self._underflow_in_motion + self._underflow * swings.sum())
-        return np.where(np.isnan(rows), np.inf, rows)  # beyond the range of doubles nothing is known
+        return np.asarray(rows + self._growth(mass) * (self._underflow_in_motion + self._underflow * swings.sum()))
 
     def regular(self, mass: Array, accuracy: float = EPSILON) -> bool:
         """Whether M (nv, nv) is further from singular than its rounding: only then is :meth:`residual` a bound.
