@@ -27,8 +27,8 @@ from .worker import answer_in
 MOST_SUBMISSIONS = 5000
 # What a derivation is handed in as: its fields, a text, or a program's text.
 ENDINGS = (
-    ".toml", ".tex", ".md", ".txt", ".html", ".py", ".m", ".jl", ".c", ".cpp", ".js", ".ts", ".java", ".cs", ".rs",
-    ".go", ".f90", ".r", ".lua", ".wl", ".mac", ".mo", ".hs", ".swift", ".kt",
+    ".toml", ".tex", ".md", ".txt", ".html", ".ipynb", ".py", ".m", ".jl", ".c", ".cpp", ".js", ".ts", ".java", ".cs",
+    ".rs", ".go", ".f90", ".r", ".lua", ".wl", ".mac", ".mo", ".hs", ".swift", ".kt",
 )  # fmt: skip
 START = 60.0  # [s] in which a process must be ready
 

@@ -34,6 +34,7 @@ from ..dialects.markup.pages import from_pages
 from ..dialects.markup.printed import plainly_printed
 from ..dialects.markup.prose import FormulasInWords
 from ..dialects.markup.wrapped import unwrapped
+from ..dialects.names import plain_name
 from ..dialects.notes.declarations import without_sums_below
 from ..dialects.notes.note import as_note, is_worded
 from ..dialects.parsers.rows import from_parsers
@@ -210,17 +211,21 @@ def _meant(data: dict[str, Any], constants: list[str], count: int, slashes: int)
 
 
 def _with_positions(data: dict[str, Any]) -> dict[str, Any]:
-    """The fields with the positions as definitions, where an energy is written in these."""
+    """The fields with the positions as definitions, where an energy or another position is written in these."""
     positions, define = data.get("positions"), data.get("define", {})
     energies = [normalize("NFD", data[name]) for name in ("kinetic", "potential", "lagrangian")
                 if isinstance(data.get(name), str)]  # fmt: skip
+    if isinstance(positions, dict):
+        energies += [normalize("NFD", text) for text in positions.values() if isinstance(text, str)]
     if not isinstance(positions, dict) or not isinstance(define, dict) or len(positions) > MOST_POSITIONS:
         return data
     used = [re.compile(rf"(?<![A-Za-z\\]){x}[\u0307\u0308]?\s*\}}?\s*_?\{{?[0-9a-z₀-₉]") for x in "xy"
             if any(str(name)[:1] == x for name in positions)]  # fmt: skip
     if not any(pattern.search(text) for pattern in used for text in energies):
         return data
-    return data | {"define": {**define, **positions}}
+    said = {plain_name(str(name)) for name in define}
+    more = {name: text for name, text in positions.items() if name in define or plain_name(str(name)) not in said}
+    return data | {"define": {**define, **more}}
 
 
 def _free(data: dict[str, Any], coordinates: list[str]) -> list[str]:

@@ -17,6 +17,7 @@ from ..dialects.lines import LONGEST_LINE
 from ..dialects.names import base_and_index, base_word, plain_name
 from ..dialects.srepr import from_srepr
 from ..dialects.worksheets.definitions import ordered
+from ..dialects.worksheets.whole_texts import fields_of_text
 from ..steps.conventions import Convention
 from ..steps.declared import Declared
 from ..steps.first_order import FirstOrder
@@ -125,14 +126,12 @@ def is_toml(suffix: str) -> bool:
 
 
 def fields_of(text: str, suffix: str) -> dict[str, Any]:
-    """The fields of a derivation's file, whose name ends in ``suffix``: of any but TOML, its text as the equations."""
+    """The fields of a derivation's file, whose name ends in ``suffix``: of any but TOML, the text is what it states."""
     if is_toml(suffix):
         return table_of(text)
     if len(text) > LARGEST_FILE:
         raise InvalidInput(f"longer than {LARGEST_FILE} characters; a derivation is not")
-    has_accelerations = re.search(r"\\ddot|''|″|[¨\u0308]|dd|''|def |return", text)
-    alone = re.search(r"(?<![A-Za-z])(?:L|\\mathcal\s*\{?\s*L\}?|\\mathscr\s*\{?\s*L\}?)\s*&?=", text)
-    return {"lagrangian": text} if alone and not has_accelerations else {"equations": text}
+    return fields_of_text(text, suffix)
 
 
 def read_table(data: dict[str, Any], slashes: int = 0) -> Submission:

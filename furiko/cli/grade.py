@@ -43,9 +43,9 @@ def grade(
 ) -> int:
     """Grade a derivation: correct, or which term is wrong and why.
 
-    A FILE is what you have: LaTeX, Markdown, plain text, a program's text (nothing of it is run); or a TOML file, which
-    can say more. Of a text, --system and --links say what it is about; without, the usual mechanisms are tried, and the
-    one that it is right for is said.
+    A FILE is what you have: LaTeX, Markdown, plain text, a notebook, a program's text (nothing of it is run); or a TOML
+    file, which can say more. Of a text, --system and --links say what it is about; without, the usual mechanisms are
+    tried, and the one that it is right for is said.
 
     With --callable the function is called as f(theta, omega, parameters), where parameters has lengths, masses,
     gravity and, for rods, density; it returns the accelerations. It runs in a process of its own, with limits of time

@@ -1,5 +1,7 @@
 """Derivations as they are written, in no TOML file: LaTeX, plain text, programs; and such as name no mechanism."""
 
+import json
+
 import pytest
 
 from furiko import grade_text
@@ -141,3 +143,46 @@ def test_a_text_is_taken_in_python_too(text):
 def test_a_toml_file_with_a_slip_is_told_the_slip(text):
     with pytest.raises(InvalidInput, match="TOML"):
         grade_text(text)
+
+
+NOTE = r"""
+# Double pendulum
+
+Positions: $x_1 = l_1\sin\theta_1$, $y_1=-l_1\cos\theta_1$, $x_2 = x_1 + l_2 \sin\theta_2$, $y_2 = y_1 - l_2\cos\theta_2$.
+
+$$T = \tfrac12 m_1 l_1^2\dot\theta_1^2 + \tfrac12 m_2\left(l_1^2\dot\theta_1^2 + l_2^2\dot\theta_2^2 + 2 l_1 l_2\dot\theta_1\dot\theta_2\cos(\theta_1-\theta_2)\right)$$
+
+$$V = -(m_1+m_2) g l_1\cos\theta_1 - m_2 g l_2\cos\theta_2$$
+
+$$L = T - V$$
+"""  # noqa: E501 -- as it stands
+
+
+def notebook(*cells):
+    made = [{"cell_type": kind, "metadata": {}, "source": text.splitlines(keepends=True)} for kind, text in cells]
+    return json.dumps({"cells": made, "metadata": {}, "nbformat": 4, "nbformat_minor": 5})
+
+
+def test_a_note_is_held_against_every_stage_that_it_states(tmp_path):
+    """A position may be written in another one."""
+    assert graded(tmp_path, "note.md", NOTE, system="double-pendulum").verdict == "correct"
+    wrong = graded(
+        tmp_path, "wrong.md", NOTE.replace(r"\theta_1-\theta_2", r"\theta_1+\theta_2"), system="double-pendulum"
+    )
+    assert wrong.verdict == "wrong"
+    (wrong_place,) = [mark.stage for mark in wrong.stages if mark.outcome == "wrong"]
+    assert wrong_place in ("kinetic", "lagrangian")
+    lost = graded(tmp_path, "lost.md", NOTE.replace("y_2 = y_1 - l_2", "y_2 = - l_2"), system="double-pendulum")
+    assert (lost.stages[0].stage, lost.stages[0].outcome) == ("positions", "wrong")
+
+
+def test_a_notebook_is_its_formulas_or_else_its_code(tmp_path):
+    both = notebook(
+        ("code", "import numpy as np\n"), ("markdown", f"# Pole on a cart\n{CART}"), ("code", "theta = 0.1\n")
+    )
+    assert graded(tmp_path, "cart.ipynb", both).verdict == "correct"
+    code = notebook(("markdown", "A simple pendulum."), ("code", "import numpy as np\n"), ("code", PROGRAM))
+    assert graded(tmp_path, "pendulum.ipynb", code).verdict == "correct"
+    for text in ("{}", "[]", '{"cells": 1}', '{"cells": [{}]}', "no JSON", "[" * 100_000):
+        with pytest.raises(InvalidInput, match="not a notebook"):
+            graded(tmp_path, "bad.ipynb", text)
