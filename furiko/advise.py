@@ -6,12 +6,17 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+import msgspec
+
 from . import __version__
 from .bench import engines_to_measure, with_own_motions
 from .engines import cannot, engine_info
-from .models import InvalidInput, TreeScene, find_scene
+from .models import InvalidInput, Scene, TreeScene, find_scene
 from .records import provenance
-from .records.bench import Advice
+from .records.bench import Advice, Advised, NotAdvised
+
+# Methods that keep the error, those that do not, engines left out, the reference's error.
+Studied = tuple[list[Advised], list[NotAdvised], list[str], float]
 
 
 def advise(
@@ -47,23 +52,7 @@ def advise(
     named = replace(found, duration=duration)
     names = engines_to_measure(engines)
     moving = names if engines is not None else with_own_motions(names)
-    advised, missed, left_out, truth = study(named, moving, error, budget, watch)
-    return Advice(
-        furiko=__version__,
-        command=provenance.command(),
-        machine=provenance.machine(),
-        versions=provenance.versions(),
-        scene=found.name,
-        system=found.system.kind,
-        n=found.system.n,
-        duration=duration,
-        asked=error,
-        truth=truth,
-        seconds=time.monotonic() - begun,
-        advised=advised,
-        not_advised=missed,
-        left_out=left_out,
-    )
+    return _advice(named, error, begun, study(named, moving, error, budget, watch))
 
 
 def _of_tree(
@@ -86,9 +75,15 @@ def _of_tree(
         raise InvalidInput(f"{scene.name}: none of these engines takes open mechanisms: {', '.join(names)}")
     moves = scene.starts and scene.duration > 0
     found = trust(scene, asked, budget / 2 if moves else budget, watch)
-    advised, missed, unmoved, truth = (
-        study(scene, [info.name for info in asked], error, budget / 2, watch) if moves else ([], [], [], 0.0)
-    )
+    still: Studied = ([], [], [], 0.0)
+    studied = study(scene, [info.name for info in asked], error, budget / 2, watch) if moves else still
+    given = _advice(replace(scene, duration=scene.duration if moves else 0.0), error, begun, studied)
+    return msgspec.structs.replace(given, left_out=[*left_out, *given.left_out], trust=found)
+
+
+def _advice(scene: Scene | TreeScene, error: float, begun: float, studied: Studied) -> Advice:
+    """The record of what a study of the scene's motion found."""
+    advised, missed, left_out, truth = studied
     return Advice(
         furiko=__version__,
         command=provenance.command(),
@@ -97,12 +92,11 @@ def _of_tree(
         scene=scene.name,
         system=scene.system.kind,
         n=scene.system.n,
-        duration=scene.duration if moves else 0.0,
+        duration=scene.duration,
         asked=error,
         truth=truth,
         seconds=time.monotonic() - begun,
         advised=advised,
         not_advised=missed,
-        left_out=[*left_out, *unmoved],
-        trust=found,
+        left_out=left_out,
     )

@@ -6,6 +6,7 @@ import os
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -79,9 +80,9 @@ def _unnamed(data: dict[str, Any]) -> Grade:
     found: list[tuple[Grade, Said]] = []
     fitting: list[tuple[str, Submission]] = []
     refused: list[str] = []
-    named = [{"system": "mechanism", "bodies": bodies} for bodies in usual_bodies(data)]
+    in_its_letters = ({"system": "mechanism", "bodies": bodies} for bodies in usual_bodies(data))
     started = time.process_time()
-    for about in (*USUAL, *named):
+    for about in chain(USUAL, in_its_letters):
         if time.process_time() - started > MOST_SECONDS:
             break
         read = _reader({**data, **about})

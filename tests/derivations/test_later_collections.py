@@ -22,6 +22,7 @@ import prove_strange_pendulums
 import pytest
 from prove import rates_hold
 from truth import compare, conventions
+from verdicts import index_of, parts
 
 from furiko.derivations.grading.grade import grade, grade_fields
 from furiko.models.errors import InvalidInput
@@ -42,13 +43,7 @@ PROOFS = {
 }
 
 
-def index_of(collection):
-    """All entries of a collection, whatever number of files they stand in."""
-    files = sorted((HERE / collection).glob("index*.toml"))
-    return {name: entry for file in files for name, entry in tomllib.loads(file.read_text(encoding="utf-8")).items()}
-
-
-INDEX = {each: index_of(each) for each in PROOFS}
+INDEX = {each: index_of(HERE / each) for each in PROOFS}
 ENTRIES = {(collection, name): entry for collection, index in INDEX.items() for name, entry in index.items()}
 # Nine of ten, as of the first collection. All of the second are read today, and one more refusal is to be looked at,
 # not hidden; of the third's 55 that describe a planar open mechanism, 50; of the fourth's 63, 61.
@@ -74,13 +69,6 @@ def judged(collection, name):
     return record.verdict, record.assumes
 
 
-def parts(collection, name):
-    """Mechanism, rows, rates that must hold of themselves, and values for which alone the rows are meant."""
-    mechanism, rows, *more = PROOFS[collection][name]
-    rates = next((x for x in more if isinstance(x, list)), [])
-    return mechanism, rows, rates, next((x for x in more if isinstance(x, dict)), None)
-
-
 @pytest.mark.parametrize("collection", INDEX)
 def test_every_file_is_in_the_index_and_every_entry_is_proved(collection):
     index = INDEX[collection]
@@ -93,7 +81,7 @@ def test_every_file_is_in_the_index_and_every_entry_is_proved(collection):
 @pytest.mark.slow
 @each(list(ENTRIES))
 def test_the_verdict_said_is_proved(collection, name):
-    mechanism, rows, rates, special = parts(collection, name)
+    mechanism, rows, rates, special = parts(PROOFS[collection][name])
     right = rates_hold(rates, mechanism) and compare(rows, mechanism, special) is None
     assert right == (ENTRIES[collection, name]["verdict"] == "correct")
 
@@ -102,7 +90,7 @@ def test_the_verdict_said_is_proved(collection, name):
 @pytest.mark.slow
 @each([key for key, entry in ENTRIES.items() if entry["verdict"] == "wrong"])
 def test_what_is_wrong_is_wrong_in_every_convention_that_its_file_leaves_open(collection, name):
-    mechanism, rows, rates, _ = parts(collection, name)
+    mechanism, rows, rates, _ = parts(PROOFS[collection][name])
     if rates or "from" in tomllib.loads((HERE / collection / f"{name}.toml").read_text(encoding="utf-8")):
         return
     assert not [how for how, turned in conventions(rows, mechanism) if compare(turned, mechanism) is None]

@@ -129,7 +129,7 @@ def _groups(text: str, at: int) -> tuple[list[str], int]:
     found: list[str] = []
     while len(found) < 3:
         start = at + len(text[at:]) - len(text[at:].lstrip())
-        end = _closes(text, start)
+        end = closes(text, start)
         if end < 0:
             break
         found.append(text[start + 1 : end])
@@ -137,7 +137,7 @@ def _groups(text: str, at: int) -> tuple[list[str], int]:
     return found, at
 
 
-def _closes(text: str, at: int) -> int:
+def closes(text: str, at: int) -> int:
     """Where the brace at ``at`` is closed; -1 where there is none."""
     depth = 0
     for place in range(at, len(text)):

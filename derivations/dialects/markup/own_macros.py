@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 
 from ....models.errors import InvalidInput
+from .macros import closes
 
 _HEAD = r"\\(?:(?:re)?newcommand|providecommand|DeclareRobustCommand|newcommandx)\*?\s*(?:\{\s*\\(?P<a>[A-Za-z]+)\s*\}|\\(?P<b>[A-Za-z]+))\s*(?:\[(?P<count>[0-4])\])?\s*(?:\[(?P<default>[^\[\]]{0,20})\])?\s*(?=\{)"
 _DEF = r"\\(?:[gex]?def)\s*\\(?P<c>[A-Za-z]+)\s*(?P<marks>(?:#[1-4]\s*){0,4})(?=\{)"
@@ -26,7 +27,7 @@ def with_own_macros(text: str) -> str:
     macros: dict[str, tuple[int, str | None, str]] = {}
     for _ in range(MOST_MACROS):
         found = DEFINED.search(text)
-        end = _closes(text, found.end()) if found else -1
+        end = closes(text, found.end()) if found else -1
         if found is None or end < 0:
             break
         name = next(x for x in (found[k] for k in "abcde") if x)
@@ -75,7 +76,7 @@ def _arguments(text: str, at: int, count: int, default: str | None) -> tuple[lis
         blank = len(text[at:]) - len(text[at:].lstrip())
         start = at + blank
         if text[start : start + 1] == "{":
-            end = _closes(text, start)
+            end = closes(text, start)
             if end < 0:
                 raise InvalidInput("a macro of its own whose argument has no end: write the formulas with it put in")
             found.append(text[start + 1 : end])
@@ -87,14 +88,3 @@ def _arguments(text: str, at: int, count: int, default: str | None) -> tuple[lis
             found.append(one[0])
             at = one.end()
     return found, at
-
-
-def _closes(text: str, at: int) -> int:
-    """Where the brace at ``at`` is closed; -1 where there is none."""
-    depth = 0
-    for place in range(at, len(text)):
-        if text[place] in "{}" and text[place - 1 : place] != "\\":
-            depth += 1 if text[place] == "{" else -1
-        if depth == 0:
-            return place if place > at else -1
-    return -1

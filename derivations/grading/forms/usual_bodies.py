@@ -30,14 +30,13 @@ GREEK = "theta|varphi|phi|alpha|psi|tau|mu|gamma"
 MOST = 60  # mechanisms
 
 
-def usual_bodies(data: Mapping[str, Any]) -> list[Bodies]:
+def usual_bodies(data: Mapping[str, Any]) -> Iterator[Bodies]:
     """Mechanisms, body by body, that have all their letters in these fields of a derivation, the plainest first."""
     equations = data.get("equations")
     text = "\n".join([equations] if isinstance(equations, str) else lines_of(data))
     text = re.sub(rf"\\(?!{GREEK}|ell)[A-Za-z]+", " ", text)  # commands
     text = re.sub(r"(?<![A-Za-z\\_])[A-Za-z]{2,4}(?![A-Za-z_0-9])", _apart, text)
-    made = _carts(text) if _has(text, "x") else _pendulums(text)
-    return list(islice(made, MOST))
+    yield from islice(_carts(text) if _has(text, "x") else _pendulums(text), MOST)
 
 
 def said_of_bodies(bodies: Bodies) -> Said:

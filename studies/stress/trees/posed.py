@@ -42,12 +42,7 @@ def heavy_links(posed: Posed, factor: float) -> Posed:
 
 def light_tips(posed: Posed, factor: float) -> Posed:
     """The last links are lighter, and with them the armature, damping and stiffness of their joints."""
-    tips = _tips(posed.system)
-
-    def lighter(link: TreeLink) -> TreeLink:
-        return replace(weighing(link, factor), joints=tuple(_driven(joint, factor) for joint in link.joints))
-
-    return _links(posed, tips, lighter)
+    return _links(posed, _tips(posed.system), lambda link: _in_all(link, factor))
 
 
 def long_links(posed: Posed, factor: float) -> Posed:
@@ -120,11 +115,7 @@ def half_turns(posed: Posed, part: float) -> Posed:
 
 def smaller_masses(posed: Posed, factor: float) -> Posed:
     """Another unit of mass: masses, moments, armature, damping and stiffness are smaller; accelerations the same."""
-
-    def lighter(link: TreeLink) -> TreeLink:
-        return replace(weighing(link, factor), joints=tuple(_driven(joint, factor) for joint in link.joints))
-
-    return _links(posed, set(range(len(posed.system.links))), lighter)
+    return _links(posed, set(range(len(posed.system.links))), lambda link: _in_all(link, factor))
 
 
 def smaller_lengths(posed: Posed, factor: float) -> Posed:
@@ -193,6 +184,11 @@ def moves_on_the_world(system: TreeSystem) -> bool:
 def weighing(link: TreeLink, factor: float) -> TreeLink:
     """The link with so many times its mass, of the same shape."""
     return replace(link, mass=link.mass * factor, inertia=_times(link.inertia, factor))
+
+
+def _in_all(link: TreeLink, factor: float) -> TreeLink:
+    """The same, with so many times the armature, damping and stiffness of its joints, too."""
+    return replace(weighing(link, factor), joints=tuple(_driven(joint, factor) for joint in link.joints))
 
 
 def _bases(system: TreeSystem) -> list[tuple[int, int, int]]:

@@ -4,7 +4,6 @@ The letters here are the mechanisms' own. A program that inverts a matrix, or so
 Run as a script, it compares each verdict of index.toml with what follows from positions alone.
 """
 
-import tomllib
 from pathlib import Path
 
 import sympy as sp
@@ -53,11 +52,11 @@ from mechanisms import (  # fmt: skip
     w1,
     w2,
 )
-from prove import rates_hold
 from prove_eighth_poles import PROOFS as POLES
 from prove_eighth_poles import added, column
 from sympy import Rational, cos, sin
-from truth import Body, Mechanism, compare, conventions, lagrange, momenta
+from truth import Body, Mechanism, lagrange, momenta
+from verdicts import print_verdicts
 
 half = Rational(1, 2)
 BOBS = bobs((l1, m1), (l2, m2))
@@ -314,20 +313,5 @@ PROOFS = POLES | {
 }
 
 
-def verdict(name):
-    """What follows from positions alone: correct, wrong, or wrong but right with the angles counted otherwise."""
-    true, rows, *more = PROOFS[name]
-    special = next((each for each in more if isinstance(each, dict)), None)
-    rates = next((each for each in more if isinstance(each, list)), [])
-    if rates_hold(rates, true) and compare(rows, true, special) is None:
-        return "correct"
-    right = [how for how, turned in conventions(rows, true) if compare(turned, true, special) is None]
-    return f"wrong, right in {right}" if right and not rates else "wrong"
-
-
 if __name__ == "__main__":
-    index = tomllib.loads((Path(__file__).parent / "index.toml").read_text(encoding="utf-8"))
-    assert set(index) == set(PROOFS)
-    for name, entry in index.items():
-        found = verdict(name)
-        print("as said" if found == entry["verdict"] else "NOT AS SAID", name, found)
+    print_verdicts(Path(__file__).parent, PROOFS)

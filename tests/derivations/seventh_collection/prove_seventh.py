@@ -4,8 +4,6 @@ The letters here are the mechanisms' own: an author's ℓ, φ, q_1, M_c are l, t
 beside, Y above its rest; V, U are its rates, A, B its accelerations. `python prove_seventh.py` prints every verdict.
 """
 
-import sys
-import tomllib
 from pathlib import Path
 
 import sympy as sp
@@ -68,7 +66,8 @@ from mechanisms import (  # fmt: skip
     xdd,
 )
 from sympy import Rational, cos, sin
-from truth import Body, Mechanism, compare, conventions, coordinate, lagrange, momenta, state_of, value_of
+from truth import Body, Mechanism, compare, coordinate, lagrange, momenta
+from verdicts import print_verdicts, right_in
 
 half = Rational(1, 2)
 S, C = sin(th1 - th2), cos(th1 - th2)
@@ -627,44 +626,14 @@ IN_ANOTHER = {
 }
 
 
-def rates_hold(rates, mechanism):
-    """Whether rows without accelerations hold at random states."""
-    for seed in range(8):
-        circle, numbers = state_of([*rates, *(q for c in mechanism.coordinates for q in c)], mechanism, seed)
-        if any(value_of(sp.sympify(row), circle, numbers) != 0 for row in rates):
-            return False
-    return True
-
-
-def verdict(name):
-    """'correct', or 'wrong' and what differs at the first state at which it does."""
-    mechanism, rows, *more = PROOFS[name]
-    special = next((part for part in more if isinstance(part, dict)), None)
-    rates = next((part for part in more if isinstance(part, list)), [])
-    if not rates_hold(rates, mechanism):
-        return "wrong", {"printed": "the rates do not follow from the momenta"}
-    counterexample = compare(rows, mechanism, special)
-    return ("wrong", counterexample) if counterexample else ("correct", None)
-
-
-def right_in(name):
+def others(name):
     """The conventions in which the rows of a wrong one would be right: (turn, mirror of the slides), or the why's."""
     if name in IN_ANOTHER:
         true, turned = IN_ANOTHER[name]
         assert compare(turned, true) is None
         return ["the one in its why"]
-    mechanism, rows, *more = PROOFS[name]
-    special = next((part for part in more if isinstance(part, dict)), None)
-    if not mechanism.shifts:
-        return []
-    return [how for how, turned in conventions(rows, mechanism) if compare(turned, mechanism, special) is None]
+    return right_in(PROOFS[name])
 
 
 if __name__ == "__main__":
-    INDEX = tomllib.loads((Path(__file__).parent / "index.toml").read_text(encoding="utf-8"))
-    assert set(INDEX) == set(PROOFS), set(INDEX) ^ set(PROOFS)
-    for name in sys.argv[1:] or INDEX:
-        found, state = verdict(name)
-        said = "as said" if found == INDEX[name]["verdict"] else "NOT AS SAID"
-        others = right_in(name) if found == "wrong" else []
-        print(name, found, said, others, state and {key: state[key] for key in state if key != "state"})
+    print_verdicts(Path(__file__).parent, PROOFS, others)

@@ -4,7 +4,6 @@ The letters here are the mechanisms' own. A program that inverts a matrix, or el
 Run as a script, it compares each verdict of index.toml with what follows from positions alone.
 """
 
-import tomllib
 from pathlib import Path
 
 import sympy as sp
@@ -64,10 +63,10 @@ from mechanisms import (  # fmt: skip
     xd,
     xdd,
 )
-from prove import rates_hold
 from prove_sixth import RESTED, A, k1, k2, many, moved, r01, r02, r1, r2
 from sympy import Rational, cos, sin
-from truth import Body, Mechanism, compare, conventions, lagrange, momenta, rate
+from truth import Body, Mechanism, lagrange, momenta, rate
+from verdicts import print_verdicts
 
 half = Rational(1, 2)
 BOBS = bobs((l1, m1), (l2, m2))
@@ -659,20 +658,5 @@ PROOFS = {
 }
 
 
-def verdict(name):
-    """What follows from positions alone: correct, wrong, or wrong but right with the angles counted otherwise."""
-    true, rows, *more = PROOFS[name]
-    special = next((each for each in more if isinstance(each, dict)), None)
-    rates = next((each for each in more if isinstance(each, list)), [])
-    if rates_hold(rates, true) and compare(rows, true, special) is None:
-        return "correct"
-    right = [how for how, turned in conventions(rows, true) if compare(turned, true, special) is None]
-    return f"wrong, right in {right}" if right and not rates else "wrong"
-
-
 if __name__ == "__main__":
-    index = tomllib.loads((Path(__file__).parent / "index.toml").read_text())
-    assert set(index) == set(PROOFS)
-    for name, entry in index.items():
-        found = verdict(name)
-        print("as said" if found == entry["verdict"] else "NOT AS SAID", name, found)
+    print_verdicts(Path(__file__).parent, PROOFS)
