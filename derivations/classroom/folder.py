@@ -77,7 +77,8 @@ def _written_in(folder: Path) -> list[Path]:
     """The files of a folder that may be derivations, in the order of their names."""
     return sorted(
         p for p in folder.iterdir()
-        if p.suffix.lower() in ENDINGS and not p.name.startswith(".") and p.stem.lower() != "readme" and p.is_file()
+        if p.suffix.lower() in ENDINGS and not p.name.startswith(".") and p.stem.lower() != "readme"
+        and (p.is_file() or p.is_symlink())  # a link to nothing is told as one
     )  # fmt: skip
 
 
