@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, Protocol
 
 import numpy as np
@@ -93,19 +93,19 @@ class Cell:
     def amplitude_of(self, system: DocumentSystem) -> Amplitudes:
         """The same for another mechanism in this engine."""
         info = self.info
-        return amplitudes(
-            system, info.coordinates, moments=info.moments, placed=info.placed, interchanges=info.interchanges
-        )
+        return _amplitudes(system, (info.coordinates, info.moments, info.placed, info.interchanges))
 
     @cached_property
     def mass(self) -> Array:
-        """The true mass matrix in all states, (B, n, n) [kg m²]: hundreds of megaflops for long chains."""
-        return mass_matrix(self.scene.system, self.states.theta)
+        """The true mass matrix in all states, (B, n, n) [kg m²]."""
+        return _mass(self.scene.system, self.states.theta.tobytes())
 
     @cached_property
     def regular(self) -> Cell:
         """This cell in those states in which a solution for accelerations has digits that are sure."""
-        kept = self.amplitude.regular(self.mass, self.info.accuracy)
+        info, system = self.info, self.scene.system
+        how = info.coordinates, info.moments, info.placed, info.interchanges
+        kept = _regular(system, how, info.accuracy, self.states.theta.tobytes())
         return self if kept.all() else replace(self, states=self.states.only(kept), facts=self.facts.only(kept))
 
     @cached_property
@@ -174,6 +174,27 @@ class Cell:
             "in each of them, and the states furthest off were looked at"
         )
         return self.result(f"{check}, other states", "skipped", reason=reason)
+
+
+How = tuple[str, str, str, bool | None]  # an engine's coordinates, moments, placed and interchanges
+
+
+def _amplitudes(system: DocumentSystem, how: How) -> Amplitudes:
+    coordinates, moments, placed, interchanges = how
+    return amplitudes(system, coordinates, moments=moments, placed=placed, interchanges=interchanges)
+
+
+# A worker looks at a scene with several engines, in the same states, of which these two are the same for all or most.
+@lru_cache(maxsize=2)
+def _mass(system: DocumentSystem, theta: bytes) -> Array:
+    found = mass_matrix(system, np.frombuffer(theta).reshape(-1, system.n))
+    found.flags.writeable = False
+    return found
+
+
+@lru_cache(maxsize=8)
+def _regular(system: DocumentSystem, how: How, accuracy: float, theta: bytes) -> NDArray[np.bool_]:
+    return _amplitudes(system, how).regular(_mass(system, theta), accuracy)
 
 
 def array_of(quantity: str, answer: object, shape: tuple[int, ...], labels: tuple[str, ...]) -> Array:

@@ -52,7 +52,15 @@ class Arithmetic(ABC):
 
     def cos_sin_differences(self, angles: Array) -> tuple[Array, Array]:
         """cos(θ_j - θ_k) and sin(θ_j - θ_k), shape (…, n, n) each."""
-        return self.cos_sin(angles[..., :, None] - angles[..., None, :])
+        return self.cos_sin(_differences(angles))
+
+    def cos_differences(self, angles: Array) -> Array:
+        """The first of them alone."""
+        return self.cos_sin_differences(angles)[0]
+
+    def sin_differences(self, angles: Array) -> Array:
+        """The second of them alone."""
+        return self.cos_sin_differences(angles)[1]
 
     def zeros(self, shape: Sequence[int]) -> Array:
         """An array of zeros to be filled."""
@@ -70,6 +78,10 @@ class Arithmetic(ABC):
         return self.array(part) if isinstance(part, int | float) else np.asarray(part, dtype=self.dtype)
 
 
+def _differences(angles: Array) -> Array:
+    return np.asarray(angles[..., :, None] - angles[..., None, :])
+
+
 class Floats(Arithmetic):
     """numpy floating point: float64, or longdouble."""
 
@@ -85,6 +97,12 @@ class Floats(Arithmetic):
 
     def sin(self, x: Any) -> Any:
         return np.sin(x)
+
+    def cos_differences(self, angles: Array) -> Array:
+        return np.asarray(np.cos(_differences(angles)))
+
+    def sin_differences(self, angles: Array) -> Array:
+        return np.asarray(np.sin(_differences(angles)))
 
     def solve(self, matrix: Array, right: Array) -> Array:
         if self.dtype == np.float64:

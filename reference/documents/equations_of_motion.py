@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...models import DocumentSystem, RodChain
+from ...models import DocumentSystem, NLegPendulum, RodChain
 from ..arithmetic import Arithmetic, Array, arithmetic_of, times
 from . import shiki, takeno
 
@@ -50,27 +50,42 @@ def mass_matrix(system: DocumentSystem, theta: Array) -> Array:
 
     Shiki (3.12) row i times l_i, Takeno (21) row j times ρ l_j.
     """
+    if isinstance(system, RodChain):
+        xp = arithmetic_of(theta)
+        return _takeno_one(xp, system, xp.cos_differences(theta))
     return _terms(system, theta)[0]
 
 
 def centrifugal_matrix(system: DocumentSystem, theta: Array) -> Array:
     """Centrifugal matrix C(θ) [kg m²], shape (…, n, n): C_jk multiplies θ̇_k² in row j. No products θ̇_j θ̇_k."""
+    if isinstance(system, RodChain):
+        xp = arithmetic_of(theta)
+        return _takeno_one(xp, system, xp.sin_differences(theta))
     return _terms(system, theta)[1]
 
 
 def gravity_vector(system: DocumentSystem, theta: Array) -> Array:
     """Gravity terms G(θ) [N m], shape (…, n)."""
+    if isinstance(system, RodChain):
+        xp = arithmetic_of(theta)
+        l, g = xp.array(system.lengths), xp.array(system.gravity)
+        (L,) = takeno.eq_12(l)
+        return np.asarray(xp.array(system.density) * l * g * (L * xp.sin(theta)))
     return _terms(system, theta)[2]
 
 
-def _terms(system: DocumentSystem, theta: Array) -> tuple[Array, Array, Array]:
+def _takeno_one(xp: Arithmetic, system: RodChain, of_differences: Array) -> Array:
+    """Rows ρ l_j of Takeno (21)'s A or B: one alone is half the work, most of which is cosines and sines."""
+    l = xp.array(system.lengths)
+    (L,) = takeno.eq_12(l)
+    (alpha_jk,) = takeno.eq_20(l, L)
+    return np.asarray((xp.array(system.density) * l)[:, None] * takeno.eq_21_one(l, of_differences, alpha_jk))
+
+
+def _terms(system: NLegPendulum, theta: Array) -> tuple[Array, Array, Array]:
+    """Those of Shiki (3.12)."""
     xp = arithmetic_of(theta)
     l, g = xp.array(system.lengths), xp.array(system.gravity)
-    if isinstance(system, RodChain):
-        scale = xp.array(system.density) * l
-        (L,) = takeno.eq_12(l)
-        A, B = _takeno_matrices(xp, l, L, theta)
-        return scale[:, None] * A, scale[:, None] * B, scale * g * (L * xp.sin(theta))
     # With every rate 1, B of (3.12) holds the coefficients of the squared rates; gravity is on its diagonal.
     unit_rates = xp.array(np.ones(system.n))
     (both,) = shiki.eq_3_12(xp, l, xp.array(system.masses), g, theta, unit_rates)

@@ -213,6 +213,11 @@ def eq_21(xp: Arithmetic, l: Array, theta: Array, alpha_jk: Array) -> Members:
     return (np.stack([lengths * cos, lengths * sin], axis=-3),)
 
 
+def eq_21_one(l: Array, of_differences: Array, alpha_jk: Array) -> Array:
+    """(21) A(θ) or B(θ) alone [m²], shape (…, n, n), from the cosines or the sines of θ_j - θ_k."""
+    return np.asarray(l * alpha_jk * of_differences)
+
+
 def eq_22(xp: Arithmetic, g: Array, theta: Array, omega: Array, alpha: Array, A: Array, B: Array, L: Array) -> Members:
     """(22) Equations of motion in matrix form, and zero [m²/s²], shape (…, n)."""
     return times(A, alpha) + times(B, omega**2) + g * (L * xp.sin(theta)), xp.array(np.zeros(theta.shape))

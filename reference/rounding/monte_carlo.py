@@ -43,13 +43,18 @@ class Noise:
         return np.asarray(1.0 + self._random.uniform(-0.5, 0.5, count) * self._size)
 
     def __call__(self, values: Array) -> Noisy:
-        """The result of an operation, rounded at random."""
+        """Numbers that are kept as they are, rounded at random."""
+        return self.rounded(values.copy())
+
+    def rounded(self, values: Array) -> Noisy:
+        """The result of an operation, rounded at random in its own place: nobody else holds ``values``."""
         size = values.size
         if size > self._pool.size // 2:
             self._pool = self._factors(4 * size)
         self._at = (self._at * 1103515245 + 12345) % 2147483648  # where to take them, at random enough
         start = self._at % (self._pool.size - size)
-        return Noisy(values * self._pool[start : start + size].reshape(values.shape), self)
+        values *= self._pool[start : start + size].reshape(values.shape)
+        return Noisy(values, self)
 
 
 class Noisy:
@@ -62,47 +67,47 @@ class Noisy:
         self.value, self.noise = value, noise
 
     def __add__(self, other: Noisy | float) -> Noisy:
-        return self if _is(other, 0.0) else self.noise(self.value + _value(other))
+        return self if _is(other, 0.0) else self.noise.rounded(self.value + _value(other))
 
     __radd__ = __add__
 
     def __sub__(self, other: Noisy | float) -> Noisy:
-        return self if _is(other, 0.0) else self.noise(self.value - _value(other))
+        return self if _is(other, 0.0) else self.noise.rounded(self.value - _value(other))
 
     def __rsub__(self, other: float) -> Noisy:
-        return -self if _is(other, 0.0) else self.noise(other - self.value)
+        return -self if _is(other, 0.0) else self.noise.rounded(other - self.value)
 
     def __mul__(self, other: Noisy | float) -> Noisy | float:
         if isinstance(other, Noisy):
-            return self.noise(self.value * other.value)
+            return self.noise.rounded(self.value * other.value)
         if other == 0.0:
             return 0.0
         # A product with a power of two is exact.
         product = self.value * other
-        return Noisy(product, self.noise) if abs(math.frexp(other)[0]) == 0.5 else self.noise(product)
+        return Noisy(product, self.noise) if abs(math.frexp(other)[0]) == 0.5 else self.noise.rounded(product)
 
     __rmul__ = __mul__
 
     def __truediv__(self, other: Noisy | float) -> Noisy:
-        return self.noise(self.value / _value(other))
+        return self.noise.rounded(self.value / _value(other))
 
     def __rtruediv__(self, other: float) -> Noisy | float:
-        return 0.0 if _is(other, 0.0) else self.noise(other / self.value)
+        return 0.0 if _is(other, 0.0) else self.noise.rounded(other / self.value)
 
     def __neg__(self) -> Noisy:
         return Noisy(-self.value, self.noise)
 
     def cos(self) -> Noisy:
         """Cosine, rounded."""
-        return self.noise(np.cos(self.value))
+        return self.noise.rounded(np.cos(self.value))
 
     def sin(self) -> Noisy:
         """Sine, rounded."""
-        return self.noise(np.sin(self.value))
+        return self.noise.rounded(np.sin(self.value))
 
     def sqrt(self) -> Noisy:
         """Square root, rounded."""
-        return self.noise(np.sqrt(self.value))
+        return self.noise.rounded(np.sqrt(self.value))
 
 
 def _is(number: Noisy | float, exact: float) -> bool:

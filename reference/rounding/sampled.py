@@ -75,7 +75,8 @@ class _Run:
 
     def values(self, numbers: list[Any]) -> Array:
         """(samples, B, n)."""
-        return np.stack([x.value if isinstance(x, Noisy) else np.full(self.shape, float(x)) for x in numbers], axis=-1)
+        each = [x.value if isinstance(x, Noisy) else np.full(self.shape, float(x)) for x in numbers]
+        return np.moveaxis(np.stack(each), 0, -1)  # put together as they lie in memory, which is several times faster
 
     def turns(self, theta: Array, placed: str) -> list[Turn]:
         """The joints' transformations from link to link."""
