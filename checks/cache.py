@@ -174,7 +174,8 @@ def _results_key(task: Task) -> str | None:
     if not foundation:
         return None
     scene, checks = _scene(task.scene), repr(task.checks)
-    return _digest("results", scene, task.engine, foundation.hex(), checks, str(task.random_states))
+    thorough = repr((task.random_states, task.few_steps))
+    return _digest("results", scene, task.engine, foundation.hex(), checks, thorough)
 
 
 def _foundation_elsewhere(engine: str) -> bytes:

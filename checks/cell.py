@@ -33,13 +33,17 @@ class EngineFault(RuntimeError):
 
 @dataclass(frozen=True)
 class Cell:
-    """``states`` are those in which instantaneous quantities are compared; ``facts`` the truth in them."""
+    """``states`` are those in which instantaneous quantities are compared; ``facts`` the truth in them.
+
+    ``few_steps``: of the finest run of ten links that is worth a longer time, as a run's profile says.
+    """
 
     scene: Scene
     info: EngineInfo
     engine: AnyShape
     states: States
     facts: SceneFacts
+    few_steps: int = 1 << 10
 
     @property
     def start(self) -> tuple[Array, Array] | None:

@@ -121,7 +121,7 @@ class CellJob:
         announce(False)
         looked_at = states(scene, self.task.random_states)
         facts = SceneFacts.from_bytes(self.facts)
-        return Cell(scene, info, cast(AnyShape, Announced(engine, announce)), looked_at, facts)
+        return Cell(scene, info, cast(AnyShape, Announced(engine, announce)), looked_at, facts, self.task.few_steps)
 
     def _tree_cell(self, scene: TreeScene, info: EngineInfo, announce: Callable[[bool], None]) -> TreeCell:
         from ..engines import OWN_EQUATIONS, TreeShape, load_tree_engine
@@ -130,16 +130,16 @@ class CellJob:
         from .trees.facts import TreeFacts
 
         looked_at = tree_states(scene, self.task.random_states)
-        facts = TreeFacts.from_bytes(self.facts)
+        facts, few = TreeFacts.from_bytes(self.facts), self.task.few_steps
         if info.name == OWN_EQUATIONS.name:
             from .trees.own import own_equations
 
             own, shape, info = own_equations(scene)
-            return TreeCell(scene, info, shape, looked_at, facts, own.findings)
+            return TreeCell(scene, info, shape, looked_at, facts, own.findings, few_steps=few)
         announce(True)
         engine = load_tree_engine(self.task.engine, scene.system)
         announce(False)
-        return TreeCell(scene, info, cast(TreeShape, Announced(engine, announce)), looked_at, facts)
+        return TreeCell(scene, info, cast(TreeShape, Announced(engine, announce)), looked_at, facts, few_steps=few)
 
     def _results(self, check: Check, cell: Cell | TreeCell, differs: bool, causes: Causes, asking: Asking) -> Any:
         """The results of one check; a failure ends this check alone."""

@@ -11,17 +11,22 @@ from ..models.errors import nearest
 from ..records.check import Outcome, Result
 from .registry import CHECKS
 
+LINKS = 10  # of the longest mechanism that is looked at in all of a profile's random states
 SHORT = tuple(name for name, check in CHECKS.items() if not check.long)
 
 
 @dataclass(frozen=True)
 class Profile:
-    """How thorough a run is: which scenes by default, which checks, how many random states at most."""
+    """How thorough a run is: which scenes by default, which checks, how many random states at most.
+
+    ``few_steps``: no longer time is looked at in trajectories of ten links than so many steps reach, of the finest run.
+    """
 
     name: str
     says: str
     checks: tuple[str, ...]
     random_states: int
+    few_steps: int = 1 << 8
     tag: str | None = None
 
 
@@ -32,19 +37,20 @@ PROFILES = {
             "smoke", "one scene of each document's system, accelerations alone", ("accelerations",), 20, tag="smoke"
         ),
         Profile("quick", "the whole catalogue, every check that is quick", SHORT, 200),
-        Profile("full", "every check, in five times as many random states", tuple(CHECKS), 1000),
+        Profile("full", "every check, in five times as many random states", tuple(CHECKS), 1000, few_steps=1 << 10),
     )
 }
 
 
 @dataclass(frozen=True)
 class Task:
-    """The checks of one scene on one engine that are to run."""
+    """The checks of one scene on one engine that are to run, and as in its :class:`Profile` how thoroughly."""
 
     scene: AnyScene
     engine: str
     checks: tuple[str, ...]
     random_states: int
+    few_steps: int = 1 << 10
 
 
 @dataclass(frozen=True)
@@ -102,7 +108,7 @@ def plan_of(
             settled += [_settled(scene, info, check, "skipped", reason) for check, reason in reasons.items()]
             runs = tuple(check for check in chosen.checks if check not in reasons)
             if runs:
-                tasks.append(Task(scene, info.name, runs, random_states(scene, chosen)))
+                tasks.append(Task(scene, info.name, runs, random_states(scene, chosen), chosen.few_steps))
     return Plan(chosen, scenes, infos, tuple(tasks), tuple(settled), absent)
 
 
@@ -111,8 +117,14 @@ def _has_own(scene: AnyScene) -> bool:
 
 
 def random_states(scene: AnyScene, profile: Profile) -> int:
-    """How many random states of a scene a run looks at, at most: a state of a tree costs ten times as much."""
-    return profile.random_states // 10 if isinstance(scene, TreeScene) else profile.random_states
+    """How many random states of a scene a run looks at, at most: a state of a tree costs ten times as much.
+
+    Of more than ten links so many that as many accelerations are compared as of ten: each state is judged by itself, at
+    a cost that grows with the square of the links.
+    """
+    if isinstance(scene, TreeScene):
+        return profile.random_states // 10
+    return min(profile.random_states, max(1, LINKS * profile.random_states // scene.system.n))
 
 
 def skip(check: str, scene: AnyScene, info: EngineInfo) -> str:

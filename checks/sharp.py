@@ -153,9 +153,12 @@ def states_for_accelerations(info: EngineInfo, n: int) -> int:
     return min(FEW, *(spread_states(n, way.ordering) for way in info.ways))
 
 
-def steps_together(integrator: Integrator, n: int) -> int:
-    """How many steps of a run are taken beside the engine's: what costs some hundredths of a second."""
-    return max(4, round((8 if integrator.tolerance else 64 // integrator.order) * min(1.0, 4 / n)))
+def steps_together(integrator: Integrator, n: int, few: int) -> int:
+    """How many steps of a run are taken beside the engine's: what costs some hundredths of a second.
+
+    ``few``: as of a trajectory that is worth a longer time.
+    """
+    return max(4, round((8 if integrator.tolerance else 64 // integrator.order) * min(1.0, 4 / n) * few / 1024))
 
 
 def states_for_symmetries(info: EngineInfo, n: int) -> int:

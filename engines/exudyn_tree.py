@@ -94,14 +94,21 @@ class ExudynTree:
     def inverse_dynamics(self, theta: Array, omega: Array, alpha: Array, *, gravity: bool = True) -> Array:
         forces = np.empty_like(theta)
         solver = exudyn.MainSolverImplicitSecondOrder()
+        # Its mass matrix and forces do not depend on accelerations: rows that ask for column after column share them.
+        last_q, last_v, mass, residual = (np.empty(0) for _ in range(4))
         with self._in_unit_of_time(1.0 if gravity else 0.0):
             for row, (q, v, a) in enumerate(self._coordinates.rows(theta, omega, alpha)):
-                self._start_at(q, v)
-                solver.InitializeSolver(self._mbs, self._at_rest)
-                solver.ComputeMassMatrix(self._mbs)
-                solver.ComputeODE2RHS(self._mbs)
-                forces[row] = solver.GetSystemMassMatrix() @ a - solver.GetSystemResidual()
-                solver.FinalizeSolver(self._mbs, self._at_rest)
+                if not (np.array_equal(q, last_q) and np.array_equal(v, last_v)):
+                    self._start_at(q, v)
+                    solver.InitializeSolver(self._mbs, self._at_rest)
+                    if not np.array_equal(q, last_q):
+                        solver.ComputeMassMatrix(self._mbs)
+                        mass = solver.GetSystemMassMatrix()
+                    solver.ComputeODE2RHS(self._mbs)
+                    residual = solver.GetSystemResidual()
+                    solver.FinalizeSolver(self._mbs, self._at_rest)
+                    last_q, last_v = q, v
+                forces[row] = mass @ a - residual
         return self._coordinates.absolute_forces(forces) * self._units.energy
 
     def energy(self, theta: Array, omega: Array) -> Array:

@@ -41,7 +41,7 @@ class TreeCell:
     """``states`` are those in which quantities are compared; ``facts`` the truth in them.
 
     ``findings``: why answers differ, asked once and only if one does; ``in_file``: what was found in the engine's
-    reading of the scene's model file.
+    reading of the scene's model file. ``few_steps``: as of a mechanism of the documents.
     """
 
     scene: TreeScene
@@ -51,6 +51,7 @@ class TreeCell:
     facts: TreeFacts
     findings: Callable[[], list[Finding]] = list
     in_file: list[Finding] = field(default_factory=list)
+    few_steps: int = 1 << 10
 
     @cached_property
     def mechanism(self) -> SpatialMechanism:

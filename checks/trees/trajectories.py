@@ -24,7 +24,7 @@ from ...reference.proved.kept_trees import proof, sure
 from ...reference.rounding.bounds import EPSILON
 from ...reference.rounding.stepped import QUATERNION
 from ...reference.truth.spatial import spatial_truth
-from ..comparisons.trajectories import EndPoint, Rounding, growth, settled
+from ..motions.ladder import EndPoint, Rounding, growth, settled
 from .cell import TreeCell
 
 Array = NDArray[np.float64]
@@ -46,6 +46,11 @@ class Beside:
     def scene(self) -> TreeScene:
         """What moves."""
         return self.cell.scene
+
+    @property
+    def few_steps(self) -> int:
+        """Of the finest run of ten links that is worth a longer time."""
+        return self.cell.few_steps
 
     @property
     def start(self) -> tuple[Array, Array]:

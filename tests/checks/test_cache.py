@@ -56,6 +56,7 @@ def test_any_other_input_is_another_entry(cache, task, monkeypatch):
     scene = task.scene
     others = [
         replace(task, random_states=21),
+        replace(task, few_steps=21),
         replace(task, engine="exudyn-tree"),
         replace(task, checks=("energy",)),
         replace(task, scene=replace(scene, theta=(1.0, 1.0))),
@@ -73,7 +74,7 @@ def test_the_key_has_every_input(task, monkeypatch):
     numbers = ("theta", "omega", "duration", "random", "named", "tags", "name", "system")
     values = ((1.0, 1.0), (1.0, 1.0), 3.0, 7, ("hanging",), ("other",), "other", furiko.RodChain((1.0, 0.5)))
     others = [replace(task, scene=replace(scene, **{name: value})) for name, value in zip(numbers, values, strict=True)]
-    others += [replace(task, random_states=21), replace(task, checks=("energy",))]
+    others += [replace(task, random_states=21), replace(task, few_steps=21), replace(task, checks=("energy",))]
     pinocchio = [replace(task, engine=name) for name in ("pinocchio-aba", "pinocchio-crba")]  # of one package
     keys = {module._results_key(each) for each in (task, *others, *pinocchio)}
     assert len(keys) == 1 + len(others) + 2

@@ -67,3 +67,8 @@ def test_an_engine_that_is_missing_is_an_error_unless_nobody_named_it():
 def test_a_tree_has_a_tenth_of_the_random_states(profile, states):
     assert random_states(find_scene("arm-7"), PROFILES[profile]) == states
     assert random_states(find_scene("rods-1"), PROFILES[profile]) == 10 * states
+
+
+@pytest.mark.parametrize(("name", "states"), [("rods-10", 200), ("rods-20", 100), ("rods-50", 40), ("rods-100", 20)])
+def test_of_long_chains_as_many_accelerations_are_compared_as_of_ten_links(name, states):
+    assert random_states(find_scene(name), PROFILES["quick"]) == states

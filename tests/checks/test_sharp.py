@@ -294,8 +294,9 @@ def test_how_many_states_a_cell_can_afford():
 def test_how_many_steps_are_taken_beside_an_engine():
     euler, fourth = Integrator("Euler", 1), Integrator("RK4", 4)
     implicit = Integrator("GeneralizedAlpha", 2, tolerance=1e-12)
-    assert [sharp.steps_together(euler, 4), sharp.steps_together(implicit, 4)] == [64, 8]
-    assert [sharp.steps_together(fourth, n) for n in (2, 4, 8, 100)] == [16, 16, 8, 4]
+    assert [sharp.steps_together(euler, 4, 1024), sharp.steps_together(implicit, 4, 1024)] == [64, 8]
+    assert [sharp.steps_together(fourth, n, 1024) for n in (2, 4, 8, 100)] == [16, 16, 8, 4]
+    assert [sharp.steps_together(fourth, n, 256) for n in (2, 100)] == [4, 4]
 
 
 def test_of_an_odd_number_of_states_one_more_is_chosen_for_being_bad():

@@ -78,6 +78,19 @@ def test_forces_for_given_accelerations(engine, system, gravity, any_tree, virtu
         assert np.abs(row - expected).max() <= 10 * mechanism.n * EPS * size.max()
 
 
+def test_rows_that_share_a_place_or_a_state_are_answered_as_each_alone(engine):
+    """An adapter may ask its engine once for what such rows share; here neighbours share one, both or nothing."""
+    able(engine, "inverse_dynamics")
+    adapter = load_engine(engine, RodChain((1.0, 0.5)))
+    angles, rates = [[0.3, 1.0], [0.8, -2.0]], [[0.0, 0.0], [1.0, 2.0]]
+    shared = ((0, 0, 1), (0, 0, 0), (0, 1, 1), (1, 1, 1), (0, 1, 1))
+    rows = np.array([[angles[i], rates[j], rates[k]] for i, j, k in shared])
+    theta, omega, alpha = rows.swapaxes(0, 1)
+    for gravity in (True, False):
+        alone = [adapter.inverse_dynamics(*row, gravity=gravity) for row in rows]
+        assert (adapter.inverse_dynamics(theta, omega, alpha, gravity=gravity) == alone).all()
+
+
 @pytest.mark.parametrize("lengths", [(5e-7,), (5e-7, 1e-7, 1e-3), (1e-3, 2e-6, 1e-7)])
 def test_mujoco_keeps_centres_of_mass_that_are_near_the_hinge(lengths, virtual_work):
     chain = RodChain(lengths, density=1e15)

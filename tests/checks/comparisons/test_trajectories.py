@@ -1,13 +1,14 @@
 """Four runs: the order they show, where they converge to, and how sure that is, on series that are known."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from fake_integrators import Damped, Fake, LongStep
 
 from furiko.checks.comparisons import trajectories
-from furiko.checks.comparisons.trajectories import Ladder
+from furiko.checks.motions.ladder import ORDER_SETTLED, Ladder, Rounding, growth, run
 from furiko.models import NLegPendulum, RodChain, Scene
 from furiko.reference.integration.schemes import SCHEMES
 from furiko.reference.rounding.bounds import EPSILON
@@ -127,7 +128,7 @@ def test_rounding_is_that_of_the_worst_state_on_the_way(make_cell, worst):
 
 def test_rounding_of_a_run_grows_with_its_steps_and_its_time():
     """Ten steps and two seconds: angles and rates of every step, and what turns and speeds in every second."""
-    found = trajectories.Rounding(angle=1.0, rate=10.0, turning=100.0, speeding=1000.0)
+    found = Rounding(angle=1.0, rate=10.0, turning=100.0, speeding=1000.0)
     assert found.after(10, 2.0, (3.0, 5.0)) == (10 * 1.0 + 2 * 100.0) * 3.0 + (10 * 10.0 + 2 * 1000.0) * 5.0
 
 
@@ -142,7 +143,7 @@ def test_a_scheme_of_a_lower_order_than_said_differs_by_its_order_alone(make_cel
     assert result.outcome == "differs"
     assert result.measured <= result.allowed
     assert "RK4 is of order 4 and shows order" in result.reason
-    assert result.details["measured order"] == pytest.approx(order, abs=trajectories.ORDER_SETTLED / 4)
+    assert result.details["measured order"] == pytest.approx(order, abs=ORDER_SETTLED / 4)
     assert result.details["time"] / result.details["steps"][-1] < 1000
 
 
@@ -157,8 +158,8 @@ class Beside(Fake):
 @pytest.mark.parametrize(("sure", "outcome"), [(0.0, "differs"), (2e-4, "agrees")])
 def test_no_motion_is_judged_beyond_what_its_truth_is_sure_to(make_cell, monkeypatch, sure, outcome):
     monkeypatch.setattr(trajectories, "sure", lambda *_: (np.full(4, sure), [False] * 4))
-    monkeypatch.setattr(trajectories, "FEW_STEPS", 1)  # the first of the times is enough
-    (result,) = trajectories.compare(make_cell(Beside, "double-pendulum"))
+    cell = replace(make_cell(Beside, "double-pendulum"), few_steps=1)  # the first of the times is enough
+    (result,) = trajectories.compare(cell)
     assert result.outcome == outcome
 
 
@@ -174,7 +175,7 @@ def test_rounding_grows_as_near_states_part():
 
     cell = Cell()
     cell.scene = scene
-    ends = tuple(trajectories.run(cell, None, 1.0, 8 << k) for k in range(4))
-    found = trajectories.growth(cell, None, Ladder(1 / 8, 8, ends))
+    ends = tuple(run(cell, None, 1.0, 8 << k) for k in range(4))
+    found = growth(cell, None, Ladder(1 / 8, 8, ends))
     # The classical scheme at νh = 3/16: its own error is (νh)⁴ / 120 of what grows, 1e-5.
     assert found == pytest.approx((math.cosh(3.0), math.sinh(3.0) / 3.0), rel=1e-4)
