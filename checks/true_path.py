@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..models import InvalidInput, LibraryMissing, Scene
 from ..reference.integration.tangents import lyapunov_time
-from ..reference.truth.quadruple import quadruple_trajectory
+from ..reference.truth.quadruple import quadruple_path
 
 Array = NDArray[np.float64]
 
@@ -35,9 +35,11 @@ def true_path(scene: Scene) -> tuple[Array, Array]:
 
 @lru_cache(maxsize=4)
 def path(scene: Scene, spacing: float, points: int) -> tuple[Array, Array]:
-    """θ and ω side by side at so many times, ``spacing`` seconds apart, (points, 2n): the sum of the two."""
-    found = quadruple_trajectory(scene.system, *_start(scene), spacing * np.arange(points, dtype=np.float64))
-    return np.hstack([found.theta, found.omega]), np.hstack([found.theta_low, found.omega_low])
+    """θ and ω side by side at so many times, ``spacing`` seconds apart, (points, 2n): the sum of the two.
+
+    Of local errors of 1e-30, which grow 5e8 times in twenty Lyapunov times: far below the roundings that are followed.
+    """
+    return quadruple_path(scene.system, *_start(scene), spacing * np.arange(points, dtype=np.float64))
 
 
 def _start(scene: Scene) -> tuple[tuple[float, ...], tuple[float, ...]]:

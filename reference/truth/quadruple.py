@@ -61,6 +61,16 @@ def quadruple_trajectory(
     return QuadrupleTrajectory(high[:, :n], high[:, n:], low[:, :n], low[:, n:], error)
 
 
+def quadruple_path(
+    system: DocumentSystem, theta: Sequence[float], omega: Sequence[float], times: Floats
+) -> tuple[Floats, Floats]:
+    """θ and ω side by side at ``times`` [s], (times, 2n): the sum of the two, by one run, whose error is not estimated.
+
+    A local error of the coarser tolerance, grown as fast as small differences do. Raises LibraryMissing without heyoka.
+    """
+    return split(_run(_equations(system), [*theta, *omega], times.tolist(), TOLERANCES[1], _heyoka().real128))
+
+
 def split(states: Array) -> tuple[Floats, Floats]:
     """Numbers of more digits as sums of two doubles, the nearest one first."""
     high = states.astype(np.float64)
