@@ -6,7 +6,7 @@ JOBS ?= 2
 # Slow tests wait for a third of their time: for processes of their own, and for time limits that these shall pass.
 SLOW_JOBS ?= 3
 
-.PHONY: check test test-slow test-proofs test-all lint docs engines notebooks models kernels architecture clean
+.PHONY: check test test-slow test-proofs test-sweeps test-all lint docs engines notebooks models kernels architecture clean
 
 check: $(VENV)/.check  ## run the catalogue against every engine; writes furiko-report/
 	$(BIN)/furiko check
@@ -14,13 +14,16 @@ check: $(VENV)/.check  ## run the catalogue against every engine; writes furiko-
 test: $(VENV)/.test  ## run the tests, less the slow ones: some minutes
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m "not slow"
 
-test-slow: $(VENV)/.test  ## run the slow tests alone, less the proofs
-	$(BIN)/python -m pytest -n $(SLOW_JOBS) --dist worksteal -m "slow and not proof"
+test-slow: $(VENV)/.test  ## run the slow tests alone, less proofs and sweeps
+	$(BIN)/python -m pytest -n $(SLOW_JOBS) --dist worksteal -m "slow and not proof and not sweep"
 
 test-proofs: $(VENV)/.test  ## prove what the collections of derivations say, which is to be done when one has changed
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m proof
 
-test-all: test test-slow test-proofs  ## run every test
+test-sweeps: $(VENV)/.test  ## scores, campaigns and proofs over the whole of what the other tests take samples of; before a release
+	$(BIN)/python -m pytest -n $(SLOW_JOBS) --dist worksteal -m sweep
+
+test-all: test test-slow test-proofs test-sweeps  ## run every test
 
 lint: $(VENV)/.test  ## ruff, mypy --strict and basedpyright
 	$(BIN)/ruff check .

@@ -55,7 +55,7 @@ def test_every_fault_has_its_own_name_or_command_line():
 @pytest.mark.parametrize(
     "fault",
     [
-        pytest.param(fault, marks=() if fault.name in QUICK else pytest.mark.slow, id=fault.name[:60])
+        pytest.param(fault, marks=() if fault.name in QUICK else pytest.mark.sweep, id=fault.name[:60])
         for fault in FAULTS
     ],
 )
@@ -64,7 +64,7 @@ def test_a_fault_of_the_surroundings_is_borne(fault, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("number", range(40))
+@pytest.mark.parametrize("number", [*range(8), *(pytest.param(k, marks=pytest.mark.sweep) for k in range(8, 40))])
 @pytest.mark.filterwarnings("ignore:This process:DeprecationWarning")  # threads, and a fork
 def test_a_hostile_input_is_borne(number, tmp_path):
     words = arguments(number, 2018, tmp_path)

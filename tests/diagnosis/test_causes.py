@@ -298,6 +298,7 @@ def test_where_two_pairs_explain_the_same_both_are_told():
 
 
 @pytest.mark.slow
+@pytest.mark.sweep
 def test_the_score_of_pairs():
     """Guards what is reached: of 60 pairs that nothing was made for 56 named, none with a cause that was not planted.
 
@@ -321,6 +322,7 @@ def test_a_change_of_one_in_ten_billion_is_detected_and_sized(kind):
 
 
 @pytest.mark.slow
+@pytest.mark.sweep
 def test_the_score_over_two_hundred_plants(capfd):
     """Measured with 714 plants: all detected, 99.3 % named first; 600 sound models, none alarmed.
 

@@ -21,6 +21,7 @@ def check_singles(tally):
 
 
 @pytest.mark.slow
+@pytest.mark.sweep
 def test_single_mistakes():
     check_singles(singles((2, 3)))
 
@@ -31,6 +32,7 @@ def test_single_mistakes_of_four_links():
 
 
 @pytest.mark.slow
+@pytest.mark.sweep
 def test_pairs():
     tally = pairs(200)
     assert share(tally, "both named", "right on a condition") >= 0.85, table([tally])
@@ -38,8 +40,9 @@ def test_pairs():
 
 
 @pytest.mark.slow
-def test_rewritings():
-    tally = rewritings(250)
+@pytest.mark.parametrize("count", [40, pytest.param(250, marks=pytest.mark.sweep)])
+def test_rewritings(count):
+    tally = rewritings(count)
     assert share(tally, "correct") == 1, table([tally])
 
 
@@ -51,8 +54,9 @@ def check_hostile(tally):
 
 
 @pytest.mark.slow
-def test_hostile_inputs():
-    check_hostile(hostile_inputs(1_500))
+@pytest.mark.parametrize("count", [200, pytest.param(1_500, marks=pytest.mark.sweep)])
+def test_hostile_inputs(count):
+    check_hostile(hostile_inputs(count))
 
 
 def test_the_first_verdict_is_wrong_as_it_must_be():

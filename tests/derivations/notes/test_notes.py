@@ -197,6 +197,7 @@ def _is_mentioned(text, at):
 
 
 @pytest.mark.slow
+@pytest.mark.sweep
 @pytest.mark.parametrize("name", NOTES)
 def test_a_slip_in_a_note_is_noticed(name):
     accepted = [place for text, place in slips(name) if outcome(text) not in NOTICED]

@@ -68,6 +68,7 @@ np.save(sys.argv[2], test_ahead.all_answers())
 
 @here
 @pytest.mark.slow
+@pytest.mark.sweep
 def test_the_numbers_are_numbas_to_the_last_bit(tmp_path):
     """Numba's of a second process: one that compiles several kernels shares functions among them, rounded otherwise."""
     pytest.importorskip("numba")

@@ -18,6 +18,7 @@ from furiko.studies.bench.scenes import BENCHMARKS
 MOVING = [scene.name for scene in document_scenes() if scene.theta is not None and scene.duration]
 NAMES = sorted(entry["scene"] for entry in json.loads(kept.PATH.read_text(encoding="utf-8")).values())
 UNREACHED = {"n-leg-3-mass-ratio"}  # thousands of steps a second
+SWEEP = (pytest.mark.slow, pytest.mark.sweep)
 QUICK = {"rods-1", "double-pendulum-no-gravity"}  # proved anew within a second or two each
 
 
@@ -67,7 +68,8 @@ def test_simulates_error_is_about_as_large_as_its_estimate_at_most(name):
 
 
 @pytest.mark.parametrize(
-    "name", [name if name in QUICK else pytest.param(name, marks=pytest.mark.slow) for name in NAMES]
+    "name",
+    [name if name in QUICK else pytest.param(name, marks=[pytest.mark.slow, pytest.mark.sweep]) for name in NAMES],
 )
 def test_a_new_proof_meets_the_kept_one(name):
     scene, proof = of(name)
