@@ -19,6 +19,8 @@ import prove_seventh_programs
 import prove_sixth
 import prove_strange_machines
 import prove_strange_pendulums
+import prove_tenth
+import prove_tenth_programs
 import pytest
 from prove import rates_hold
 from truth import compare, conventions
@@ -40,6 +42,8 @@ PROOFS = {
     "eighth_programs": prove_eighth_programs.PROOFS,
     "ninth_collection": prove_ninth.PROOFS,
     "ninth_programs": prove_ninth_programs.PROOFS,
+    "tenth_collection": prove_tenth.PROOFS,
+    "tenth_programs": prove_tenth_programs.PROOFS,
 }
 
 
