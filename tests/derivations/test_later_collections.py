@@ -55,7 +55,8 @@ READ_AS_PRINTED = 0.9
 # Of the seventh's 49 programs, 12 were read at first; what is read now is not to become less. Of the eighth, gathered
 # blind, 37 of 51 printed derivations and 20 of 35 programs were read at first; the printed ones are all read today. Of
 # the ninth's 85 printed derivations 52 were read and judged right at first, and of its 59 programs 20; one of each was
-# misjudged. Of the tenth, gathered blind as well, 59 of 78 printed derivations and 22 of 39 programs; one program was misjudged.
+# misjudged. Of the tenth, gathered blind as well, 59 of 78 printed derivations and 22 of 39 programs; one program was
+# misjudged.
 READ_SO_FAR = {
     "seventh_programs": 46,
     "eighth_programs": 33,
