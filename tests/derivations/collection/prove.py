@@ -6,21 +6,11 @@ from pathlib import Path
 
 import prove_machines
 import prove_pendulums
-import sympy as sp
-from truth import compare, conventions, state_of, value_of
+from truth import compare, conventions, rates_hold
 
 HERE = Path(__file__).parent
 INDEX = tomllib.loads((HERE / "index.toml").read_text(encoding="utf-8"))
 PROOFS = prove_pendulums.PROOFS | prove_machines.PROOFS
-
-
-def rates_hold(rows, mechanism):
-    """Whether rows without accelerations hold at random states."""
-    for seed in range(8):
-        circle, numbers = state_of([*rows, *(q for c in mechanism.coordinates for q in c)], mechanism, seed)
-        if any(value_of(sp.sympify(row), circle, numbers) != 0 for row in rows):
-            return False
-    return True
 
 
 def verdict(name):

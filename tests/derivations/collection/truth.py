@@ -175,3 +175,12 @@ def _relative(mechanism):
     return any(
         len(f.args[0].free_symbols) > 1 for body in mechanism.bodies for f in sp.sympify(body.x).atoms(sp.sin, sp.cos)
     )
+
+
+def rates_hold(rows, mechanism):
+    """Whether rows without accelerations hold at random states."""
+    for seed in range(8):
+        circle, numbers = state_of([*rows, *(q for c in mechanism.coordinates for q in c)], mechanism, seed)
+        if any(value_of(sp.sympify(row), circle, numbers) != 0 for row in rows):
+            return False
+    return True

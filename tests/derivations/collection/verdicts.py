@@ -7,8 +7,7 @@ for which alone the rows are meant.
 import sys
 import tomllib
 
-from prove import rates_hold
-from truth import compare, conventions
+from truth import compare, conventions, rates_hold
 
 
 def parts(proof):
