@@ -7,10 +7,10 @@ from pathlib import Path
 
 from ...models.readers.folders import package_folders
 
-PACKAGE = re.compile(rb"package://([\w.+-]+)/")
+PACKAGE = re.compile(rb"(?:package|model)://([\w.+-]+)/")
 
 
 def own_packages(path: Path) -> list[Path]:
-    """The folders above the document at ``path`` that are the packages it names as ``package://NAME/…``."""
+    """The folders above the document at ``path`` that are the packages it names, as ``package://NAME/…``."""
     names = dict.fromkeys(name.decode() for name in PACKAGE.findall(path.read_bytes()))
     return [folder for name in names for folder in package_folders(path, name)]

@@ -30,6 +30,7 @@ ROOMS = {
                 "readers.placement",
                 "readers.folders",
                 "readers.named_folders",
+                "readers.packages",
                 "readers.shapes",
             ),
             ("readers.mjcf",),

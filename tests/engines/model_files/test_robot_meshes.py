@@ -18,9 +18,9 @@ def tetrahedron(edge=1.0):
     return b" " * 80 + struct.pack("<I", len(faces)) + b"".join(rows)
 
 
-@pytest.mark.parametrize("name", ["package://arm/meshes/t.stl", "meshes/t.stl", "elsewhere/t.stl", "../meshes/t.stl"])
+@pytest.mark.parametrize("name", ["package://stock/meshes/t.stl", "meshes/t.stl", "elsewhere/t.stl", "../meshes/t.stl"])
 def test_meshes_in_the_folders_that_are_named(read, tmp_path, name):
-    """Where MuJoCo does not find a mesh it is looked for below them: as a whole path, then without its first parts."""
+    """Where MuJoCo does not find a mesh it is looked for below them: by package or path, then the bare name in them."""
     (tmp_path / "stock" / "meshes").mkdir(parents=True)
     (tmp_path / "stock" / "meshes" / "t.stl").write_bytes(tetrahedron())
     text = f"""<robot name="r"><link name="world"/><link name="a">
@@ -85,16 +85,28 @@ def test_furiko_and_mujoco_read_the_same_mesh(tmp_path):
 
 def test_two_that_the_name_may_mean_are_said(tmp_path):
     """Neither is taken; the folder of one of them says which it is."""
-    put(tmp_path / "stock" / "one" / "collision", 1.0)
-    put(tmp_path / "stock" / "two" / "collision", 2.0)
+    put(tmp_path / "stock" / "one" / "arm" / "collision", 1.0)
+    put(tmp_path / "stock" / "two" / "arm" / "collision", 2.0)
     path = tmp_path / "model.urdf"
     path.write_text(collision("package://arm/collision/t.stl"))
     found = diagnose(path, engines=["mujoco"], meshes=[tmp_path / "stock"])
     (finding,) = found.findings
     assert finding.cause == "file-refused"
-    assert "name the folder of the one that is meant: one/collision/t.stl and two/collision/t.stl" in finding.says
+    assert "of the one that is meant: one/arm/collision/t.stl and two/arm/collision/t.stl" in finding.says
     found = diagnose(path, engines=["mujoco"], meshes=[tmp_path / "stock" / "two"])
     assert [finding.cause for finding in found.findings] == ["collision-weighs"]
+
+
+def test_a_mesh_of_another_robot_is_not_taken(tmp_path):
+    """The only file of the name lies in another package: its mass would be that of another body."""
+    put(tmp_path / "stock" / "leg" / "collision", 2.0)
+    path = tmp_path / "model.urdf"
+    path.write_text(collision("package://arm/collision/t.stl"))
+    found = diagnose(path, engines=["mujoco"], meshes=[tmp_path / "stock"])
+    assert found.verdict == "incomplete"
+    (finding,) = found.findings
+    assert finding.cause == "file-refused"
+    assert "Name the folder" in finding.says
 
 
 def test_an_unnamed_mesh_of_a_mjcf_below_the_folder_keeps_its_name(read, tmp_path):
