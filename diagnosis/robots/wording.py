@@ -42,6 +42,7 @@ INSTEAD: Mapping[str, str] = {
     "armature_needs_actuator": "add an actuator to the joint, or set the armature in the engine",
     "nested_class_inherits_nothing": "repeat the element in the nested class",
     "space_behind_number_rejected": "write the number without the space behind it",
+    "align_ignored": "write align='false', and the body's frame at its centre of mass, along its principal axes",
     "frame_ignored": "write each body's own pose in place of <frame>, and the copies in place of <replicate>",
     "attach_ignored": "write the bodies out in place of <attach>",
 }

@@ -25,6 +25,7 @@ ROOMS = {
             (
                 "readers.xml_file",
                 "readers.attributes",
+                "readers.aligned",
                 "readers.meshes",
                 "readers.rules",
                 "readers.placement",
