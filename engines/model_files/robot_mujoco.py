@@ -37,7 +37,7 @@ from ..quiet import silenced
 from ..releases import has
 from .robot_coordinates import Block, EngineState, RobotCoordinates
 from .robot_joints import HeldJoint, match, named_alike, unique
-from .robot_meshes import own_packages
+from .robot_meshes import names_packages
 
 # MuJoCo's bindings have no type stubs that fit: Any, here and nowhere else.
 mujoco: Any = import_module("mujoco")
@@ -232,7 +232,7 @@ def _loaded(path: Path, folders: Sequence[Path]) -> Any:
     MuJoCo keeps what it is handed by the bare name: of two files ``base.stl`` in two folders it would take one for
     both.
     """
-    if not folders and not own_packages(path):
+    if not folders and not names_packages(path):
         return mujoco.MjModel.from_xml_path(str(path))
     spec = _spec(path)
     contents: dict[str, bytes] = {}

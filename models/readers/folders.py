@@ -19,9 +19,13 @@ def package_folders(path: Path, package: str) -> list[Path]:
 
 
 def in_own_package(path: Path, name: str) -> Path | None:
-    """The file ``package://NAME/REST`` in one of :func:`package_folders` of the document at ``path``."""
+    """The file ``package://NAME/REST`` in one of :func:`package_folders` of the document at ``path``.
+
+    One without a package (``package:///REST``) is beside the document.
+    """
     package, rest = in_package(name) or ("", ())
-    for folder in package_folders(path, package):
+    here = [path.resolve().parent] if rest and not package else []
+    for folder in here or package_folders(path, package):
         found = folder.joinpath(*rest).resolve()
         if found.is_relative_to(folder) and os.path.isfile(found):
             return found

@@ -36,9 +36,10 @@ class NamedFolders:
         have one the first, and in a folder first what is there in so many words. Raises :class:`InvalidInput` where
         that leaves several with different contents, and for a folder with too much below it.
         """
-        if package := in_package(name):
-            return self._in_package(*package, name)
-        end = _parts(name)
+        package, rest = in_package(name) or ("", ())
+        if package:
+            return self._in_package(package, rest, name)
+        end = rest or _parts(name)
         if not end:
             return None
         for folder in self._folders:
@@ -50,14 +51,13 @@ class NamedFolders:
         for length in range(len(end), least - 1, -1):
             for folder in self._folders:
                 if found := folder.ending(end[-length:]):
-                    return folder.one_of(found, name)
+                    exact = folder.path.joinpath(*end[-length:])
+                    return exact if exact in found else folder.one_of(found, name)
         flat = (folder.path / end[-1] for folder in self._folders if folder.has(folder.path / end[-1]))
         return next(flat, None)
 
     def _in_package(self, package: str, rest: tuple[str, ...], name: str) -> Path | None:
         """The file in a folder that is the package, else in one of the document's own folders that is no other one."""
-        if not rest:
-            return None
         for folder in self._folders:
             if found := [path for path in folder.ending(rest) if folder.is_in(path, rest, package)]:
                 return folder.one_of(found, name)

@@ -11,7 +11,7 @@ from ..errors import InvalidInput
 from .bounded_file import read_bytes
 
 LEVELS = 3  # a package's own folder is looked for in this many folders above the document's
-SCHEMES = ("package://", "model://")
+SCHEMES = ("package://", "model://", "package:/", "model:/")
 LARGEST_MANIFEST = 1_000_000  # bytes of a package.xml
 COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
 NAME = re.compile(rb"<name>\s*([^<\s]+)\s*</name>")
@@ -21,11 +21,16 @@ def in_package(name: str) -> tuple[str, tuple[str, ...]] | None:
     """The package and the parts of the path in it that ``package://NAME/REST`` or ``model://NAME/REST`` says.
 
     None for every other name. ``..`` goes up, out of the package too: ``package://a/../b/c`` is ``package://b/c``.
+    No package, but a path from the document's folder, is what CAD exporters write as ``package:///a.stl`` and
+    ``package://a.stl``; MuJoCo makes ``package:/a.stl`` of it.
     """
     scheme = next((scheme for scheme in SCHEMES if name.startswith(scheme)), "")
     if not scheme:
         return None
-    package, *rest = posixpath.normpath("/" + name.removeprefix(scheme)).lstrip("/").split("/")
+    inside = name.removeprefix(scheme)
+    package, *rest = posixpath.normpath("/" + inside).lstrip("/").split("/")
+    if inside.startswith("/") or not rest:
+        return "", tuple(part for part in (package, *rest) if part)
     return package, tuple(rest)
 
 

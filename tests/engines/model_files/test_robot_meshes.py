@@ -73,6 +73,18 @@ def test_a_mesh_where_the_file_says_beside_one_of_the_same_name_that_is_elsewher
     assert robot.compiled().bodies[-1].inertial.mass == pytest.approx(8000 / 6, rel=1e-6)
 
 
+@pytest.mark.parametrize("name", ["package:///t.stl", "package://t.stl", "package:///deep/t.stl"])
+def test_a_mesh_without_a_package_is_beside_the_file(tmp_path, name):
+    """As CAD exporters write it; no folder need be named for that."""
+    put(tmp_path / ("deep" if "deep" in name else ""), 2.0)
+    path = tmp_path / "model.urdf"
+    path.write_text(collision(name))
+    for folders in ([], [tmp_path]):
+        found = diagnose(path, engines=["mujoco"], meshes=folders)
+        assert [finding.cause for finding in found.findings] == ["collision-weighs"], found.text()
+        assert found.engines["mujoco"]["holds"]["bodies"][-1]["mass"] == pytest.approx(8000 / 6, rel=1e-6)
+
+
 def test_furiko_and_mujoco_read_the_same_mesh(tmp_path):
     """The link has no inertial: MuJoCo weighs the mesh, and furiko weighs the same one to say so."""
     put(tmp_path / "stock" / "robots" / "arm" / "visual", 1.0)

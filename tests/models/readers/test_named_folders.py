@@ -25,6 +25,11 @@ def put(root, *names):
         ("package://leg/other/b.stl", None),  # another robot's file of the same name
         ("package://leg/a.stl", None),
         ("package://arm", None),
+        ("package:///c.stl", "c.stl"),  # what CAD exporters write: a path from the document's folder
+        ("package://c.stl", "c.stl"),
+        ("package:/c.stl", "c.stl"),  # as MuJoCo has it
+        ("package:///meshes/a.stl", "meshes/a.stl"),
+        ("package:///visual/a.stl", None),
         ("meshes/a.stl", "meshes/a.stl"),
         ("../arm/meshes/a.stl", "deep/arm/meshes/a.stl"),
         ("package://stock/meshes/a.stl", "meshes/a.stl"),  # the folder is the package
@@ -53,6 +58,13 @@ def test_of_two_folders_the_first_that_has_the_end(tmp_path):
     folders = NamedFolders(tmp_path / "model.xml", [tmp_path / "one", tmp_path / "two"])
     assert folders.find("a.stl") == tmp_path / "one/x/a.stl"
     assert folders.find("meshes/a.stl") == tmp_path / "two/y/meshes/a.stl"
+
+
+def test_what_the_folder_has_in_so_many_words_is_before_what_lies_deeper(tmp_path):
+    """An absolute path of another machine, whose last parts two files have."""
+    put(tmp_path, "mesh/a.stl", "deeper/mesh/a.stl")
+    folders = NamedFolders(tmp_path / "robot.urdf", [tmp_path])
+    assert folders.find("/home/somebody/robot/mesh/a.stl") == tmp_path / "mesh/a.stl"
 
 
 def test_several_that_differ_are_said_and_copies_are_one(tmp_path):
