@@ -71,13 +71,12 @@ def diagnose(
         question = Question(path, file, folders, limits, contacts=bool(wanted.name))
         results = ask_engines(question, readers, named=engines is not None, isolated=isolated)
     of_file = _of_file(file, wanted, limits)
-    why = "" if engines is not None else _why_not_built(file, results)
-    results = [result for result in results if not why or result.name != BUILT.name]
+    not_asked = {} if engines is not None else _not_asked(file, results)
+    results = [result for result in results if result.name not in not_asked]
     findings = [*of_file, *vote(file, results)]
     notes = [*file.notes, *_tilt_notes(file.planar), *_not_ideal_notes(file.planar, wanted)]
     notes += [note for result in results for note in result.notes]
-    if why:
-        notes.append(f"{BUILT.name} is not asked: {why}")
+    notes += [f"{name} is not asked: {why}" for name, why in not_asked.items()]
     return Diagnosis(
         model=file.path,
         verdict=verdict(findings, results, named=engines is not None),
@@ -90,6 +89,14 @@ def diagnose(
         simulation=(*servo_findings(file.servos), *(said for result in results for said in result.simulation)),
         without=tuple(dict.fromkeys([*file.without, *(line for result in results for line in result.without)])),
     )
+
+
+def _not_asked(file: ModelFile, results: Sequence[EngineResult]) -> dict[str, str]:
+    """By name the engines that nobody named and that are left out, each with the reason."""
+    found = {r.name: r.own.says for r in results if r.own is not None and not r.own.asked}
+    if why := _why_not_built(file, results):
+        found[BUILT.name] = why
+    return found
 
 
 def _why_not_built(file: ModelFile, results: Sequence[EngineResult]) -> str:

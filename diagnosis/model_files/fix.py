@@ -8,7 +8,7 @@ from pathlib import Path
 from ...models import InvalidInput
 from ...models.readers.model_file import ModelFile
 from ...models.spatial_mechanism import WORLD, SpatialMechanism
-from ...models.writers.merged_links import without_weightless_links
+from ...models.writers.merged_links import without_idle_joints, without_weightless_links
 from ...models.writers.spatial_mjcf import spatial_mjcf
 from ...models.writers.spatial_urdf import spatial_urdf
 from ...models.writers.whole_file import require_writable, write_whole
@@ -35,10 +35,15 @@ def write_fixed(model: ModelFile, out: Path) -> list[str]:
     mechanism.
     """
     require_target(out, model.path)
-    mechanism, left = without_weightless_links(model.spatial) if out.suffix != ".urdf" else (model.spatial, ())
+    mechanism, idle = without_idle_joints(model.spatial)
+    mechanism, left = without_weightless_links(mechanism) if out.suffix != ".urdf" else (mechanism, ())
     write_whole(out, WRITERS[out.suffix](mechanism))
+    fixed = (
+        "what a joint moves and weighs nothing is fixed where it is: nothing says how it would accelerate, and MuJoCo "
+        f"refuses it; to keep the joint, give that a mass in the file: {listed(idle)}"
+    )
     without = f"what weighs nothing and carries one link is left out, and that has its joints: {listed(left)}"
-    return [*([without] if left else ()), *_not_alike(mechanism, out)]
+    return [*([fixed] if idle else ()), *([without] if left else ()), *_not_alike(mechanism, out)]
 
 
 def require_target(out: Path, model: str | Path) -> None:
@@ -93,4 +98,4 @@ def _not_alike(mechanism: SpatialMechanism, out: Path) -> Iterator[str]:
         yield f"{what}, which MuJoCo alone has as written: {listed(names)}"
     weightless = [link.name for link in moving_links(mechanism) if link.inertial.weightless]
     if weightless:
-        yield f"MuJoCo refuses links that move and weigh nothing: {listed(weightless)}"
+        yield (f"MuJoCo refuses links that move and weigh nothing; give them a mass in the file: {listed(weightless)}")

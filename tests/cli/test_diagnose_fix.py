@@ -14,6 +14,8 @@ INERTIAL = '<inertial pos="0.1 0 -0.4" mass="1.5" diaginertia="0.1 0.2 0.25"/>'
 HINGE = f'<body name="a"><joint name="j" axis="0 1 0"/>{INERTIAL}</body>'
 # What the engines do not agree on is no fault of how it is written: a ball's damper, and a link without a mass.
 BALL = f'<body name="a"><joint name="j" type="ball" damping="0.3"/>{INERTIAL}</body>'
+DRIVEN = f"""<body name="a"><joint name="j" axis="0 1 0"/>{INERTIAL}<body name="tool">
+<joint name="k" axis="1 0 0" armature="0.1"/></body></body>"""
 SHOWN = f'<body name="a"><joint name="j" axis="0 1 0" ref="0.2"/><joint name="k" axis="1 0 0"/>{INERTIAL}</body>'
 WEIGHTLESS = """<robot name="r"><link name="world"/><link name="a"><inertial><origin xyz="0 0 -1"/><mass value="1"/>
 <inertia ixx=".1" iyy=".12" izz=".14" ixy="0" ixz="0" iyz="0"/></inertial></link><link name="tool"/>
@@ -59,6 +61,16 @@ def test_what_weighs_nothing_between_two_joints_is_written_so_that_mujoco_takes_
 
 @SLOW
 @ENGINES
+def test_what_weighs_nothing_at_an_end_is_fixed_there(tmp_path):
+    """MuJoCo refuses the file; nothing says how its last link moves."""
+    status, text, _ = fixed(tmp_path, WEIGHTLESS, "--json", name="model.urdf")
+    found = json.loads(text)
+    assert (status, found["engines"]["mujoco"]["status"], found["fix"]["agrees"]) == (1, "refused", True)
+    assert any("is fixed where it is" in note and note.endswith("'k'") for note in found["notes"])
+
+
+@SLOW
+@ENGINES
 def test_a_misreading_that_is_mended_leaves_the_files_own_status(tmp_path):
     """Pinocchio ignores the ref of the first of several joints: the model differs, and what is written does not."""
     status, text, _ = fixed(tmp_path, SHOWN, "--json")
@@ -73,7 +85,7 @@ def test_a_misreading_that_is_mended_leaves_the_files_own_status(tmp_path):
     ("text", "name", "says"),
     [
         (BALL, "model.xml", "pinocchio-aba drops damping and dry friction of free and ball joints: joint 'j'"),
-        (WEIGHTLESS, "model.urdf", "mujoco refuses"),
+        (DRIVEN, "model.xml", "mujoco refuses"),
     ],
 )
 def test_a_file_that_cannot_agree_is_said_not_to(tmp_path, text, name, says):
