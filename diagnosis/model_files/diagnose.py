@@ -22,6 +22,7 @@ from ...engines.model_files.robot import ROBOT_READERS
 from ...models import InvalidInput, PlanarTree
 from ...models.errors import nearest
 from ...models.mechanism import Mechanism, mechanism_of
+from ...models.readers.mjcf.bodies import MESHES_LEFT_OUT
 from ...models.readers.model_file import ModelFile, read_model
 from ...models.spatial_mechanism import SpatialMechanism
 from ..finding import Finding
@@ -74,7 +75,7 @@ def diagnose(
     not_asked = {} if engines is not None else _not_asked(file, results)
     results = [result for result in results if result.name not in not_asked]
     findings = [*of_file, *vote(file, results)]
-    notes = [*file.notes, *_tilt_notes(file.planar), *_not_ideal_notes(file.planar, wanted)]
+    notes = [*_of_interest(file), *_tilt_notes(file.planar), *_not_ideal_notes(file.planar, wanted)]
     notes += [note for result in results for note in result.notes]
     notes += [f"{name} is not asked: {why}" for name, why in not_asked.items()]
     return Diagnosis(
@@ -89,6 +90,11 @@ def diagnose(
         simulation=(*servo_findings(file.servos), *(said for result in results for said in result.simulation)),
         without=tuple(dict.fromkeys([*file.without, *(line for result in results for line in result.without)])),
     )
+
+
+def _of_interest(file: ModelFile) -> list[str]:
+    """The reader's notes; not that on furiko's own text of the file, which is made of planar mechanisms alone."""
+    return [note for note in file.notes if file.planar is not None or note != MESHES_LEFT_OUT]
 
 
 def _not_asked(file: ModelFile, results: Sequence[EngineResult]) -> dict[str, str]:

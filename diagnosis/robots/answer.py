@@ -247,9 +247,12 @@ def acting(holds: SpatialMechanism, cleared: Sequence[str]) -> SpatialMechanism:
 
 
 def left_to_caller(reader: RobotReader, mechanism: SpatialMechanism) -> tuple[str, ...]:
-    """Sentences on the passive forces that the file has and the engine's forward dynamics leaves to its caller."""
+    """A sentence on the passive forces that the file has and the engine's forward dynamics leaves to its caller."""
     left = [name for name in reader.leaves_to_caller if mechanism.per_freedom(name).any()]
-    return tuple(f"{name} in {reader.name}, whose forward dynamics leaves it to the caller" for name in left)
+    if not left:
+        return ()
+    them = "it" if len(left) == 1 else "them"
+    return (f"{' and '.join(left)} in {reader.name}, whose forward dynamics leaves {them} to the caller",)
 
 
 def _reading(

@@ -99,6 +99,10 @@ def _numbers(differences: Sequence[FieldDifference], asked: str = "the file") ->
 
 
 def _one(difference: FieldDifference, asked: str) -> str:
+    if difference.cause == "joint-dropped-by-parser":
+        return f"{difference.where} ({difference.expected}) is missing"
+    if difference.cause == "joint-added":
+        return f"{difference.where} ({difference.found}) is not in {asked}"
     unit = f" {difference.unit}" if difference.unit else ""
     digits = next((n for n in DIGITS if _shown(difference.found, n) != _shown(difference.expected, n)), DIGITS[0])
     found, expected = _shown(difference.found, digits), _shown(difference.expected, digits)

@@ -26,6 +26,7 @@ from .options import Options
 
 SEEN_THROUGH = ("frame", "attached")
 KEPT = ("geom", "inertial", "joint", "freejoint", "body", *SEEN_THROUGH)  # inside a body
+MESHES_LEFT_OUT = "geoms that are meshes do not collide in the text that furiko makes of a planar file for engines"
 LEFT_OUT = ("site", "camera", "light")
 REFUSED = {
     "composite": "it stands for bodies and joints that only MuJoCo makes; write them out",
@@ -257,7 +258,7 @@ class Bodies:
             strip(geom.given)
             if geom.from_file:
                 geom.holder.children = [child for child in geom.holder.children if child is not geom.given]
-                self.notes.add("geoms that are meshes do not collide in furiko's own text of the file")
+                self.notes.add(MESHES_LEFT_OUT)
 
     def _named(self, element: Element, kind: str) -> str:
         """The element's name, given one where it has none, so that engines can be asked for it."""

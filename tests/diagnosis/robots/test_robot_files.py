@@ -301,7 +301,19 @@ def test_what_is_unnamed_is_the_same_however_much_was_lost_before_it(tmp_path):
         </worldbody></mujoco>"""
     found = diagnose(saved(tmp_path, "scene.xml", text))
     assert [finding.cause for finding in found.findings] == ["include-not-followed"], found.text()
-    assert "'furiko_joint_1': joint none" in found.findings[0].says
+    assert "joint 'furiko_joint_1' (hinge) is missing" in found.findings[0].says
+
+
+def test_an_unnamed_free_joint_that_is_read_again_is_no_further_finding(tmp_path):
+    """Pinocchio reads the robot in place of the floor's world, and calls the second free joint after its body."""
+    robot = (
+        f'<body name="a"><freejoint/>{INERTIAL}<body name="b"><joint name="j" axis="0 1 0"/>{INERTIAL}</body></body>'
+    )
+    text = f"<mujoco><worldbody>{robot}</worldbody><worldbody><light pos='0 0 1'/></worldbody></mujoco>"
+    found = diagnose(saved(tmp_path, "mocap.xml", text))
+    causes = [finding.cause for finding in found.findings]
+    assert causes[0] == "first-worldbody-again", found.text()
+    assert not {"joint-dropped-by-parser", "joint-added", "unexplained"} & set(causes), found.text()
 
 
 def test_two_misreadings_at_once_are_both_named(tmp_path):
@@ -413,7 +425,8 @@ def test_a_fix_keeps_all_joints_where_nothing_weighs(tmp_path):
 def test_what_carries_nothing_but_idle_links_is_idle_too(tmp_path):
     """A wrist of two axes without a hand; the arm's own motion, M and bias, is that of the file."""
     text = f"""<robot name="r"><link name="world"/>{LINK.format("a", TENSOR, "")}<link name="wrist"/>
-        <link name="frame"/><link name="tool"/><joint name="j" type="continuous"><parent link="world"/><child link="a"/><axis xyz="0 1 0"/>
+        <link name="frame"/><link name="tool"/><joint name="j" type="continuous"><parent link="world"/>
+        <child link="a"/><axis xyz="0 1 0"/>
         </joint><joint name="k" type="continuous"><origin xyz="0 0 -1" rpy=".1 .2 .3"/><parent link="a"/>
         <child link="wrist"/><axis xyz="0 1 0"/></joint><joint name="f" type="fixed"><parent link="wrist"/>
         <child link="frame"/></joint><joint name="l" type="prismatic"><parent link="frame"/><child link="tool"/>
