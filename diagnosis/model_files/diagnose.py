@@ -19,6 +19,7 @@ import numpy as np
 
 from ...engines.model_files.adapter import READERS, Reader
 from ...engines.model_files.robot import ROBOT_READERS
+from ...engines.model_files.robot_joints import UNNAMED_BODY, UNNAMED_JOINT
 from ...models import InvalidInput, PlanarTree
 from ...models.errors import nearest
 from ...models.mechanism import Mechanism, mechanism_of
@@ -83,7 +84,7 @@ def diagnose(
         verdict=verdict(findings, results, named=engines is not None),
         findings=tuple(findings),
         engines={result.name: result.to_json() for result in results},
-        notes=tuple(dict.fromkeys(notes)),
+        notes=tuple(dict.fromkeys(_by_their_bodies(note, file.spatial) for note in notes)),
         against=wanted.name,
         mechanism=mechanism_to_json(file.planar) if file.planar is not None else None,
         spatial=spatial_to_json(file.spatial),
@@ -95,6 +96,16 @@ def diagnose(
 def _of_interest(file: ModelFile) -> list[str]:
     """The reader's notes; not that on furiko's own text of the file, which is made of planar mechanisms alone."""
     return [note for note in file.notes if file.planar is not None or note != MESHES_LEFT_OUT]
+
+
+def _by_their_bodies(note: str, mechanism: SpatialMechanism) -> str:
+    """A note, in which joints that the file leaves unnamed are called after their bodies, not by furiko's numbers."""
+    for placed in mechanism.joints:
+        name, body = placed.joint.name, mechanism.bodies[placed.body].name
+        if name.startswith(UNNAMED_JOINT):
+            owner = "an unnamed body" if body.startswith(UNNAMED_BODY) else f"body {body!r}"
+            note = note.replace(f"joint {name!r}", f"the unnamed joint of {owner}")
+    return note
 
 
 def _not_asked(file: ModelFile, results: Sequence[EngineResult]) -> dict[str, str]:

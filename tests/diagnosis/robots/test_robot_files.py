@@ -638,6 +638,14 @@ def test_what_has_no_name_is_told_by_its_line_alone(tmp_path):
     assert "line 2, <freejoint>)" in finding.says
 
 
+def test_a_joint_without_a_name_is_called_after_its_body_in_notes(tmp_path):
+    text = f"""<mujoco><worldbody><body name="trunk"><freejoint/>{INERTIAL}<body><joint type="ball"/>{INERTIAL}</body>
+        </body></worldbody></mujoco>"""
+    notes = diagnose(saved(tmp_path, "a.xml", text)).notes
+    assert any("and the unnamed joint of body 'trunk' is free" in note for note in notes), notes
+    assert not any("furiko_joint" in note for note in notes)
+
+
 def test_an_unknown_engine_is_refused(tmp_path):
     with pytest.raises(InvalidInput, match="mujocoo"):
         diagnose(saved(tmp_path, "a.xml", SOUND["free.xml"]), engines=["mujocoo"])
