@@ -148,6 +148,16 @@ class EngineInfo:
     lacks: Mapping[Offer, str] = field(default_factory=dict)
 
     @property
+    def factorises(self) -> bool:
+        """Whether its accelerations may come from a mass matrix that is factorised."""
+        return self.algorithm != "aba"
+
+    @property
+    def inverts(self) -> bool:
+        """Whether they may come joint by joint, so that the block of a joint of several freedoms is inverted."""
+        return self.algorithm != "crba"
+
+    @property
     def ways(self) -> tuple[EngineInfo, ...]:
         """What the engine may be as to its rounding: itself where all is known, else each way to compute.
 

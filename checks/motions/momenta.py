@@ -9,9 +9,13 @@ What the first joints of a link leave free, where they have no springs, of all t
   about the world's origin: a free base in a plane. About a ball behind slides in all directions, that in all.
 
 And with gravity g, of a free joint, in all directions, the linear momentum less m g t after a time t, and, if it has no
-armature, the angular momentum about the centre of mass.
+armature, the angular momentum about the centre of mass. With armature, on which no weight acts, only without gravity,
+and about the world's origin.
 
 Rotors (armature) turn with their joint and count with it: those of a ball's three freedoms are as one that has no axis.
+Those of a free joint are a mass J at the origin O of its body's frame and as much inertia about every axis through it:
+J v̇ along the world's axes and J ω̇ along the body's, where ω̇ has the same components as in the world's. So J v comes to
+the momentum, and J ω + O × J v to the angular momentum about the world's origin.
 """
 
 from __future__ import annotations
@@ -49,6 +53,10 @@ class Momentum:
     @property
     def falls(self) -> bool:
         """Whether it is kept with gravity, too."""
+        return self._free and self.about != "origin"
+
+    @property
+    def _free(self) -> bool:
         return self.placed.joint.kind == "free"
 
     @property
@@ -68,7 +76,7 @@ class Momentum:
     def _columns(self) -> slice:
         """The freedoms of its joint that have it."""
         at = self.placed.columns_v
-        if not self.falls:
+        if not self._free:
             return at
         return slice(at.start, at.start + 3) if self.about is None else slice(at.start + 3, at.stop)
 
@@ -84,6 +92,8 @@ class Momentum:
                 point, _ = spatial_kinematics.centre_of_mass(mechanism, moved, self.root)
             linear, angular = spatial_kinematics.momentum(mechanism, moved, self.root, point)
             whole = linear if self.about is None else angular
+            if self._free and self.about == "origin":
+                whole = whole + np.cross(pivot, armature * v[:, self.placed.columns_v][:, :3])
             rotors = armature * v[:, at]
             if axes.shape[1] == 1:
                 return np.asarray((whole[:, None] * axes).sum(axis=-1) + rotors)
@@ -111,8 +121,8 @@ class Momentum:
         if self.about is None:
             return found + time * float(np.linalg.norm(self._weight(mechanism, moved)))
         if self.about == "origin":
-            slide = next(one.at_v for one in mechanism.joints if one.body == self.root)
-            return found + pivot * float(rows[slide])
+            first = next(one.at_v for one in mechanism.joints if one.body == self.root)
+            return found + pivot * float(rows[first])
         if self.about == "centre":
             centre, _ = spatial_kinematics.centre_of_mass(mechanism, moved, self.root)
             way = 2 * pivot + float(np.linalg.norm(centre))
@@ -146,8 +156,7 @@ def _free(joints: list[PlacedJoint]) -> Iterator[Momentum]:
             return
         if joint.kind == "free":
             yield Momentum(one.body, one, None)
-            if not joint.armature:
-                yield Momentum(one.body, one, "centre")
+            yield Momentum(one.body, one, "origin" if joint.armature else "centre")
             return
         yield from _about(one, np.array([_direction(slide) for slide in slides]).reshape(-1, 3))
         return

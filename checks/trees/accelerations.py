@@ -30,10 +30,10 @@ def compare(cell: TreeCell) -> Iterator[Result]:
     got = cell.answer(NAME, cell.engine.accelerations(states.q, states.v), states.v.shape)
     error = facts.error(got)
     residual = (facts.mass_matrix @ error[..., None])[..., 0]
-    factorises = cell.info.algorithm != "aba"
+    factorised, inverted = cell.info.factorises, cell.info.inverts
     unit = np.array(
         [
-            units.residual(accelerations, mass, factorised=factorises)
+            units.residual(accelerations, mass, factorised=factorised, inverted=inverted)
             for units, accelerations, mass in zip(cell.magnitudes, got, facts.mass_matrix, strict=True)
         ]
     )

@@ -102,7 +102,8 @@ class Start:
     def _rows(self) -> tuple[Array, float]:
         """The residual of its equations that rounding explains, (nv,), and the norm of their terms."""
         units = self.cell.magnitudes_of(self.mechanism, self.q, self.v)
-        rows = units.residual(self._accelerations, self._mass, factorised=self.cell.info.algorithm != "aba")
+        info = self.cell.info
+        rows = units.residual(self._accelerations, self._mass, factorised=info.factorises, inverted=info.inverts)
         return self.cell.roundings_of(units) * EPSILON * rows, float(np.linalg.norm(rows))
 
     @cached_property

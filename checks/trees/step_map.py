@@ -75,9 +75,10 @@ class Steps:
 
         The residual that iterations leave is a norm over all rows, hence of any row.
         """
+        factorised, inverted = self.cell.info.factorises, self.cell.info.inverts
         units = np.array(
             [
-                one.residual(a, mass, factorised=self.cell.info.algorithm != "aba")
+                one.residual(a, mass, factorised=factorised, inverted=inverted)
                 for one, a, mass in zip(self.cell.magnitudes[-STATES:], self.accelerations, self.mass, strict=True)
             ]
         )

@@ -82,11 +82,12 @@ class Asked:
     @cached_property
     def rounding(self) -> Array:
         """How far rounding may take the answer from the exact one, (B, nv)."""
-        factorised = self.cell.info.algorithm != "aba"
+        info = self.cell.info
         found = []
         for q, v, answer, mass in zip(self.q, self.v, self.answer, self.mass, strict=True):
             units = self.cell.magnitudes_of(self.system.mechanism(), q, v)
-            rows = self.cell.roundings_of(units) * EPSILON * units.residual(answer, mass, factorised=factorised)
+            rows = units.residual(answer, mass, factorised=info.factorises, inverted=info.inverts)
+            rows = self.cell.roundings_of(units) * EPSILON * rows
             found.append(np.abs(inverse(mass)) @ rows)
         return np.array(found)
 

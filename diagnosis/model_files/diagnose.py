@@ -19,9 +19,11 @@ import numpy as np
 
 from ...engines.model_files.adapter import READERS, Reader
 from ...engines.model_files.robot import ROBOT_READERS
+from ...engines.model_files.robot_joints import UNNAMED_BODY, UNNAMED_JOINT
 from ...models import InvalidInput, PlanarTree
 from ...models.errors import nearest
 from ...models.mechanism import Mechanism, mechanism_of
+from ...models.readers.mjcf.bodies import MESHES_LEFT_OUT
 from ...models.readers.model_file import ModelFile, read_model
 from ...models.spatial_mechanism import SpatialMechanism
 from ..finding import Finding
@@ -71,25 +73,47 @@ def diagnose(
         question = Question(path, file, folders, limits, contacts=bool(wanted.name))
         results = ask_engines(question, readers, named=engines is not None, isolated=isolated)
     of_file = _of_file(file, wanted, limits)
-    why = "" if engines is not None else _why_not_built(file, results)
-    results = [result for result in results if not why or result.name != BUILT.name]
+    not_asked = {} if engines is not None else _not_asked(file, results)
+    results = [result for result in results if result.name not in not_asked]
     findings = [*of_file, *vote(file, results)]
-    notes = [*file.notes, *_tilt_notes(file.planar), *_not_ideal_notes(file.planar, wanted)]
+    notes = [*_of_interest(file), *_tilt_notes(file.planar), *_not_ideal_notes(file.planar, wanted)]
     notes += [note for result in results for note in result.notes]
-    if why:
-        notes.append(f"{BUILT.name} is not asked: {why}")
+    notes += [f"{name} is not asked: {why}" for name, why in not_asked.items()]
     return Diagnosis(
         model=file.path,
         verdict=verdict(findings, results, named=engines is not None),
         findings=tuple(findings),
         engines={result.name: result.to_json() for result in results},
-        notes=tuple(dict.fromkeys(notes)),
+        notes=tuple(dict.fromkeys(_by_their_bodies(note, file.spatial) for note in notes)),
         against=wanted.name,
         mechanism=mechanism_to_json(file.planar) if file.planar is not None else None,
         spatial=spatial_to_json(file.spatial),
         simulation=(*servo_findings(file.servos), *(said for result in results for said in result.simulation)),
         without=tuple(dict.fromkeys([*file.without, *(line for result in results for line in result.without)])),
     )
+
+
+def _of_interest(file: ModelFile) -> list[str]:
+    """The reader's notes; not that on furiko's own text of the file, which is made of planar mechanisms alone."""
+    return [note for note in file.notes if file.planar is not None or note != MESHES_LEFT_OUT]
+
+
+def _by_their_bodies(note: str, mechanism: SpatialMechanism) -> str:
+    """A note, in which joints that the file leaves unnamed are called after their bodies, not by furiko's numbers."""
+    for placed in mechanism.joints:
+        name, body = placed.joint.name, mechanism.bodies[placed.body].name
+        if name.startswith(UNNAMED_JOINT):
+            owner = "an unnamed body" if body.startswith(UNNAMED_BODY) else f"body {body!r}"
+            note = note.replace(f"joint {name!r}", f"the unnamed joint of {owner}")
+    return note
+
+
+def _not_asked(file: ModelFile, results: Sequence[EngineResult]) -> dict[str, str]:
+    """By name the engines that nobody named and that are left out, each with the reason."""
+    found = {r.name: r.own.says for r in results if r.own is not None and not r.own.asked}
+    if why := _why_not_built(file, results):
+        found[BUILT.name] = why
+    return found
 
 
 def _why_not_built(file: ModelFile, results: Sequence[EngineResult]) -> str:

@@ -8,10 +8,10 @@ from pathlib import Path
 from ...models import InvalidInput
 from ...models.readers.model_file import ModelFile
 from ...models.spatial_mechanism import WORLD, SpatialMechanism
-from ...models.writers.merged_links import without_weightless_links
+from ...models.writers.merged_links import without_idle_joints, without_weightless_links
 from ...models.writers.spatial_mjcf import spatial_mjcf
 from ...models.writers.spatial_urdf import spatial_urdf
-from ...models.writers.whole_file import write_whole
+from ...models.writers.whole_file import require_writable, write_whole
 from ..robots.answer import listed
 from ..robots.built import BUILT
 from ..robots.moving_links import moving_links
@@ -34,14 +34,31 @@ def write_fixed(model: ModelFile, out: Path) -> list[str]:
     Raises :class:`InvalidInput` for another ending, for the file itself, and where the format cannot hold the
     mechanism.
     """
+    require_target(out, model.path)
+    mechanism, idle = without_idle_joints(model.spatial)
+    mechanism, left = without_weightless_links(mechanism) if out.suffix != ".urdf" else (mechanism, ())
+    write_whole(out, WRITERS[out.suffix](mechanism))
+    fixed = (
+        "what a joint moves and weighs nothing is fixed where it is: nothing says how it would accelerate, and MuJoCo "
+        f"refuses it; to keep the joint, give that a mass in the file: {listed(idle)}"
+    )
+    without = f"what weighs nothing and carries one link is left out, and that has its joints: {listed(left)}"
+    return [*([fixed] if idle else ()), *([without] if left else ()), *_not_alike(mechanism, out)]
+
+
+def require_target(out: Path, model: str | Path) -> None:
+    """Raise :class:`InvalidInput` where :func:`write_fixed` could not write to ``out``, for another ending, and for the
+    file itself: asked before engines are, which takes seconds."""
     if out.suffix not in WRITERS:
         raise InvalidInput(f"{out}: the name must end in .xml (MJCF) or .urdf (URDF)")
-    if out.exists() and _same(out, model.path):
+    require_other_file(out, model)
+
+
+def require_other_file(out: Path, model: str | Path) -> None:
+    """Raise :class:`InvalidInput` where ``out`` is the model's own file, or cannot be written."""
+    if out.exists() and Path(model).exists() and out.samefile(model):
         raise InvalidInput(f"{out}: this is the file itself, which is not overwritten; give another name")
-    mechanism, left = without_weightless_links(model.spatial) if out.suffix != ".urdf" else (model.spatial, ())
-    write_whole(out, WRITERS[out.suffix](mechanism))
-    without = f"what weighs nothing and carries one link is left out, and that has its joints: {listed(left)}"
-    return [*([without] if left else ()), *_not_alike(mechanism, out)]
+    require_writable(out)
 
 
 def judged(out: Path, found: Diagnosis) -> Written:
@@ -81,8 +98,4 @@ def _not_alike(mechanism: SpatialMechanism, out: Path) -> Iterator[str]:
         yield f"{what}, which MuJoCo alone has as written: {listed(names)}"
     weightless = [link.name for link in moving_links(mechanism) if link.inertial.weightless]
     if weightless:
-        yield f"MuJoCo refuses links that move and weigh nothing: {listed(weightless)}"
-
-
-def _same(out: Path, path: str) -> bool:
-    return Path(path).exists() and out.samefile(path)
+        yield (f"MuJoCo refuses links that move and weigh nothing; give them a mass in the file: {listed(weightless)}")

@@ -9,6 +9,7 @@ from typing import Any
 from ...models.mechanism import Hinge, Mechanism
 from ..finding import CAUSES, Finding
 
+MOST_LEFT_OUT = 3  # named in the headline
 HINGE_NUMBERS = ("armature", "damping", "friction", "stiffness", "rest", "limits")
 
 
@@ -91,9 +92,12 @@ class Diagnosis:
         return "; ".join(parts)
 
     def _but(self) -> str:
+        """What was left out, in a few words each: the first of them, and how many more there are."""
         if not self.without:
             return ""
-        return f" (without {self.without[0]})" if len(self.without) == 1 else f" (without {len(self.without)} things)"
+        named = [line.partition(",")[0].partition(" (")[0] for line in self.without]
+        more = len(named) - MOST_LEFT_OUT
+        return f" (left out: {', '.join(named[:MOST_LEFT_OUT])}{f' and {more} more' if more > 0 else ''})"
 
     def _of_file(self) -> bool:
         return any(finding.says.startswith("the file") for finding in self.findings)
@@ -125,7 +129,8 @@ class Diagnosis:
         for finding in self.findings:
             lines.append(f"  {finding.cause} at {finding.where}")
             lines.append(f"      {finding.says}")
-            lines.append(f"      {finding.cause}: {CAUSES[finding.cause]}")
+            if not _said(finding):
+                lines.append(f"      {finding.cause}: {CAUSES[finding.cause]}")
         for found in (found for engine in self.engines.values() for found in engine.get("motion", ())):
             lines.append(f"  in its time steps: {found['cause']} at {found['where']}")
             lines.append(f"      {found['says']}")
@@ -152,6 +157,11 @@ class Diagnosis:
         kinds = [joint["kind"] for body in bodies for joint in body["joints"]]
         joints = ", ".join(f"{kinds.count(kind)} {kind}" for kind in dict.fromkeys(kinds)) or "none"
         return f"{len(bodies)} bod{'ies' if len(bodies) != 1 else 'y'}; joints: {joints}"
+
+
+def _said(finding: Finding) -> bool:
+    """Whether a finding's own sentence has what its cause means."""
+    return CAUSES[finding.cause].removeprefix("an engine that ").removeprefix("the engine ") in finding.says
 
 
 def _listed(names: list[str]) -> str:

@@ -81,7 +81,8 @@ class RobotAnswer:
     ``status``: ``agrees``, ``differs``, ``missing``, ``refused`` or ``failed``; ``measured``: the engine's mass matrix,
     bias and accelerations against the truth of what it holds; ``left``: how many numbers differ that no known mistake
     explains; ``rounded``: the file's mechanism as the engine rounds it, if it does; ``without``: what it leaves out by
-    design; ``simulation``: what a simulation adds to the dynamics; ``native``: whether it reads the file itself.
+    design; ``simulation``: what a simulation adds to the dynamics; ``native``: whether it reads the file itself;
+    ``asked``: False where furiko does not hand it a file of this size, which says nothing of the file.
     """
 
     name: str
@@ -96,6 +97,7 @@ class RobotAnswer:
     notes: tuple[str, ...] = ()
     simulation: list[Finding] = field(default_factory=list)
     native: bool = True
+    asked: bool = True
 
     @property
     def unexplained(self) -> bool:
@@ -115,7 +117,7 @@ def ask_robot(reader: RobotReader, question: Question) -> RobotAnswer:
     """What one engine makes of the user's own file."""
     with np.errstate(all="ignore"):
         if too_many := _too_many_freedoms(reader, question):
-            return _refused(reader, too_many, question)
+            return RobotAnswer(reader.name, "refused", too_many, asked=False)
         try:
             engine = reader.load(question.path, question.file.language, question.meshes)
         except ImportError as error:
@@ -245,9 +247,12 @@ def acting(holds: SpatialMechanism, cleared: Sequence[str]) -> SpatialMechanism:
 
 
 def left_to_caller(reader: RobotReader, mechanism: SpatialMechanism) -> tuple[str, ...]:
-    """Sentences on the passive forces that the file has and the engine's forward dynamics leaves to its caller."""
+    """A sentence on the passive forces that the file has and the engine's forward dynamics leaves to its caller."""
     left = [name for name in reader.leaves_to_caller if mechanism.per_freedom(name).any()]
-    return tuple(f"{name} in {reader.name}, whose forward dynamics leaves it to the caller" for name in left)
+    if not left:
+        return ()
+    them = "it" if len(left) == 1 else "them"
+    return (f"{' and '.join(left)} in {reader.name}, whose forward dynamics leaves {them} to the caller",)
 
 
 def _reading(

@@ -124,7 +124,8 @@ def _accelerations(
     residual = np.array([_residual(*state) for state in zip(truths, found, torque, strict=True)])
     masses = [truth.mass_matrix.float for truth in truths]
     states = zip(units, found, masses, torque, strict=True)
-    allowed = np.array([u.roundings * EPSILON * u.residual(*row, factorised=factorised) for u, *row in states])
+    rows = [(u.roundings, u.residual(*row, factorised=factorised, inverted=not factorised)) for u, *row in states]
+    allowed = np.array([roundings * EPSILON * unit for roundings, unit in rows])
     return _worst(f"force of {quantity}", mechanism, residual, np.zeros_like(residual), allowed)
 
 

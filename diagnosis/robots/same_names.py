@@ -16,8 +16,10 @@ def called_as(holds: SpatialMechanism, reading: SpatialMechanism) -> SpatialMech
     """``holds`` with the names of ``reading`` for bodies and joints that have numbers for names.
 
     Bodies correspond by name; unnamed ones by order, where there are as many; their joints by order, where those of
-    both are as many and of the same kinds.
+    both are as many and of the same kinds. So do joints that the file leaves unnamed and those of which the reading has
+    no such name, for which the engine has made one.
     """
+    holds = _joints_without_name(holds, reading)
     names = _bodies(holds, reading)
     theirs = {body.name: body for body in reading.bodies}
     made = []
@@ -35,6 +37,22 @@ def called_as(holds: SpatialMechanism, reading: SpatialMechanism) -> SpatialMech
     if len(set(renamed)) < len(renamed):
         return holds  # a number is another joint's already
     return replace(holds, bodies=tuple(made))
+
+
+def _joints_without_name(holds: SpatialMechanism, reading: SpatialMechanism) -> SpatialMechanism:
+    """``holds`` with the numbers of the ``reading`` in place of names that only ``holds`` has: by order, if as many."""
+    known = set(holds.joint_names), set(reading.joint_names)
+    ours = [placed.joint for placed in reading.joints if placed.joint.name not in known[0]]
+    theirs = [placed.joint for placed in holds.joints if placed.joint.name not in known[1]]
+    alike = [joint.kind for joint in ours] == [joint.kind for joint in theirs]
+    if not ours or not alike or not all(_numbered(joint.name) for joint in ours):
+        return holds
+    names = {its.name: joint.name for its, joint in zip(theirs, ours, strict=True)}
+    bodies = [
+        replace(body, joints=tuple(replace(joint, name=names.get(joint.name, joint.name)) for joint in body.joints))
+        for body in holds.bodies
+    ]
+    return replace(holds, bodies=tuple(bodies))
 
 
 def _numbered(joint: str) -> bool:

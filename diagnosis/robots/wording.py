@@ -42,6 +42,7 @@ INSTEAD: Mapping[str, str] = {
     "armature_needs_actuator": "add an actuator to the joint, or set the armature in the engine",
     "nested_class_inherits_nothing": "repeat the element in the nested class",
     "space_behind_number_rejected": "write the number without the space behind it",
+    "align_ignored": "write align='false', and the body's frame at its centre of mass, along its principal axes",
     "frame_ignored": "write each body's own pose in place of <frame>, and the copies in place of <replicate>",
     "attach_ignored": "write the bodies out in place of <attach>",
 }
@@ -98,6 +99,10 @@ def _numbers(differences: Sequence[FieldDifference], asked: str = "the file") ->
 
 
 def _one(difference: FieldDifference, asked: str) -> str:
+    if difference.cause == "joint-dropped-by-parser":
+        return f"{difference.where} ({difference.expected}) is missing"
+    if difference.cause == "joint-added":
+        return f"{difference.where} ({difference.found}) is not in {asked}"
     unit = f" {difference.unit}" if difference.unit else ""
     digits = next((n for n in DIGITS if _shown(difference.found, n) != _shown(difference.expected, n)), DIGITS[0])
     found, expected = _shown(difference.found, digits), _shown(difference.expected, digits)

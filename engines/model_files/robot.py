@@ -49,6 +49,7 @@ PINOCCHIO_MJCF = (
     "springdamper_ignored",
     "attach_ignored",
     "frame_ignored",
+    "align_ignored",
 )
 DRAKE_MJCF = (
     "pos_of_last_joint_for_all",
@@ -61,6 +62,7 @@ DRAKE_MJCF = (
     "inertia_group_ignored",
     "balance_inertia_ignored",
     "bound_ignored",
+    "align_ignored",
 )
 
 

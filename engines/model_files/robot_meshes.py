@@ -5,12 +5,9 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from ...models.readers.folders import package_folders
-
-PACKAGE = re.compile(rb"package://([\w.+-]+)/")
+PACKAGE = re.compile(rb"(?:package|model)://")
 
 
-def own_packages(path: Path) -> list[Path]:
-    """The folders above the document at ``path`` that are the packages it names as ``package://NAME/…``."""
-    names = dict.fromkeys(name.decode() for name in PACKAGE.findall(path.read_bytes()))
-    return [folder for name in names for folder in package_folders(path, name)]
+def names_packages(path: Path) -> bool:
+    """Whether the document at ``path`` has paths in packages, ``package://NAME/…``, which engines do not resolve."""
+    return PACKAGE.search(path.read_bytes()) is not None

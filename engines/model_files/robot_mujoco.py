@@ -17,6 +17,7 @@ own plugins exerts passive forces.
 from __future__ import annotations
 
 import copy
+import posixpath
 from collections.abc import Iterator, Sequence
 from importlib import import_module
 from pathlib import Path, PurePosixPath
@@ -36,7 +37,7 @@ from ..quiet import silenced
 from ..releases import has
 from .robot_coordinates import Block, EngineState, RobotCoordinates
 from .robot_joints import HeldJoint, match, named_alike, unique
-from .robot_meshes import own_packages
+from .robot_meshes import names_packages
 
 # MuJoCo's bindings have no type stubs that fit: Any, here and nowhere else.
 mujoco: Any = import_module("mujoco")
@@ -231,12 +232,11 @@ def _loaded(path: Path, folders: Sequence[Path]) -> Any:
     MuJoCo keeps what it is handed by the bare name: of two files ``base.stl`` in two folders it would take one for
     both.
     """
-    packages = own_packages(path)
-    if not packages and not folders:
+    if not folders and not names_packages(path):
         return mujoco.MjModel.from_xml_path(str(path))
     spec = _spec(path)
     contents: dict[str, bytes] = {}
-    for asset, found in _elsewhere(spec, path, NamedFolders(path, [*folders, *packages])):
+    for asset, found in _elsewhere(spec, path, NamedFolders(path, folders)):
         asset.name = asset.name or PurePosixPath(asset.file).stem
         asset.file = f"{len(contents)}_{found.name}"
         contents[asset.file] = read_bytes(found, LARGEST_MESH)
@@ -261,6 +261,6 @@ def _elsewhere(spec: Any, path: Path, folders: NamedFolders) -> Iterator[tuple[A
             name = asset.file.replace("\\", "/")
             if not name or (path.parent / folder / name).is_file():
                 continue
-            found = in_own_package(path, name) or folders.find(name if "://" in name else f"{folder}/{name}")
+            found = in_own_package(path, name) or folders.find(name if "://" in name else posixpath.join(folder, name))
             if found is not None:
                 yield asset, found

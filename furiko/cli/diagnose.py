@@ -92,6 +92,7 @@ def _read(model: Path, asked: _Asked) -> ModelFile:
 
 
 def _one(model: Path, asked: _Asked, fix: Path | None, out: Path | None, as_json: bool) -> int:
+    _require_targets(model, fix, out)
     file = _read(model, asked)
     found = asked.answer(file)
     if fix is not None:
@@ -107,6 +108,20 @@ def _one(model: Path, asked: _Asked, fix: Path | None, out: Path | None, as_json
     else:
         print_text(found.text() + (f"\n  written: {out}" if out is not None else ""))
     return found.exit_status
+
+
+def _require_targets(model: Path, fix: Path | None, out: Path | None) -> None:
+    """Raise :class:`InvalidInput` for what cannot be written, before engines are asked."""
+    if fix is None and out is None:
+        return
+    from ..diagnosis.model_files.fix import require_other_file, require_target
+
+    if fix is not None:
+        require_target(fix, model)
+    if out is not None:
+        require_other_file(out, model)
+        if fix is not None and fix.resolve() == out.resolve():
+            raise click.UsageError(f"--fix and --out are both {out}; give two names")
 
 
 def _several(models: tuple[Path, ...], asked: _Asked, as_json: bool) -> int:

@@ -3,29 +3,30 @@
 from __future__ import annotations
 
 import os
+import posixpath
 from collections.abc import Sequence
 from pathlib import Path
 
 from .bounded_file import shown
 from .named_folders import NamedFolders
+from .packages import in_package, is_package, own_folders
 from .xml_file import Element
-
-LEVELS = 3  # a package's own folder is looked for in this many folders above the document's
 
 
 def package_folders(path: Path, package: str) -> list[Path]:
-    """Of the folder of the document at ``path`` and the :data:`LEVELS` above it those that are the ``package``."""
-    here = path.resolve().parent
-    return [folder for folder in (here, *list(here.parents)[:LEVELS]) if folder.name == package]
+    """Of the document's own folders those that are the ``package``; see :mod:`.packages`."""
+    return [folder for folder in own_folders(path) if is_package(folder, package)]
 
 
 def in_own_package(path: Path, name: str) -> Path | None:
-    """The file ``package://NAME/REST`` in one of :func:`package_folders` of the document at ``path``."""
-    if not name.startswith("package://"):
-        return None
-    package, _, rest = name.removeprefix("package://").partition("/")
-    for folder in package_folders(path, package):
-        found = (folder / rest).resolve()
+    """The file ``package://NAME/REST`` in one of :func:`package_folders` of the document at ``path``.
+
+    One without a package (``package:///REST``) is beside the document.
+    """
+    package, rest = in_package(name) or ("", ())
+    here = [path.resolve().parent] if rest and not package else []
+    for folder in here or package_folders(path, package):
+        found = folder.joinpath(*rest).resolve()
         if found.is_relative_to(folder) and os.path.isfile(found):
             return found
     return None
@@ -43,7 +44,7 @@ class Folders:
     def find(self, element: Element, name: str, folder: str = "", *, mesh: bool = False) -> Path:
         """The file ``name`` in the model's ``folder``, beside an included file that names it, or in the others.
 
-        In the others a ``mesh`` is looked for below, too, by the end of its path (:class:`NamedFolders`).
+        In the others a ``mesh`` is looked for below, too, by its path (:class:`NamedFolders`).
         MuJoCo looks in this order too: what an included file names may lie beside it, whatever ``folder`` is. Raises
         :class:`InvalidInput`, at ``element``, where it is nowhere, or only where nothing may be read.
         """
@@ -54,7 +55,7 @@ class Folders:
             for path in (wanted, *(() if included is None else ((included / name).resolve(),))):
                 if _inside(path, (self.own, *self._others)) and os.path.isfile(path):
                     return self._kept(path)
-            elsewhere = self._below.find(f"{folder}/{name}") if mesh else self._beside(name)
+            elsewhere = self._below.find(posixpath.join(folder, name)) if mesh else self._beside(name)
             if elsewhere is not None:
                 return self._kept(elsewhere)
         except (OSError, ValueError, RuntimeError) as error:

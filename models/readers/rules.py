@@ -67,6 +67,7 @@ class MjcfRules:
         "has a nested default class inherit nothing for an element that the class does not mention itself"
     )
     frame_ignored: bool = _mistake("ignores <frame> and <replicate> and all that is inside")
+    align_ignored: bool = _mistake("ignores align and alignfree: a free body keeps the frame that is written")
     attach_ignored: bool = _mistake("ignores <attach> and all that it stands for")
 
 

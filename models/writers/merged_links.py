@@ -1,7 +1,8 @@
 """Gives the joints of links that weigh nothing to what they carry: MuJoCo refuses links that move and weigh nothing.
 
 Robots' files have such links between the axes of one shoulder, or between the wheels' directions of a base. In MJCF a
-body has several joints, and then the links between them need not be there.
+body has several joints, and then the links between them need not be there. At an end nothing says how such a link
+moves, and everything else moves as without it.
 """
 
 from __future__ import annotations
@@ -27,6 +28,40 @@ def without_weightless_links(mechanism: SpatialMechanism) -> tuple[SpatialMechan
         mechanism, names = step
         left += names
     return mechanism, tuple(left)
+
+
+def without_idle_joints(mechanism: SpatialMechanism) -> tuple[SpatialMechanism, tuple[str, ...]]:
+    """The mechanism, in which links that weigh nothing and carry none that moves are fixed where they are.
+
+    Not those whose joints have armature, which says how they move. The second is the names of the joints that are gone;
+    none where no joint would be left.
+    """
+    bodies, gone = list(mechanism.bodies), []
+    while (index := _idle(bodies)) is not None:
+        gone += [joint.name for joint in bodies[index].joints]
+        bodies[index] = _fixed(bodies[index])
+    if not any(body.joints for body in bodies):
+        return mechanism, ()
+    return replace(mechanism, bodies=tuple(bodies)), tuple(gone)
+
+
+def _idle(bodies: Sequence[RigidBody]) -> int | None:
+    """The last body whose joints move nothing that weighs; None where there is none."""
+    links = _links(bodies)
+    for index in reversed(range(len(bodies))):
+        body = bodies[index]
+        members = [k for k, link in enumerate(links) if link == index]
+        carries = any(other.joints and other.parent in members for other in bodies)
+        if not body.joints or carries or any(joint.armature for joint in body.joints):
+            continue
+        if all(bodies[k].inertial.weightless for k in members):
+            return index
+    return None
+
+
+def _fixed(body: RigidBody) -> RigidBody:
+    """The body without its joints, in its reference configuration: where a joint's ``ref`` is, nothing has moved."""
+    return replace(body, joints=())
 
 
 def _first_merged(mechanism: SpatialMechanism) -> tuple[SpatialMechanism, list[str]] | None:

@@ -69,6 +69,46 @@ def test_a_gallery_arm_is_read_and_its_damping_noted():
     assert found.engines["mujoco"]["status"] == found.engines["exudyn-tree"]["status"] == "agrees"
 
 
+@pytest.mark.parametrize(
+    ("without", "says"),
+    [
+        ((), "a does what the file says"),
+        (("mimic (joints that follow another one)",), "a does what the file says (left out: mimic)"),
+        (
+            ("contacts", "damping in pinocchio-aba, whose forward dynamics leaves it to the caller"),
+            "a does what the file says (left out: contacts, damping in pinocchio-aba)",
+        ),
+        (
+            ("contacts", "joint limits", "dry friction", "actuators", "tendons"),
+            "a does what the file says (left out: contacts, joint limits, dry friction and 2 more)",
+        ),
+    ],
+)
+def test_the_headline_names_what_was_left_out(without, says):
+    found = Diagnosis(
+        model="m.xml", verdict="agrees", findings=(), engines={"a": {"status": "agrees"}}, without=without
+    )
+    assert found.headline == says
+
+
+def test_a_joint_that_is_not_there_is_said_to_be_missing_and_nothing_is_said_twice(tmp_path):
+    """What the cause means is printed where the finding's own sentence does not have it."""
+    inertial = '<inertial pos="0 0 -1" mass="1" diaginertia="0.1 0.2 0.3"/>'
+    body = '<body name="{0}"><joint name="{0}_j" axis="1 0 0"/>' + inertial + "</body>"
+    (tmp_path / "two.xml").write_text(f"<mujoco><worldbody>{body.format('a')}{body.format('b')}</worldbody></mujoco>")
+    (tmp_path / "one.xml").write_text(f"<mujoco><worldbody>{body.format('a')}</worldbody></mujoco>")
+    text = diagnose(tmp_path / "two.xml", engines=["pinocchio-aba"]).text()
+    assert text.count("reads only the first <body> of the world") == 1
+    assert "of the world: joint 'b_j' (hinge) is missing (" in text
+    free = body.format("a").replace('axis="1 0 0"', 'type="free"')
+    (tmp_path / "one.xml").write_text(f"<mujoco><worldbody>{free.replace('a_j', 'c')}</worldbody></mujoco>")
+    (tmp_path / "two.xml").write_text(f"<mujoco><worldbody>{free}</worldbody></mujoco>")
+    text = diagnose(tmp_path / "two.xml", tmp_path / "one.xml", ["mujoco"]).text()
+    assert "joint 'c' (free) is missing" in text
+    assert "joint 'a_j' (free) is not in one.xml" in text
+    assert "joint-added: there is a joint that is not expected" in text
+
+
 def found_links(text):
     return model_from_text(text).mechanism.links
 
@@ -318,7 +358,7 @@ def test_what_it_should_be_is_called_by_its_own_name(tmp_path):
         (tmp_path / name).write_text(PAIR.format(mass))
     found = diagnose(tmp_path / "three.xml", tmp_path / "one.xml", ["mujoco"])
     assert "link 'cart': mass 3 kg, one.xml says 1 kg" in found.findings[0].says
-    assert "without joint limits" in found.headline
+    assert "(left out: joint limits)" in found.headline
     assert "without: joint limits" in found.brief().splitlines()[-1]
 
 

@@ -25,11 +25,13 @@ ROOMS = {
             (
                 "readers.xml_file",
                 "readers.attributes",
+                "readers.aligned",
                 "readers.meshes",
                 "readers.rules",
                 "readers.placement",
                 "readers.folders",
                 "readers.named_folders",
+                "readers.packages",
                 "readers.shapes",
             ),
             ("readers.mjcf",),

@@ -11,6 +11,7 @@ import numpy as np
 from ...projection import MOST_BODIES
 from ...spatial import ZERO_INERTIAL, Inertial
 from ...spatial_mechanism import WORLD, Joint, RigidBody
+from ..aligned import with_aligned
 from ..attributes import number, word
 from ..placement import HERE, Placement
 from ..xml_file import Element
@@ -25,6 +26,7 @@ from .options import Options
 
 SEEN_THROUGH = ("frame", "attached")
 KEPT = ("geom", "inertial", "joint", "freejoint", "body", *SEEN_THROUGH)  # inside a body
+MESHES_LEFT_OUT = "geoms that are meshes do not collide in the text that furiko makes of a planar file for engines"
 LEFT_OUT = ("site", "camera", "light")
 REFUSED = {
     "composite": "it stands for bodies and joints that only MuJoCo makes; write them out",
@@ -76,7 +78,8 @@ class Bodies:
     _names: dict[str, set[str]] = field(default_factory=dict)
     _first: dict[str, int] = field(default_factory=dict)  # by what a reader calls it that names by the parent's name
     _once: dict[int, Inertial] = field(default_factory=dict)  # the inertial of a body, however often it is read
-    _aligned: list[tuple[int, Element]] = field(default_factory=list)
+    _aligned: dict[int, Element] = field(default_factory=dict)  # by body, its free joint that asks for it
+    _fuses: bool = False  # whether a body asks to be made one with the one that carries it
     _roots: int = 0
     _worlds: int = 0  # read so far, and this one
 
@@ -100,15 +103,26 @@ class Bodies:
             pending.extend(reversed(self._body(pending.pop())))
 
     def finish(self) -> None:
-        """Look at what could not be judged before the last body was read. Raises :class:`InvalidInput`."""
-        parents = {body.parent for body in self.bodies}
-        for index, joint in self._aligned:
-            inertial = self.bodies[index].inertial
-            off = inertial.centre.any() or (inertial.tensor - np.diag(np.diag(inertial.tensor))).any()
-            if index not in parents and off:
+        """Do what depends on whether a body carries others."""
+        if not self.source.compiler.rules.align_ignored:
+            self._refuse_fused()
+            self.bodies = with_aligned(self.bodies, list(self._aligned), self.inertials.axes, self.notes.add)
+
+    def _refuse_fused(self) -> None:
+        """A free body that is aligned only if all that it carries is fused with it, which much else decides."""
+        joints = [bool(body.joints) for body in self.bodies]
+        for index, joint in self._aligned.items():
+            carried = [k for k, body in enumerate(self.bodies) if k > index and self._carries(index, body)]
+            if carried and not any(joints[k] for k in carried) and (self._fuses or self.source.compiler.fuses):
                 raise joint.wrong(
-                    "align: the body's frame is turned to its principal axes, whose order and sense MJCF leaves open",
+                    "align beside fusestatic: whether the body is aligned depends on whether what is fixed to it is "
+                    "made one with it; write these as one body, or align='false'"
                 )
+
+    def _carries(self, index: int, body: RigidBody) -> bool:
+        while body.parent > index:
+            body = self.bodies[body.parent]
+        return body.parent == index
 
     def _contents(self, element: Element, childclass: str, source: Source) -> Iterator[Place]:
         """What is in a body, in the document's order; frames and what is attached are seen through. Strips what has no
@@ -186,6 +200,7 @@ class Bodies:
         if len(self.bodies) >= MOST_BODIES:
             raise element.wrong(f"more than {MOST_BODIES} bodies")
         placement = placement_of(element, compiler)
+        self._fuses |= element.get("fuse", "false") != "false"
         joints = [self._joint(place, at.parent) for place in inside if place.element.tag in ("joint", "freejoint")]
         self._acts_on(element, at.parent, bool(joints))
         inertials = (place for place in inside if place.element.tag == "inertial")
@@ -243,7 +258,7 @@ class Bodies:
             strip(geom.given)
             if geom.from_file:
                 geom.holder.children = [child for child in geom.holder.children if child is not geom.given]
-                self.notes.add("geoms that are meshes do not collide in furiko's own text of the file")
+                self.notes.add(MESHES_LEFT_OUT)
 
     def _named(self, element: Element, kind: str) -> str:
         """The element's name, given one where it has none, so that engines can be asked for it."""
@@ -276,7 +291,7 @@ class Bodies:
         if joint.kind == "free":
             aligned = word(given, "align", ("true", "false", "auto"), "auto")
             if aligned == "true" or (aligned == "auto" and compiler.align_free):
-                self._aligned.append((len(self.bodies), given))
+                self._aligned[len(self.bodies)] = given
         return joint
 
 

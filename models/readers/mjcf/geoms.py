@@ -53,6 +53,11 @@ def geom_inertial(element: Element, compiler: Compiler, assets: Assets) -> Inert
     return placed(Inertial(float(mass), unit.centre, unit.tensor * share), placement)
 
 
+def geom_placement(element: Element, compiler: Compiler, assets: Assets) -> Placement:
+    """Where a geom that is no mesh is, its axes the principal ones, in the frame that it stands in."""
+    return _size_and_placement(element, word(element, "type", KINDS, "sphere"), compiler, assets)[1]
+
+
 def collides(element: Element) -> bool:
     """Whether a geom, its defaults applied, may touch another by its own ``contype`` and ``conaffinity``."""
     return number(element, "contype", 1.0) != 0 or number(element, "conaffinity", 1.0) != 0

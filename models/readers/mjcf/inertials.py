@@ -16,7 +16,7 @@ from ..xml_file import Element
 from .attach import Source
 from .defaults import REFERENCES
 from .frames import ROTATIONS, placement_of
-from .geoms import FROM_FILES, geom_inertial, weighs
+from .geoms import FROM_FILES, geom_inertial, geom_placement, weighs
 from .notes import Notes
 from .options import Compiler
 
@@ -48,14 +48,16 @@ class Inertials:
     """Reads the inertials of a document's bodies, and keeps how each came about, by the body's name.
 
     ``from_geoms``: bodies whose inertial is that of their geoms; ``geoms``: the inertial that each body's geoms have
-    together; ``tensors``: a given inertial before its rotation, and that rotation (3, 3); ``meshes``: the largest
-    moments [kg m²] of the meshes that it is weighed by, added up.
+    together; ``tensors``: a given inertial before its rotation, and that rotation (3, 3); ``axes``: principal axes that
+    the document writes, columns (3, 3) in the body's frame; ``meshes``: the largest moments [kg m²] of the meshes that
+    it is weighed by, added up.
     """
 
     notes: Notes
     from_geoms: list[str] = field(default_factory=list)
     geoms: dict[str, Inertial] = field(default_factory=dict)
     tensors: dict[str, tuple[Inertial, Array]] = field(default_factory=dict)
+    axes: dict[str, Array] = field(default_factory=dict)
     meshes: dict[str, float] = field(default_factory=dict)
 
     def of_body(
@@ -122,6 +124,7 @@ class Inertials:
             if (moments < 0).any():
                 raise given.wrong(f"diaginertia={given.get('diaginertia')!r}: must not be negative")
             tensor = np.diag(moments)
+            self.axes[name] = frame.pose.rotation @ pose.rotation
         if compiler.rules.bound_inertia_on_given_axes:
             mass = max(mass, compiler.least_mass)
             tensor = tensor + np.diag(np.maximum(compiler.least_inertia - np.diag(tensor), 0.0))
@@ -136,6 +139,7 @@ class Inertials:
         Shapes in other files are loaded only where the inertial is ``needed``.
         """
         total: Inertial | None = None
+        weighed: list[PlacedGeom] = []
         low, high = groups
         for geom in geoms:
             if geom.from_file and not needed:
@@ -143,11 +147,22 @@ class Inertials:
             if low <= _group(geom.full) <= high:
                 part = self._of_geom(geom, needed)
                 if part is not None:
+                    weighed.append(geom)
                     part = part.transformed(geom.frame.pose)
                     total = part if total is None else total + part
                     if geom.full.get("mesh"):
                         self.meshes[name] = self.meshes.get(name, 0.0) + float(np.linalg.norm(part.tensor, 2))
+        if needed:
+            self._keep_axes(name, weighed)
         return total
+
+    def _keep_axes(self, name: str, weighed: Sequence[PlacedGeom]) -> None:
+        """Those of the only geom that weighs, unless a mesh says them; none where several do."""
+        self.axes.pop(name, None)
+        if len(weighed) == 1 and not weighed[0].from_file:
+            (geom,) = weighed
+            placement = geom_placement(geom.full, geom.source.compiler, geom.source.assets)
+            self.axes[name] = geom.frame.pose.rotation @ placement.pose.rotation
 
     def _of_geom(self, geom: PlacedGeom, needed: bool) -> Inertial | None:
         try:

@@ -21,7 +21,7 @@ class Compiler:
     joint limited; ``from_geoms``: ``inertiafromgeom``; ``groups``: first and last group of geoms that have mass;
     ``least_mass`` [kg], ``least_inertia`` [kg m²]: lower bounds; ``balance``: ``balanceinertia``; ``total_mass`` [kg]:
     the mass of all bodies together, if positive; ``mesh_folder``, ``strip_path``: where meshes are; ``align_free``:
-    ``alignfree``; ``fit_box``: ``fitaabb``; ``merges``: options of attached documents are
+    ``alignfree``; ``fuses``: ``fusestatic``; ``fit_box``: ``fitaabb``; ``merges``: options of attached documents are
     merged (``conflict``). ``rules``: mistakes that are made on purpose.
     """
 
@@ -38,6 +38,7 @@ class Compiler:
     mesh_folder: str = ""
     strip_path: bool = False
     align_free: bool = False
+    fuses: bool = False
     fit_box: bool = False
     merges: bool = False
 
@@ -67,6 +68,7 @@ class Compiler:
         self.mesh_folder = element.get("meshdir", element.get("assetdir", self.mesh_folder))
         self.strip_path = yes(element, "strippath", self.strip_path)
         self.align_free = yes(element, "alignfree", self.align_free)
+        self.fuses = yes(element, "fusestatic", self.fuses)
         self.fit_box = yes(element, "fitaabb", self.fit_box)
         self.merges = element.get("conflict", "merge" if self.merges else "warning") == "merge"
         for name in ("meshdir", "texturedir", "assetdir", "strippath"):

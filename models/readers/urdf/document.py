@@ -11,6 +11,7 @@ import numpy as np
 from ...errors import InvalidInput
 from ...spatial import Inertial
 from ...spatial_mechanism import WORLD, Joint, RigidBody
+from ..aligned import with_aligned
 from ..attributes import Array
 from ..placement import HERE, Placement
 from ..rules import UrdfRules
@@ -75,6 +76,8 @@ def read_urdf(root: Element, path: Path, rules: UrdfRules | None = None, meshes:
         moves = bool(body.joints) or above is None
         in_world.append(None if moves or above is None else above @ Placement(body.position, body.quaternion))
         bodies.append(_freed(body, above))
+    if acting.align_free:
+        bodies = with_aligned(bodies, _free(bodies))
     return Urdf(
         root=_for_engines(root, places, extension),
         bodies=tuple(bodies),
@@ -113,6 +116,10 @@ def _freed(body: RigidBody, above: Placement | None) -> RigidBody:
         )
     at = above @ Placement(body.position, body.quaternion)
     return replace(body, parent=WORLD, position=at.position, quaternion=at.quaternion)
+
+
+def _free(bodies: Sequence[RigidBody]) -> list[int]:
+    return [k for k, body in enumerate(bodies) if any(joint.kind == "free" for joint in body.joints)]
 
 
 def _without(places: Sequence[Place], bodies: Sequence[RigidBody]) -> list[str]:

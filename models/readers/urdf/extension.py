@@ -19,6 +19,7 @@ ACTS = {
     "balanceinertia": "false",
     "boundmass": "0",
     "boundinertia": "0",
+    "alignfree": "false",
 }
 WHATEVER = ("gravity", "timestep", "integrator")
 
@@ -29,7 +30,8 @@ class Extension:
 
     ``from_geoms``: ``inertiafromgeom``; ``groups``: first and last group of geoms that weigh (collision geometry is of
     group 0); ``least_mass`` [kg], ``least_inertia`` [kg m²]; ``balance``; ``total_mass`` [kg], of all that moves, if
-    positive; ``fuses``: links on fixed joints are made one with those above; ``gravity`` (3,) [m/s²]; ``timestep`` [s].
+    positive; ``fuses``: links on fixed joints are made one with those above; ``align_free``: the frame of a free link
+    that carries none is its inertial's; ``gravity`` (3,) [m/s²]; ``timestep`` [s].
     """
 
     from_geoms: str = "auto"
@@ -39,6 +41,7 @@ class Extension:
     balance: bool = False
     total_mass: float = -1.0
     fuses: bool = True
+    align_free: bool = False
     gravity: tuple[float, float, float] = (0.0, 0.0, -9.81)
     timestep: float = 0.0
     integrator: str = ""
@@ -73,6 +76,7 @@ def read_extension(root: Element) -> Extension:
                 balance=yes(compiler, "balanceinertia", found.balance),
                 total_mass=number(compiler, "settotalmass", found.total_mass),
                 fuses=yes(compiler, "fusestatic", found.fuses),
+                align_free=yes(compiler, "alignfree", found.align_free),
             )
         for option in extension.all("option"):
             x, y, z = map(float, numbers(option, "gravity", 3, found.gravity))

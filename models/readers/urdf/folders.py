@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ..folders import in_own_package
 from ..named_folders import NamedFolders
+from ..packages import in_package
 from ..xml_file import Element
 
 
@@ -15,8 +16,8 @@ class MeshFolders:
     """The folder of the document at ``path``, and ``others``, which the user named.
 
     ``package://NAME/REST`` is REST in the folder NAME: the document's own folder or one of the three above it if it is
-    called so. Other names are taken from the document's folder. What is in neither is looked for in ``others`` and
-    below, by the end of its path (:class:`NamedFolders`).
+    that package (:mod:`..packages`). Other names are taken from the document's folder. What is in neither is looked for
+    in ``others`` and below (:class:`NamedFolders`).
     """
 
     def __init__(self, path: Path, others: Sequence[Path] = ()) -> None:
@@ -32,14 +33,16 @@ class MeshFolders:
         except (OSError, ValueError, RuntimeError) as error:
             raise element.wrong(f"{attribute}={name[:80]!r}: {error}") from None
         if found is None:
+            package, _ = in_package(name) or ("", ())
+            advice = f"; name, with --meshes, a folder {package[:60]}, or one whose package.xml says so"
             raise element.wrong(
                 f"{attribute}={name[:80]!r}: no such mesh in the document's own folder or those that were named for "
-                "meshes"
+                f"meshes{advice if package else ''}"
             )
         return found
 
     def _beside(self, name: str) -> Path | None:
-        if name.startswith("package://"):
+        if in_package(name):
             return None
         path = (self._own / name.removeprefix("file://")).resolve()
         return path if path.is_relative_to(self._own) and os.path.isfile(path) else None

@@ -39,11 +39,17 @@ def allowed_residual(
     torque: Array | None = None,
     *,
     factorised: bool = True,
+    inverted: bool = True,
     world: bool = True,
 ) -> Array:
     """What each row of M a + bias − passive − torque may be, (nv,), for an engine's ``accelerations`` a (nv,).
 
-    ``mass``: M (nv, nv), to a few digits; ``factorised``: whether the engine factorises it.
+    ``mass``: M (nv, nv), to a few digits; ``factorised``: whether the engine may factorise it; ``inverted``: whether it
+    may invert blocks of it.
     """
     units = Magnitudes(mechanism, q, v, world=world)
-    return units.roundings * EPSILON * units.residual(accelerations, mass, torque, factorised=factorised)
+    return (
+        units.roundings
+        * EPSILON
+        * units.residual(accelerations, mass, torque, factorised=factorised, inverted=inverted)
+    )

@@ -195,17 +195,26 @@ class Magnitudes:
         return components(self.mechanism)
 
     def residual(
-        self, accelerations: Array, mass: Array, torque: Array | None = None, *, factorised: bool = True
+        self,
+        accelerations: Array,
+        mass: Array,
+        torque: Array | None = None,
+        *,
+        factorised: bool = True,
+        inverted: bool = True,
     ) -> Array:
         """The unit of each row of M a + bias − passive − torque, (nv,); ``mass``: M (nv, nv), to a few digits.
 
-        ``factorised``: whether the engine factorises M. One that eliminates a joint at a time inverts its block.
+        ``factorised``: whether the engine may factorise M; ``inverted``: whether it may eliminate a joint at a time,
+        and then inverts its block.
         """
         with np.errstate(over="ignore", invalid="ignore"):  # beyond the range of doubles nothing is known
-            rows = self._rows(accelerations, mass, torque, factorised=factorised)
+            rows = self._rows(accelerations, mass, torque, factorised=factorised, inverted=inverted)
         return np.where(np.isnan(rows), np.inf, rows)
 
-    def _rows(self, accelerations: Array, mass: Array, torque: Array | None, *, factorised: bool) -> Array:
+    def _rows(
+        self, accelerations: Array, mass: Array, torque: Array | None, *, factorised: bool, inverted: bool
+    ) -> Array:
         swings, rates = self.once(accelerations), self.once(self.v)
         for one in self.mechanism.joints:
             if one.joint.kind == "free":  # what a turning frame adds to an acceleration given in its axes
@@ -216,7 +225,8 @@ class Magnitudes:
         rows = shares.sum(axis=1) + self._armature @ swings + self.passive
         if torque is not None:
             rows = rows + self.rates(torque)
-        rows = rows + self._inverted(mass, rows, shares)
+        if inverted:
+            rows = rows + self._inverted(mass, rows, shares, swings)
         if factorised:
             squares = np.diag(mass).copy()
             for part in self._threes:
@@ -271,13 +281,17 @@ class Magnitudes:
         about = float(np.linalg.norm(self._moved.position[0, body] - middle[body]))
         return Lengths(np.maximum(along, about + np.linalg.norm(places - middle, axis=-1)), far)
 
-    def _inverted(self, mass: Array, rows: Array, shares: Array) -> Array:
+    def _inverted(self, mass: Array, rows: Array, shares: Array, swings: Array) -> Array:
         """What inverting the block D of a ball's or a free joint's degrees of freedom adds to the units ``rows``.
 
         D is M's block with all that hangs on the joint eliminated. Scaled to a diagonal of ones, S D S = E, a stable
-        inverse X leaves |E X − 1| ≤ c ε |E⁻¹|, so that of D a = u the row S⁻¹ |E⁻¹| |S u| is lost. What is taken off
-        the inertia that the joint hands on, U X Uᵀ, is at most that inertia, but its terms are up to |E⁻¹| times as
-        large: the ``shares`` of the bodies that hang on the joint, in all rows that move them.
+        inverse X leaves |E X − 1| ≤ c ε |E⁻¹|, so that of D a = u the row S⁻¹ |E⁻¹| |S u| is lost. u is made of all
+        that the rows add up, and of what the acceleration before the joint does there. Nothing moves before the first
+        joint: but for gravity, which engines put there, u is D a itself, and S u at most |E| |S⁻¹ a|, with ``swings``
+        |a|. So the rates, whose terms cancel but for D a, are not multiplied by |E⁻¹| in the rows of a free base.
+
+        What is taken off the inertia that the joint hands on, U X Uᵀ, is at most that inertia, but its terms are up to
+        |E⁻¹| times as large: the ``shares`` of the bodies that hang on the joint, in the rows of all joints before it.
         """
         found = np.zeros_like(rows)
         for body, block in self._blocks():
@@ -292,11 +306,28 @@ class Magnitudes:
                 scale = np.sqrt(np.abs(np.diag(np.linalg.inv(inverse))))
             except np.linalg.LinAlgError:
                 continue  # a singular matrix has no accelerations that could be judged
-            grown = float(np.linalg.norm(scale[:, None] * inverse * scale, 2))
+            scaled = scale[:, None] * inverse * scale
+            grown = float(np.linalg.norm(scaled, 2))
             scale = scale * root[own]
-            found[block] += scale * grown * np.linalg.norm(rows[block] / scale)
-            found += grown * self._moves[:, body] * shares[:, below].sum(axis=1)
+            if self._first(body, block):
+                widest = np.repeat(scale.reshape(-1, 3).max(axis=1), 3)  # whichever axes the engine has
+                carried = np.linalg.norm(np.linalg.inv(scaled), 2) * np.linalg.norm(widest * swings[block])
+                meets = carried + np.linalg.norm(self._pull[block] / scale)
+            else:
+                meets = np.linalg.norm(rows[block] / scale)
+            found[block] += scale * grown * meets
+            found[: block.start] += grown * (self._moves[:, body] * shares[:, below].sum(axis=1))[: block.start]
         return found
+
+    def _first(self, body: int, block: slice) -> bool:
+        """Whether the block is a single joint, and none moves what it hangs on."""
+        one = next(one for one in self.mechanism.joints if one.at_v == block.start)
+        return one.columns_v == block and not self._moves[: block.start, body].any()
+
+    @cached_property
+    def _pull(self) -> Array:
+        """Gravity's share of each row, (nv,)."""
+        return np.asarray(self._weights.sum(axis=1))
 
     def _blocks(self) -> list[tuple[int, slice]]:
         """Each block of M that is inverted as a whole: the body that it moves, and its rows."""

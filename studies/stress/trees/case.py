@@ -131,12 +131,19 @@ class Subject:
         with np.errstate(all="ignore"):
             for k in np.flatnonzero(np.isfinite(answer).all(axis=-1)).tolist():
                 units, mass = self._units(problem, k), problem.mass[k]
-                factorised = self.info is not None and self.info.algorithm != "aba"
-                unit = units.residual(answer[k], mass, factorised=factorised)
+                unit = units.residual(answer[k], mass, factorised=self._factorises, inverted=self._inverts)
                 over = float(quotient(mass @ error[k], unit).max() / (units.roundings * self.accuracy))
                 if over <= 1 or units.regular(mass, self.accuracy):
                     worst = max(worst, over)
         return worst
+
+    @property
+    def _factorises(self) -> bool:
+        return self.info is not None and self.info.factorises
+
+    @property
+    def _inverts(self) -> bool:
+        return self.info is None or self.info.inverts
 
     def _units(self, problem: TreeProblem, state: int) -> Magnitudes:
         q, v = problem.posed.q[state], problem.posed.v[state]

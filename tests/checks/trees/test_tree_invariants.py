@@ -219,31 +219,56 @@ BALL, FREE = ("ball", "ball", (0, 0, 1)), ("free", "free", (0, 0, 1))
         ([X, BALL], {}, [("x", None)]),
         ([X, Y, Z, BALL], {}, [("x", None), ("y", None), ("z", None), ("ball", "origin")]),
         ([FREE], {}, [("free", None), ("free", "centre")]),
-        ([FREE], {"armature": 0.3}, [("free", None)]),
+        ([FREE], {"armature": 0.3}, [("free", None), ("free", "origin")]),
         ([FREE], {"stiffness": 0.3}, []),
     ],
 )
 def test_what_is_kept_where_a_body_turns_in_all_directions(joints, more, expected):
-    """In MuJoCo's motion of two links; of a free joint with gravity. Its errors are some 1e-10 of a momentum."""
+    """In MuJoCo's motion of two links, with gravity for what is kept then. Its errors are some 1e-10 of a momentum."""
     made = tuple(joint(*one, **(more if one in (BALL, FREE) else {})) for one in joints)
     pose = {"position": np.array([0.3, 0.1, 0.2]), "quaternion": np.array([0.8, 0.3, -0.1, 0.2])}
     link = RigidBody("link", -1, joints=made, inertial=inertial(1.5), **pose)
     arm = RigidBody(
         "arm", 0, np.array([0.2, 0.3, 0.1]), joints=(joint("arm", "hinge", (1, 1, 0)),), inertial=inertial(0.7)
     )
-    gravity = np.array([1.0, -2.0, -9.0]) if FREE in joints else np.zeros(3)
-    mechanism = SpatialMechanism((link, arm), gravity)
+    mechanism = SpatialMechanism((link, arm), np.array([1.0, -2.0, -9.0]))
+    weightless = SpatialMechanism((link, arm), np.zeros(3))
     kept = momenta.momenta(mechanism)
     assert [(one.placed.joint.name, one.about) for one in kept] == expected
     rng = np.random.default_rng(2)
     q, v = rng.normal(size=mechanism.nq), rng.normal(size=mechanism.nv)
-    later = MujocoTree(mechanism).trajectory(q, v, "RK4", 1e-3, 250)
     for one in kept:
-        before = one.of(mechanism)(q[None], v[None])
-        after = one.of(mechanism, 0.25)(*(part[None] for part in later))
+        there = mechanism if one.falls else weightless
+        later = MujocoTree(there).trajectory(q, v, "RK4", 1e-3, 250)
+        before = one.of(there)(q[None], v[None])
+        after = one.of(there, 0.25)(*(part[None] for part in later))
         assert after == pytest.approx(before, abs=1e-9)
         assert np.abs(before).max() > 1e-3
-    assert np.abs(later[1] - v).max() > 1e-3
+        assert np.abs(later[1] - v).max() > 1e-3
+
+
+class PushedAside(Right):
+    """The floating body, which has rotors, is led 1e-5 m/s faster along the world's x axis than it should move."""
+
+    def trajectory(self, q, v, integrator, step, steps):
+        at, rates = super().trajectory(q, v, integrator, step, steps)
+        at[0] += 1e-5 * step * steps
+        return at, rates
+
+
+ROTORS = FLOATING.replace('kind = "free"', 'kind = "free"\narmature = 0.3')
+AROUND = "angular momentum about float RK4"
+
+
+@pytest.mark.parametrize(
+    ("engine", "wrong"),
+    [(Right, set()), (Inward, set()), (Rubbed, FLOATS - {"angular momentum of float RK4"} | {AROUND})],
+)
+def test_what_a_floating_body_with_rotors_keeps(engine, wrong):
+    found = {check: result.outcome for check, result in compared(engine, ROTORS).items()}
+    assert set(found) == FLOATS - {"angular momentum of float RK4"} | {AROUND}
+    assert {check for check, outcome in found.items() if outcome == "differs"} == wrong
+    assert compared(PushedAside, ROTORS)[AROUND].outcome == "differs"
 
 
 def moved_on(mechanism, q, v, time, steps):

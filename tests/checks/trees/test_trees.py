@@ -110,7 +110,7 @@ def compare_accelerations(error, mass):
     """The result for such errors in units of ε, (1, n), where the unit of each row is one."""
     ones = SimpleNamespace(residual=lambda *_, **__: np.ones(error.shape[1]))
     cell = SimpleNamespace(
-        info=SimpleNamespace(algorithm="other"),  # whose usual rounding is not known
+        info=SimpleNamespace(algorithm="other", factorises=True, inverts=True),  # whose usual rounding is not known
         states=TreeStates(("one",), np.zeros_like(error), np.zeros_like(error)),
         facts=SimpleNamespace(error=lambda got: 2.0**-52 * error, mass_matrix=mass, high=np.ones_like(error)),
         engine=SimpleNamespace(accelerations=lambda q, v: np.ones_like(error)),

@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import mujoco
 import numpy as np
+import pinocchio
 import pytest
 
 from furiko import diagnose
@@ -300,7 +301,19 @@ def test_what_is_unnamed_is_the_same_however_much_was_lost_before_it(tmp_path):
         </worldbody></mujoco>"""
     found = diagnose(saved(tmp_path, "scene.xml", text))
     assert [finding.cause for finding in found.findings] == ["include-not-followed"], found.text()
-    assert "'furiko_joint_1': joint none" in found.findings[0].says
+    assert "joint 'furiko_joint_1' (hinge) is missing" in found.findings[0].says
+
+
+def test_an_unnamed_free_joint_that_is_read_again_is_no_further_finding(tmp_path):
+    """Pinocchio reads the robot in place of the floor's world, and calls the second free joint after its body."""
+    robot = (
+        f'<body name="a"><freejoint/>{INERTIAL}<body name="b"><joint name="j" axis="0 1 0"/>{INERTIAL}</body></body>'
+    )
+    text = f"<mujoco><worldbody>{robot}</worldbody><worldbody><light pos='0 0 1'/></worldbody></mujoco>"
+    found = diagnose(saved(tmp_path, "mocap.xml", text))
+    causes = [finding.cause for finding in found.findings]
+    assert causes[0] == "first-worldbody-again", found.text()
+    assert not {"joint-dropped-by-parser", "joint-added", "unexplained"} & set(causes), found.text()
 
 
 def test_two_misreadings_at_once_are_both_named(tmp_path):
@@ -381,12 +394,58 @@ def _assert_the_same_motion(path, out):
     np.testing.assert_allclose(terms[0][1], terms[1][1], atol=1e-12)
 
 
+DRIVEN_TOOL = f"""<mujoco><worldbody><body name="a"><joint name="j" axis="0 1 0"/>{INERTIAL}<body name="tool">
+<joint name="k" axis="1 0 0" armature="0.1"/></body></body></worldbody></mujoco>"""
+
+
 def test_a_fix_says_which_links_weigh_nothing(tmp_path):
     text = f"""<robot name="r"><link name="world"/>{LINK.format("a", TENSOR, "")}<link name="tool"/>
         <joint name="j" type="continuous"><parent link="world"/><child link="a"/><axis xyz="0 1 0"/></joint>
         <joint name="k" type="continuous"><parent link="a"/><child link="tool"/><axis xyz="0 1 0"/></joint></robot>"""
+    path, driven = saved(tmp_path, "a.urdf", text), saved(tmp_path, "driven.xml", DRIVEN_TOOL)
+    for out in (tmp_path / "fixed.xml", tmp_path / "fixed.urdf"):
+        (says,) = write_fixed(read_model(path), out)
+        assert says.startswith("what a joint moves and weighs nothing is fixed where it is")
+        assert says.endswith("give that a mass in the file: 'k'")
+        found = diagnose(out)
+        assert found.verdict == "agrees", found.text()
+        assert found.engines["mujoco"]["status"] == "agrees"
+    (says,) = write_fixed(read_model(driven), tmp_path / "fixed.xml")  # its armature says how it moves
+    assert says == "MuJoCo refuses links that move and weigh nothing; give them a mass in the file: 'tool'"
+
+
+def test_a_fix_keeps_all_joints_where_nothing_weighs(tmp_path):
+    """A file without a joint would be none to ask anybody about."""
+    text = """<robot name="r"><link name="world"/><link name="a"/><joint name="j" type="continuous">
+        <parent link="world"/><child link="a"/><axis xyz="0 1 0"/></joint></robot>"""
     (says,) = write_fixed(read_model(saved(tmp_path, "a.urdf", text)), tmp_path / "fixed.xml")
-    assert says == "MuJoCo refuses links that move and weigh nothing: 'tool'"
+    assert says.endswith("give them a mass in the file: 'a'")
+
+
+def test_what_carries_nothing_but_idle_links_is_idle_too(tmp_path):
+    """A wrist of two axes without a hand; the arm's own motion, M and bias, is that of the file."""
+    text = f"""<robot name="r"><link name="world"/>{LINK.format("a", TENSOR, "")}<link name="wrist"/>
+        <link name="frame"/><link name="tool"/><joint name="j" type="continuous"><parent link="world"/>
+        <child link="a"/><axis xyz="0 1 0"/>
+        </joint><joint name="k" type="continuous"><origin xyz="0 0 -1" rpy=".1 .2 .3"/><parent link="a"/>
+        <child link="wrist"/><axis xyz="0 1 0"/></joint><joint name="f" type="fixed"><parent link="wrist"/>
+        <child link="frame"/></joint><joint name="l" type="prismatic"><parent link="frame"/><child link="tool"/>
+        <axis xyz="0 1 0"/><limit lower="0" upper="1" effort="1" velocity="1"/></joint></robot>"""
+    path, out = saved(tmp_path, "a.urdf", text), tmp_path / "fixed.xml"
+    (says,) = write_fixed(read_model(path), out)
+    assert says.endswith("'l', 'k'")
+    models = [pinocchio.buildModelFromUrdf(str(path)), pinocchio.buildModelFromMJCF(str(out))]
+    assert [model.nv for model in models] == [3, 1]
+    bias = []
+    for model in models:
+        q, v = pinocchio.neutral(model), np.zeros(model.nv)
+        at = model.joints[model.getJointId("j")]
+        q[at.idx_q : at.idx_q + at.nq] = [np.cos(0.7), np.sin(0.7)] if at.nq == 2 else [0.7]
+        v[at.idx_v] = 1.3
+        data = model.createData()
+        matrix = pinocchio.crba(model, data, q)
+        bias.append((matrix[at.idx_v, at.idx_v], pinocchio.rnea(model, data, q, v, 0 * v)[at.idx_v]))
+    assert bias[0] == pytest.approx(bias[1], rel=1e-13)
 
 
 def test_a_fix_is_not_written_over_the_file_itself_or_in_another_format(tmp_path):
@@ -451,8 +510,11 @@ def test_pinocchio_does_not_read_what_would_take_gigabytes(tmp_path, monkeypatch
     assert [finding.cause for finding in found.findings] == ["first-root-only"]
     together = f'<mujoco><worldbody><body name="w">{three}</body></worldbody></mujoco>'
     found = diagnose(saved(tmp_path, "together.xml", together), engines=["pinocchio-aba"])
-    assert found.engines["pinocchio-aba"]["status"] == "refused"
-    assert "3 freedoms, more than the 2" in found.findings[0].says
+    assert (found.verdict, found.engines["pinocchio-aba"]["status"]) == ("incomplete", "refused")
+    assert "3 freedoms, more than the 2" in found.engines["pinocchio-aba"]["says"]
+    found = diagnose(tmp_path / "together.xml")  # where nobody asked for it, the file is judged by the others
+    assert (found.verdict, found.findings, "pinocchio-aba" in found.engines) == ("agrees", (), False)
+    assert any(note.startswith("pinocchio-aba is not asked: 3 freedoms, more than the 2") for note in found.notes)
 
 
 def test_damping_that_pinocchio_leaves_to_its_caller_is_said(tmp_path):
@@ -574,6 +636,14 @@ def test_what_has_no_name_is_told_by_its_line_alone(tmp_path):
         <body name="b"><freejoint/>{INERTIAL}</body></worldbody></mujoco>"""
     (finding,) = diagnose(saved(tmp_path, "a.xml", text)).findings
     assert "line 2, <freejoint>)" in finding.says
+
+
+def test_a_joint_without_a_name_is_called_after_its_body_in_notes(tmp_path):
+    text = f"""<mujoco><worldbody><body name="trunk"><freejoint/>{INERTIAL}<body><joint type="ball"/>{INERTIAL}</body>
+        </body></worldbody></mujoco>"""
+    notes = diagnose(saved(tmp_path, "a.xml", text)).notes
+    assert any("and the unnamed joint of body 'trunk' is free" in note for note in notes), notes
+    assert not any("furiko_joint" in note for note in notes)
 
 
 def test_an_unknown_engine_is_refused(tmp_path):

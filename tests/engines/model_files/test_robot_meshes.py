@@ -18,9 +18,9 @@ def tetrahedron(edge=1.0):
     return b" " * 80 + struct.pack("<I", len(faces)) + b"".join(rows)
 
 
-@pytest.mark.parametrize("name", ["package://arm/meshes/t.stl", "meshes/t.stl", "elsewhere/t.stl", "../meshes/t.stl"])
+@pytest.mark.parametrize("name", ["package://stock/meshes/t.stl", "meshes/t.stl", "elsewhere/t.stl", "../meshes/t.stl"])
 def test_meshes_in_the_folders_that_are_named(read, tmp_path, name):
-    """Where MuJoCo does not find a mesh it is looked for below them: as a whole path, then without its first parts."""
+    """Where MuJoCo does not find a mesh it is looked for below them: by package or path, then the bare name in them."""
     (tmp_path / "stock" / "meshes").mkdir(parents=True)
     (tmp_path / "stock" / "meshes" / "t.stl").write_bytes(tetrahedron())
     text = f"""<robot name="r"><link name="world"/><link name="a">
@@ -73,6 +73,18 @@ def test_a_mesh_where_the_file_says_beside_one_of_the_same_name_that_is_elsewher
     assert robot.compiled().bodies[-1].inertial.mass == pytest.approx(8000 / 6, rel=1e-6)
 
 
+@pytest.mark.parametrize("name", ["package:///t.stl", "package://t.stl", "package:///deep/t.stl"])
+def test_a_mesh_without_a_package_is_beside_the_file(tmp_path, name):
+    """As CAD exporters write it; no folder need be named for that."""
+    put(tmp_path / ("deep" if "deep" in name else ""), 2.0)
+    path = tmp_path / "model.urdf"
+    path.write_text(collision(name))
+    for folders in ([], [tmp_path]):
+        found = diagnose(path, engines=["mujoco"], meshes=folders)
+        assert [finding.cause for finding in found.findings] == ["collision-weighs"], found.text()
+        assert found.engines["mujoco"]["holds"]["bodies"][-1]["mass"] == pytest.approx(8000 / 6, rel=1e-6)
+
+
 def test_furiko_and_mujoco_read_the_same_mesh(tmp_path):
     """The link has no inertial: MuJoCo weighs the mesh, and furiko weighs the same one to say so."""
     put(tmp_path / "stock" / "robots" / "arm" / "visual", 1.0)
@@ -85,16 +97,28 @@ def test_furiko_and_mujoco_read_the_same_mesh(tmp_path):
 
 def test_two_that_the_name_may_mean_are_said(tmp_path):
     """Neither is taken; the folder of one of them says which it is."""
-    put(tmp_path / "stock" / "one" / "collision", 1.0)
-    put(tmp_path / "stock" / "two" / "collision", 2.0)
+    put(tmp_path / "stock" / "one" / "arm" / "collision", 1.0)
+    put(tmp_path / "stock" / "two" / "arm" / "collision", 2.0)
     path = tmp_path / "model.urdf"
     path.write_text(collision("package://arm/collision/t.stl"))
     found = diagnose(path, engines=["mujoco"], meshes=[tmp_path / "stock"])
     (finding,) = found.findings
     assert finding.cause == "file-refused"
-    assert "name the folder of the one that is meant: one/collision/t.stl and two/collision/t.stl" in finding.says
+    assert "of the one that is meant: one/arm/collision/t.stl and two/arm/collision/t.stl" in finding.says
     found = diagnose(path, engines=["mujoco"], meshes=[tmp_path / "stock" / "two"])
     assert [finding.cause for finding in found.findings] == ["collision-weighs"]
+
+
+def test_a_mesh_of_another_robot_is_not_taken(tmp_path):
+    """The only file of the name lies in another package: its mass would be that of another body."""
+    put(tmp_path / "stock" / "leg" / "collision", 2.0)
+    path = tmp_path / "model.urdf"
+    path.write_text(collision("package://arm/collision/t.stl"))
+    found = diagnose(path, engines=["mujoco"], meshes=[tmp_path / "stock"])
+    assert found.verdict == "incomplete"
+    (finding,) = found.findings
+    assert finding.cause == "file-refused"
+    assert "Name the folder" in finding.says
 
 
 def test_an_unnamed_mesh_of_a_mjcf_below_the_folder_keeps_its_name(read, tmp_path):

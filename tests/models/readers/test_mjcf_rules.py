@@ -282,7 +282,7 @@ def test_every_mistake_has_its_sentence_and_its_test():
     tested = {*FILES, *DRAKES, "include_not_followed", "damping_dropped_on_free_and_ball", "springs_not_held"}
     tested |= {"gravity_flag_ignored", "springdamper_ignored", "damping_dropped_on_free"}
     tested |= {"first_worldbody_again", "inertial_without_inertia_is_unit"}  # on files in tests/diagnosis/robots
-    tested |= {"attach_ignored"}  # in test_mjcf_attach.py
+    tested |= {"attach_ignored", "align_ignored"}  # in test_mjcf_attach.py and test_mjcf_aligned.py
     assert tested == set(flags_of(MjcfRules))
     assert not any(getattr(AS_DOCUMENTED.mjcf, flag) for flag in flags_of(MjcfRules))
     assert all(says and not says.endswith(".") for says in flags_of(MjcfRules).values())

@@ -479,7 +479,6 @@ REFUSED = {
         mjcf(f'<replicate count="300"><replicate count="300">{body()}</replicate></replicate>'),
         "elements",
     ),
-    "aligned": (mjcf(body(joints='<freejoint align="true"/>')), "principal axes"),
     "an unknown actuator": (mjcf(body(), "", "<actuator><spring/></actuator>"), "no kind of actuator"),
     "a time constant of nothing": (mjcf('<body><joint springdamper="1 1"/></body>'), "singular"),
 }
