@@ -55,8 +55,9 @@ def stress(
 
     Axes: links, long-rods, short-rods, fast-rods, far-rods, straight-rods, folded-rods, strong-gravity, weak-gravity,
     no-gravity, legs, heavy-first, light-first, heavy-leg, light-leg, long-legs, short-legs, fast-legs, far-legs,
-    aligned-legs; two of them as "long-rods x fast-rods"; and the parts accelerations, pairs, steps, "long runs",
-    condition, chain, trees. All but pairs if none is given.
+    aligned-legs, and units so small that numbers are subnormal: small-mass, small-length, slow and subnormal (all
+    three), each with -rods and -legs; two of the others as "long-rods x fast-rods"; and the parts accelerations, pairs,
+    steps, "long runs", condition, chain, trees. All but pairs if none is given.
 
     Axes of open mechanisms, each on cart-pole, acrobot, arm-7, quadruped, humanoid, and on two mechanisms of its own,
     where it applies: heavy-links, light-tips, long-links, short-links, fast, many-turns, straight, far-base, fast-base,

@@ -24,13 +24,14 @@ from ...engines.workers.pool import Event, Lost, Pool, Said, Worker
 from ...engines.workers.processes import worker_processes
 from ...models import TreeScene
 from ...records.check import Result
-from .accelerations import DOCUMENT, KERNELS, AccelerationCase
+from .accelerations import AccelerationCase
 from .axes import Ladder, Pair
 from .case import Case, CaseJob
 from .chain import chain_runs, listed_cases
 from .condition import condition_cases
 from .failures import Failure
 from .frontier import Frontier, frontier, next_rung
+from .over_bound import DOCUMENT, KERNELS
 from .questions import Questions
 from .stability import CHUNKS, STRESSES, TOP, LongRunCase, StabilityCase, Stress
 from .trees.axes import TreeLadder, tree_ladders

@@ -21,10 +21,11 @@ from ...records.stress import (
     StressSummary,
 )
 from ...reference.chain import order
-from .accelerations import KERNELS, PROMISED
+from .accelerations import PROMISED
 from .chain_summary import chain_summary
 from .condition import condition_cases
 from .frontier import frontier
+from .over_bound import KERNELS
 from .searches import AccelerationSearch, LongRun, Results, Search, StabilitySearch, TreeSearch, key
 from .stability import STRESSES, TOP, classify, problem, step
 from .trees.axes import TreeLadder
