@@ -23,6 +23,8 @@ Failure = Literal[
     "silent reset",
     "energy runs away",
     "joints come apart",
+    "phase lost",
+    "quaternions lose their length",
     "exception",
     "hang",
     "crash",
