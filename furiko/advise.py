@@ -15,6 +15,8 @@ from .models import InvalidInput, Scene, TreeScene, find_scene
 from .records import provenance
 from .records.bench import Advice, Advised, NotAdvised
 
+# Parts of the time for an open mechanism with a motion: accelerations, steps; what is left, the long run.
+TRUST, STEPS = 0.4, 0.4
 # Methods that keep the error, those that do not, engines left out, the reference's error.
 Studied = tuple[list[Advised], list[NotAdvised], list[str], float]
 
@@ -65,6 +67,8 @@ def _of_tree(
 ) -> Advice:
     """Of an open mechanism: whether accelerations are right, how far they stay so, and steps where it has a motion."""
     from .studies.bench.advice import advise as study
+    from .studies.bench.methods import STEP
+    from .studies.stress.tree_long_runs import Advisable, long_runs
     from .studies.stress.tree_trust import trust
 
     names = engines_to_measure(engines)
@@ -74,11 +78,13 @@ def _of_tree(
     if not asked:
         raise InvalidInput(f"{scene.name}: none of these engines takes open mechanisms: {', '.join(names)}")
     moves = scene.starts and scene.duration > 0
-    found = trust(scene, asked, budget / 2 if moves else budget, watch)
+    found = trust(scene, asked, TRUST * budget if moves else budget, watch)
     still: Studied = ([], [], [], 0.0)
-    studied = study(scene, [info.name for info in asked], error, budget / 2, watch) if moves else still
+    studied = study(scene, [info.name for info in asked], error, STEPS * budget, watch) if moves else still
+    advised = [Advisable(each.engine, each.scheme, each.setting) for each in studied[0] if each.by == STEP]
+    lasting = long_runs(scene, advised, (1 - TRUST - STEPS) * budget, watch)
     given = _advice(replace(scene, duration=scene.duration if moves else 0.0), error, begun, studied)
-    return msgspec.structs.replace(given, left_out=[*left_out, *given.left_out], trust=found)
+    return msgspec.structs.replace(given, left_out=[*left_out, *given.left_out], trust=found, long_runs=lasting)
 
 
 def _advice(scene: Scene | TreeScene, error: float, begun: float, studied: Studied) -> Advice:

@@ -18,8 +18,8 @@ from .records import provenance
 from .records.check import EngineEntry, Header
 from .records.stress import StressSummary
 from .reports.journal import Journal
-from .studies.stress.accelerations import DOCUMENT, KERNELS, OWN
 from .studies.stress.axes import AXES, Ladder, find_axes, pairs
+from .studies.stress.over_bound import DOCUMENT, KERNELS, OWN
 from .studies.stress.searches import FAMILIES, Results, Search, key, make_searches
 from .studies.stress.searches import run as run_cases
 from .studies.stress.trees.axes import TREE_AXES, TreeLadder, find_ladders, tree_ladders

@@ -175,6 +175,21 @@ class Trust(msgspec.Struct, frozen=True, kw_only=True):
     limits: list[TrustLimit]
 
 
+class LongMotion(msgspec.Struct, frozen=True, kw_only=True):
+    """What an advised integrator keeps with its step in the long run, of the scene or of a motion known for ever."""
+
+    engine: str
+    scheme: str
+    step: float  # [s]
+    motion: str  # the scene's name, or that of a known motion of joints that the scene has, too
+    says: str
+    time: float  # [s], the longest that was run
+    phase_error: float | None = msgspec.field(name="phase error")  # None: of the scene itself, or not finite
+    energy_drift: float | None = msgspec.field(name="energy drift")  # None: dampers take it, or it is not finite
+    length_drift: float | None = msgspec.field(name="length drift")  # of quaternions
+    failure: str | None  # what makes it another motion at that time; None: nothing
+
+
 class Advice(msgspec.Struct, frozen=True, kw_only=True):
     """Which engine, integrator and step to use for one scene; ``furiko advise --json`` prints it.
 
@@ -197,4 +212,5 @@ class Advice(msgspec.Struct, frozen=True, kw_only=True):
     advised: list[Advised]
     not_advised: list[NotAdvised]
     left_out: list[str]  # engines without a method, and why
+    long_runs: list[LongMotion] = msgspec.field(name="long runs", default=[])  # of open mechanisms
     trust: list[Trust] = []  # of open mechanisms: whether engines' accelerations are right, and how far they stay so

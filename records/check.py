@@ -162,6 +162,20 @@ class Alone(msgspec.Struct, frozen=True, kw_only=True):
     says: str
 
 
+class Advisable(msgspec.Struct, frozen=True, kw_only=True):
+    """A scene of which ``furiko advise`` has more to say than this run: which engine, integrator and step to trust.
+
+    ``engine``, ``check``: the result that tells most; ``why``: that it is loose, that a motion differs, or that it
+    agrees and is limited by its step: it parts from the true motion, or is known to no better than that.
+    """
+
+    scene: str
+    engine: str
+    check: str
+    why: Literal["differs", "loose", "limited by its step"]
+    command: str
+
+
 class CheckReport(msgspec.Struct, frozen=True, kw_only=True):
     """One run of ``furiko check``: what ``--json`` prints."""
 
@@ -171,6 +185,7 @@ class CheckReport(msgspec.Struct, frozen=True, kw_only=True):
     diagnoses: list[Diagnosis] = []
     known: list[KnownDifference] = []  # one an entry of the file of known differences
     alone: list[Alone] = []  # one a scene with a user's own equations
+    advisable: list[Advisable] = []  # one a scene of which `furiko advise` has more to say
 
 
 ChangeKind = Literal[

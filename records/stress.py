@@ -103,6 +103,32 @@ class StableStep(msgspec.Struct, frozen=True, kw_only=True):
     runs: list[StepRun] = msgspec.field(name="cells")
 
 
+class TreeRunPoint(msgspec.Struct, frozen=True, kw_only=True):
+    """One run of so long: how far its end is off. None: it is not finite, or nothing was run."""
+
+    time: float  # [s]
+    phase_error: float | None = msgspec.field(name="phase error")  # [rad], or in parts of what moves
+    energy_drift: float | None = msgspec.field(name="energy drift")  # over the motion's own energy
+    length_drift: float | None = msgspec.field(name="length drift")  # of a quaternion's length from one
+    failure: str | None
+
+
+class TreeRun(msgspec.Struct, frozen=True, kw_only=True):
+    """How long one integrator with one step keeps to a motion of an open mechanism that is known for ever."""
+
+    engine: str
+    integrator: str
+    motion: str
+    says: str  # the motion in words
+    step: float  # [s]
+    closed: bool
+    holds_at: float | None = msgspec.field(name="holds at")  # the longest time [s] before the first that fails
+    fails_at: float | None = msgspec.field(name="fails at")  # [s]
+    failure: str | None
+    reason: str
+    runs: list[TreeRunPoint]
+
+
 class EnergyDrift(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """Energy in a long run of one integrator, relative to the energy above rest."""
 
@@ -226,3 +252,4 @@ class StressSummary(msgspec.Struct, frozen=True, kw_only=True):
     long_runs: list[EnergyDrift] = msgspec.field(name="long runs")
     failures: list[FailureCount]
     chain: ChainSummary
+    tree_runs: list[TreeRun] = msgspec.field(name="tree runs", default=[])

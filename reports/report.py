@@ -9,8 +9,20 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from ..records.check import OUTCOMES, Alone, Diagnosis, EngineEntry, Footer, Header, Outcome, Result, SceneEntry
+from ..records.check import (
+    OUTCOMES,
+    Advisable,
+    Alone,
+    Diagnosis,
+    EngineEntry,
+    Footer,
+    Header,
+    Outcome,
+    Result,
+    SceneEntry,
+)
 from ..records.exit_status import AGREES, DIFFERS, INCOMPLETE
+from .advisable import advice_line, advisable_in
 from .alone import alone_in
 from .causes import Causes, CheckGroup, group_causes
 from .words import WORDS, Word, count, few, figure, last_line, listed, one_line, tally, word
@@ -273,6 +285,16 @@ class Report:
     def alone(self) -> tuple[Alone, ...]:
         """Of each scene with a user's own equations: which of them, the model and the engines is alone."""
         return alone_in(self)
+
+    @cached_property
+    def advisable(self) -> tuple[Advisable, ...]:
+        """The scenes of which ``furiko advise`` has more to say."""
+        return advisable_in(self)
+
+    @property
+    def advice(self) -> str:
+        """Where it has, one sentence that says so and what to type; else empty."""
+        return advice_line(self.advisable)
 
     @cached_property
     def outliers(self) -> tuple[str, ...]:

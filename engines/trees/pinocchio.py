@@ -24,6 +24,7 @@ from typing import Any
 
 import numpy as np
 
+from ...models.errors import InvalidInput
 from ...models.spatial import IDENTITY, Pose, unit
 from ...models.spatial_mechanism import WORLD, Joint, SpatialMechanism
 from ...models.writers.explicit import unique_names
@@ -149,7 +150,25 @@ class PinocchioCrbaTree(PinocchioAbaTree):
 
     def accelerations(self, q: Array, v: Array) -> Array:
         right = self.passive(q, v) - self.bias(q, v)
-        return _solved(np.linalg.cholesky(self.mass_matrix(q)).astype(np.float64), right)
+        return _solved(self._factors(self.mass_matrix(q)), right)
+
+    def _factors(self, mass: Array) -> Array:
+        """L of each L Lᵀ = M, (B, n, n). Raises :class:`InvalidInput` where an M as computed has none."""
+        try:
+            return np.linalg.cholesky(mass).astype(np.float64)
+        except np.linalg.LinAlgError:
+            raise InvalidInput(self._without_factors(mass)) from None
+
+    def _without_factors(self, mass: Array) -> str:
+        """Which joint of which state moves nothing but rounding, and what to do, in a sentence."""
+        state, freedom = next((k, i) for k, each in enumerate(mass) if (i := _first_without(each)) is not None)
+        name = next(p.joint.name for p in reversed(self._mechanism.joints) if p.at_v <= freedom)
+        return (
+            f"pinocchio-crba: in state {state + 1} of {len(mass)} the mass matrix that it computes is not positive "
+            f"definite: what joint {name!r} moves by itself, the others held, weighs less than rounding of the rest. "
+            "Use pinocchio-aba, which forms no such matrix, or a pose farther from a singular one (two axes in line), "
+            "or give the joint an armature"
+        )
 
     def inverse_mass(self, q: Array) -> Array:
         n = self._mechanism.nv
@@ -160,6 +179,16 @@ class PinocchioCrbaTree(PinocchioAbaTree):
             pinocchio.cholesky.decompose(self._model, self._data)
             found[row] = state.our_matrix(pinocchio.cholesky.computeMinv(self._model, self._data))
         return found
+
+
+def _first_without(mass: Array) -> int | None:
+    """The first row up to which (n, n) ``mass`` has no Cholesky factors; None where it has all."""
+    for i in range(len(mass)):
+        try:
+            np.linalg.cholesky(mass[: i + 1, : i + 1])
+        except np.linalg.LinAlgError:
+            return i
+    return None
 
 
 def _solved(factors: Array, right: Array) -> Array:

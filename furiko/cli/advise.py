@@ -37,7 +37,9 @@ def advise(
 
     Of an open mechanism it says besides whether each engine's accelerations are right, against proven ones, and how far
     the mechanism is from where they are not: heavier, longer, faster, farther away, nearer to a singular pose. Without
-    a state and a duration that is all; the exit status is 3 where no engine's are right.
+    a state and a duration that is all; the exit status is 3 where no engine's are right. With them it says, too, what
+    each integrator keeps with its step in the long run, up to 1000 s: energy and quaternions of the scene itself, and
+    the phase of motions that are known for ever.
     """
     from ..advise import advise as run
 

@@ -122,6 +122,7 @@ def check(
                 diagnoses=list(report.diagnoses),
                 known=list(accounted.differences),
                 alone=list(report.alone),
+                advisable=list(report.advisable),
             )
         )
     else:

@@ -55,13 +55,17 @@ def stress(
 
     Axes: links, long-rods, short-rods, fast-rods, far-rods, straight-rods, folded-rods, strong-gravity, weak-gravity,
     no-gravity, legs, heavy-first, light-first, heavy-leg, light-leg, long-legs, short-legs, fast-legs, far-legs,
-    aligned-legs; two of them as "long-rods x fast-rods"; and the parts accelerations, pairs, steps, "long runs",
-    condition, chain, trees. All but pairs if none is given.
+    aligned-legs, and units so small that numbers are subnormal: small-mass, small-length, slow and subnormal (all
+    three), each with -rods and -legs; two of the others as "long-rods x fast-rods"; and the parts accelerations, pairs,
+    steps, "long runs", condition, chain, trees, "tree runs". All but pairs if none is given.
 
     Axes of open mechanisms, each on cart-pole, acrobot, arm-7, quadruped, humanoid, and on two mechanisms of its own,
     where it applies: heavy-links, light-tips, long-links, short-links, fast, many-turns, straight, far-base, fast-base,
     long-quaternions, short-quaternions, half-turns, small-masses, small-lengths, slow, freedoms, gimbal-lock. One
     mechanism's are named by it ("arm-7"), one alone by both ("arm-7: fast").
+
+    "tree runs" are of open mechanisms whose motion is known for ever, from 1 s on to 1000 s, and to 10000 s with a
+    larger budget: a body thrown, a top without torque, a mass on a spring, a pendulum about an axis that leans.
 
     Writes stress.jsonl, stress.html and chain.html. A second run with the same folder resumes the first.
     """

@@ -11,6 +11,7 @@ the largest acceleration.
 
 from __future__ import annotations
 
+import math
 import weakref
 from collections.abc import Callable, Iterator
 from functools import cache, cached_property
@@ -69,8 +70,8 @@ def accelerations(
     for large batches costs a quarter of the time). ``threads``: how many to use at most; None: as many as the work
     fills. Error relative to the largest acceleration, for n ≤ 1000, length ratios to 1e3, mass ratios to 1e6: 2e-16
     typically, 1e-14 at worst, unless rounding the state itself changes the accelerations by more. Terms below the
-    smallest normal number, 2e-308 (all of them only where g = 0 and all rates are below 1e-153), are exact to 5e-324
-    only.
+    smallest normal number, 2e-308 (all of them only where all rates are below 1e-153, and g is less than 1e-308 of the
+    longest link a second squared), are exact to 5e-324 only, whatever the units of mass and length.
     Raises :class:`InvalidInput` for shapes that do not fit and numbers that are not finite or too large.
 
     An open mechanism in space (:class:`~furiko.models.spatial_mechanism.SpatialMechanism`, such as
@@ -118,9 +119,8 @@ def accelerations(
 
 def plain_accelerations(system: System, theta: Any, omega: Any) -> Any:
     """:func:`accelerations` in plain numpy, in the float type of the arrays; shape (..., n), nothing checked."""
-    lengths = np.array(system.lengths, theta.dtype)
-    masses = link_masses(system).astype(theta.dtype)
-    gravity = theta.dtype.type(system.gravity)
+    masses, lengths, gravity = in_fitting_units(system)
+    masses, lengths, gravity = masses.astype(theta.dtype), lengths.astype(theta.dtype), theta.dtype.type(gravity)
     form = _plain_rods if system.kind == "rod-chain" else _plain_legs
     return form(np.moveaxis(theta, -1, 0), np.moveaxis(omega, -1, 0), masses, lengths, gravity)
 
@@ -128,6 +128,17 @@ def plain_accelerations(system: System, theta: Any, omega: Any) -> Any:
 def link_masses(system: System) -> Array:
     """Masses of the links [kg], for rods at ρ = 1 kg/m: ρ is a factor of every term, and m_j = l_j is exact."""
     return np.array(system.lengths if system.kind == "rod-chain" else system.masses)
+
+
+def in_fitting_units(system: System) -> tuple[Array, Array, float]:
+    """Masses, lengths and gravity in units of mass and length in which the largest are from a half to one.
+
+    θ'' is the same in all units. These are powers of two, which round nothing; they keep products of masses, lengths
+    and accelerations in the normal range as long as θ'' itself is.
+    """
+    masses, lengths = link_masses(system), np.array(system.lengths)
+    unit = math.ldexp(1.0, math.frexp(lengths.max())[1])
+    return masses / math.ldexp(1.0, math.frexp(masses.max())[1]), lengths / unit, system.gravity / unit
 
 
 class Kernel:
@@ -138,8 +149,7 @@ class Kernel:
 
     def __init__(self, system: System) -> None:
         self.n = system.n
-        self.masses, self.lengths = link_masses(system), np.array(system.lengths)
-        self.gravity = system.gravity
+        self.masses, self.lengths, self.gravity = in_fitting_units(system)
         self.refined = unequal(self.lengths)
         self.table = table(self.masses, self.lengths, self.gravity, self.refined)
         self._kind = system.kind

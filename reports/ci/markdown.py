@@ -44,7 +44,8 @@ def _top(report: Report) -> str:
     flaws = [f"> [!WARNING]\n> {escape(flaw)}" for flaw in report.flaws]
     outliers = [escape(sentence) for sentence in report.outliers]
     verdict = f"## furiko {GLYPHS[outcome_of(report.exit_status)]} {escape(report.verdict)}"
-    return "\n\n".join([verdict, *flaws, *outliers])
+    advice = [escape(report.advice)] if report.advice else []
+    return "\n\n".join([verdict, *flaws, *outliers, *advice])
 
 
 def _known(known: Known | None) -> str:

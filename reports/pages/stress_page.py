@@ -63,6 +63,7 @@ def stress_page(summary: StressSummary, header: Header) -> str:
         maps=_maps(summary.steps),
         kinds=_kinds(summary.steps),
         long_runs=[run for run in summary.long_runs if run.steps],
+        tree_runs=[run for run in summary.tree_runs if run.runs and run.failure != "refused"],
         drifts=[plot for run in summary.long_runs if (plot := _drift(run))],
     )
 

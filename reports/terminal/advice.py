@@ -44,6 +44,7 @@ def print_advice(found: Advice, file: TextIO | None = None) -> None:
             ("engine", "scheme", "smallest error", "why none smaller"),
             [(each.engine, each.scheme, figure(each.error), each.reason) for each in found.not_advised],
         )
+    _print_long_runs(console, found)
     for left_out in found.left_out:
         console.line(f"left out: {left_out}", "dim")
     console.line()
@@ -52,6 +53,30 @@ def print_advice(found: Advice, file: TextIO | None = None) -> None:
         f"Errors: the largest of {numbers} at half, three quarters and all of the time, measured against a motion that "
         f"is known to {found.truth:.0e}.",
         "dim",
+    )
+
+
+def _print_long_runs(console: PlainConsole, found: Advice) -> None:
+    """What the advised integrators keep in the long run, of the scene and of motions that are known for ever."""
+    if not found.long_runs:
+        return
+    console.line()
+    console.line("In the long run, with these steps, of the scene itself and of motions known for ever:", "bold")
+    console.table(
+        ("engine", "scheme", "motion", "after", "phase error", "energy drift", "quaternion length", ""),
+        [
+            (
+                each.engine,
+                each.scheme,
+                each.says,
+                f"{each.time:g} s",
+                figure(each.phase_error),
+                figure(each.energy_drift),
+                figure(each.length_drift),
+                each.failure or "",
+            )
+            for each in found.long_runs
+        ],
     )
 
 

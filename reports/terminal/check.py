@@ -33,7 +33,7 @@ GAP = 2  # columns of the terminal between two of the table
 def print_report(
     report: Report, path: str | Path | None = None, file: TextIO | None = None, width: int | None = None
 ) -> None:
-    """Print the verdict, causes of differences, failures, loose results, the table, skips, and the report's path.
+    """Print verdict, causes of differences, failures, loose results, the table, skips, advice, and the report's path.
 
     The verdict is repeated at the end where the rest is longer than a screen. ``file`` is standard output unless given;
     ``width`` [columns] that of the terminal, or 120 in a pipe.
@@ -61,6 +61,8 @@ def print_report(
         )
     if len(report.scenes) + len(report.reasons("skipped")) > SCREEN:
         _print_verdict(report, console)
+    if report.advice:
+        console.line(report.advice)
     if path is not None:
         console.line(one_line(f"Report: {path}"))
 

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from ...records.stress import AxisFrontier, StableStep, StressSummary
+from ...records.stress import AxisFrontier, StableStep, StressSummary, TreeRun
 from ..words import count, figure, one_line
 from .console import PlainConsole
 
@@ -41,6 +41,7 @@ def _tables(found: StressSummary) -> list[tuple[tuple[str, ...], Rows]]:
         _conditions(found),
         *(_steps(stress, found.steps) for stress in dict.fromkeys(s.stress for s in found.steps)),
         _long_runs(found),
+        _tree_runs(found.tree_runs),
     ]
 
 
@@ -132,6 +133,30 @@ def _long_runs(found: StressSummary) -> tuple[tuple[str, ...], Rows]:
         if run.steps
     ]
     return ("energy in the long run", "steps", "energy is", "H", "largest |ΔE|/E"), rows
+
+
+def _tree_runs(runs: Sequence[TreeRun]) -> tuple[tuple[str, ...], Rows]:
+    """A row for each engine, integrator and motion; how long each step keeps to it."""
+    steps = sorted({run.step for run in runs}, reverse=True)
+    at = {(run.engine, run.integrator, run.motion, run.step): run for run in runs}
+    rows = [
+        (f"{engine} {integrator}", motion, *(tree_run_words(at[engine, integrator, motion, step]) for step in steps))
+        for engine, integrator, motion in dict.fromkeys((r.engine, r.integrator, r.motion) for r in runs)
+        if all(at[engine, integrator, motion, step].failure != "refused" for step in steps)
+    ]
+    return ("open mechanisms keep to a known motion", "", *(f"step {step:g} s" for step in steps)), rows
+
+
+def tree_run_words(run: TreeRun) -> str:
+    """How long it keeps to the motion, and what ends it."""
+    if not run.runs:
+        return "not run yet"
+    if run.fails_at is None:
+        last = max(run.runs, key=lambda point: point.time)
+        return f"{last.time:g} s, off by {figure(last.phase_error)}" + ("" if run.closed else "; open")
+    held = "not 1 s" if run.holds_at is None else f"{run.holds_at:g} s"
+    more = "" if run.closed else " (open)"
+    return one_line(f"{held}{more}, then {run.failure}", 60)
 
 
 def _end(found: StressSummary, page: Path | None) -> str:

@@ -4,7 +4,11 @@ Subjects are the engines, ``document`` (the literal equations in double precisio
 accelerations in all their forms). The typical error of a rung (the median over its states) decides whether half the
 digits are lost: the largest of a few would depend on which states were drawn. The kernels are held to more: in every
 state to 1e-13 of the largest acceleration or, where the problem itself is that sensitive, to ten times of what one ulp
-in each of its numbers does.
+in each of its numbers does, or of what numbers below the normal range may do.
+
+Beside the error stands the residual over what rounding may do to it, in the worst state: above 1 no rounding explains
+the error, however small it is; below, half the digits are lost because the mechanism multiplies rounding, or because
+numbers are subnormal.
 """
 
 from __future__ import annotations
@@ -28,11 +32,9 @@ from ...reference.truth.newton_euler import close_accelerations, enclosed_accele
 from .axes import Mechanism, find_axes
 from .case import RungCase
 from .failures import Failure, of_answer
+from .over_bound import DOCUMENT, KERNELS, OWN, over_bound, underflow
 
 Array = NDArray[np.float64]
-
-DOCUMENT, KERNELS = "document", "kernels"
-OWN = (DOCUMENT, KERNELS)
 
 PROMISED = 1e-13  # of the kernels, norm-wise, where the problem's own conditioning allows it
 TIMES_ULP = 10.0  # and where it does not
@@ -74,7 +76,8 @@ class AccelerationCase(RungCase):
             answers = ask(self.engine, system, problem.theta, problem.omega)
         errors = np.max([relative_error(problem.truth, answer) for answer in answers], axis=0)
         typical, worst = float(np.median(errors)), float(np.max(errors))
-        failure = of_answer(np.array(answers), typical)
+        over = self._over_bound(system, problem, answers)
+        failure = of_answer(np.array(answers), typical, over)
         cond = condition_number(self.engine, system, problem)
         details = {
             **where,
@@ -86,6 +89,7 @@ class AccelerationCase(RungCase):
             "one ulp does": finite(float(np.median(problem.ulp))),
             "condition": finite(cond),
             "error over ε·cond": finite(typical / (EPSILON * cond)) if cond else None,
+            "error over bound": finite(over),
         }
         if self.engine == KERNELS:
             return self._kernels(errors, problem, details)
@@ -94,18 +98,31 @@ class AccelerationCase(RungCase):
             measured=finite(typical),
             allowed=HALF_THE_DIGITS,
             unit="of the largest acceleration",
-            reason=told(failure, typical),
+            reason=told(failure, typical, over),
             details=details,
         )
 
+    def _over_bound(self, system: Mechanism, problem: Problem, answers: list[Array]) -> float | None:
+        """Of the worst answer; None for mechanisms whose dense matrices take too long."""
+        if system.n > MOST_FOR_CONDITION:
+            return None
+        state = problem.theta, problem.omega, problem.truth
+        return max(over_bound(self.engine, system, *state, answer) for answer in answers)
+
     def _kernels(self, errors: Array, problem: Problem, details: dict[str, object]) -> Result:
-        allowed = np.maximum(PROMISED, TIMES_ULP * problem.ulp)
+        system = find_axes((self.ladder,))[0].recipe(self.rung).system()
+        lost: Array | float = 0.0
+        if system.n <= MOST_FOR_CONDITION:
+            lost = underflow(system, problem.theta, problem.omega, problem.truth)
+        allowed = np.maximum(np.maximum(PROMISED, TIMES_ULP * problem.ulp), lost)
         state = int(np.argmax(errors / allowed))
         broken = not errors[state] <= allowed[state]
         beyond = bool((errors > PROMISED).any())
         details["exception"] = beyond
         if broken:
-            reason = f"more than {PROMISED:g} and more than ten times of what one ulp of the input does"
+            reason = f"more than {PROMISED:g}, than ten times of what one ulp of the input does, and than underflow"
+        elif beyond and allowed[state] > TIMES_ULP * problem.ulp[state]:
+            reason = f"more than {PROMISED:g}, but numbers below the normal range may do {allowed[state]:.2g}"
         elif beyond:
             reason = f"more than {PROMISED:g}, but one ulp of the input does {problem.ulp[state]:.2g} itself"
         else:
@@ -203,13 +220,14 @@ def condition_number(subject: str, system: Mechanism, problem: Problem) -> float
     return middle if np.isfinite(middle) and middle > 0 else None
 
 
-def told(failure: Failure | None, error: float) -> str:
+def told(failure: Failure | None, error: float, over: float | None) -> str:
     """The failure in a sentence."""
     if failure is None:
         return ""
     if failure == "NaN":
         return "NaN or infinity among the accelerations"
-    return f"{failure}: a typical error of {error:.2g} of the largest acceleration"
+    share = "" if over is None else f", {over:.2g} of what rounding may do to its equation"
+    return f"{failure}: a typical error of {error:.2g} of the largest acceleration{share}"
 
 
 def digits(error: float) -> float | None:

@@ -38,7 +38,9 @@ class Recipe:
     ``kind``; ``n`` angles; ``first_mass``, ``leg_mass`` and ``light_leg_mass`` [kg]: of links 1, 2 and 3 of an N-leg
     pendulum, all others being 1; ``other_length`` [m]: of every second link, all others being 1; ``gravity`` [m/s²];
     ``rate`` [rad/s]: the largest; ``turns``: angles have up to so many radians added; ``spread`` [rad]: angles are
-    within it of one direction; ``folded``: every second link points back.
+    within it of one direction; ``folded``: every second link points back. ``of_mass``, ``of_length``, ``of_time``:
+    masses, lengths and rates are so many times smaller, in other units: powers of two, so that the motion is the same,
+    to the last digit as long as no number is subnormal.
     """
 
     kind: Literal["rod-chain", "n-leg"]
@@ -52,15 +54,19 @@ class Recipe:
     turns: float = 0.0
     spread: float = math.pi
     folded: bool = False
+    of_mass: float = 1.0
+    of_length: float = 1.0
+    of_time: float = 1.0
 
     def system(self) -> Mechanism:
         """The mechanism."""
-        lengths = tuple(self.other_length if j % 2 else 1.0 for j in range(self.n))
+        lengths = tuple(self.of_length * (self.other_length if j % 2 else 1.0) for j in range(self.n))
+        gravity = self.gravity * self.of_length * self.of_time**2
         if self.kind == "rod-chain":
-            return RodChain(lengths, gravity=self.gravity)
+            return RodChain(lengths, density=self.of_mass / self.of_length, gravity=gravity)
         masses = [1.0] * self.n
         masses[:3] = [self.first_mass, self.leg_mass, self.light_leg_mass][: self.n]
-        return NLegPendulum(lengths, tuple(masses), gravity=self.gravity)
+        return NLegPendulum(lengths, tuple(self.of_mass * mass for mass in masses), gravity=gravity)
 
     @property
     def states(self) -> int:
@@ -87,7 +93,7 @@ class Recipe:
         theta = np.round((theta + turns) / quantum) * quantum + (direction if self.spread < math.pi else 0.0)
         if self.folded:
             theta[:, 1::2] += math.pi
-        return theta, quantised(omega) if 1e-3 < self.rate < 1e4 else omega
+        return theta, self.of_time * (quantised(omega) if 1e-3 < self.rate < 1e4 else omega)
 
 
 @dataclass(frozen=True)
@@ -188,6 +194,8 @@ Ladder = Axis | Pair
 
 CHAIN = Recipe("rod-chain", 5)
 STAR = Recipe("n-leg", 4)
+UNITS = "units"
+TINY = 2.0**-160  # 7e-49, of masses and lengths, of which furiko takes those from 1e-50 on
 HALF_DECADE, TWELFTH_DECADE = 10 ** (1 / 2), 10 ** (1 / 12)
 
 
@@ -214,6 +222,27 @@ def _links(name: str, says: str, base: Recipe, more: int, further: float) -> Axi
     unit = "legs" if more else "rods"
     fields = frozenset({"n"})
     return Axis(name, says, unit, base, 1.0, 1000.0, TWELFTH_DECADE, change, fields, links=True, further=further)
+
+
+def _to_denormals(name: str, says: str, base: Recipe, change: Callable[[Recipe, float], Recipe], bits: int) -> Axis:
+    """Down to 2^-bits: units in which numbers or their products are subnormal; ten bits, a thousandth, a rung."""
+    return Axis(name, says, "", base, 1.0, 2.0**-bits, 2.0**-10, change, frozenset({UNITS}))
+
+
+def _small_masses(recipe: Recipe, value: float) -> Recipe:
+    return replace(recipe, of_mass=value)
+
+
+def _small_lengths(recipe: Recipe, value: float) -> Recipe:
+    return replace(recipe, of_length=value)
+
+
+def _slow(recipe: Recipe, value: float) -> Recipe:
+    return replace(recipe, of_time=value)
+
+
+def _tiny(recipe: Recipe) -> Recipe:
+    return replace(recipe, of_mass=TINY, of_length=TINY)
 
 
 def _folded(recipe: Recipe, value: float) -> Recipe:
@@ -252,6 +281,16 @@ AXES: tuple[Axis, ...] = (
     _axis("fast-legs", "legs that turn faster", STAR, "rate", 1.0, 1e6, "rad/s"),
     _axis("far-legs", "legs whose angles count many turns", STAR, "turns", 1.0, 1e9, "rad"),
     _axis("aligned-legs", "all links in one line but for so much", STAR, "spread", 1.0, 1e-12, "rad"),
+    *(
+        _to_denormals(f"{name}-{of}", says.format(of), base, change, bits)
+        for of, base, tiny in (("rods", CHAIN, _tiny(CHAIN)), ("legs", STAR, _tiny(STAR)))
+        for name, says, base, change, bits in (
+            ("small-mass", "{} with masses in a unit that makes them smaller", base, _small_masses, 160),
+            ("small-length", "{} with lengths in a unit that makes them smaller", base, _small_lengths, 160),
+            ("slow", "{} with rates in a unit that makes them smaller", base, _slow, 530),
+            ("subnormal", "tiny {} with rates in a unit that makes them smaller", tiny, _slow, 530),
+        )
+    ),
     _axis("no-gravity", "rods without gravity, ever slower", replace(CHAIN, gravity=0.0), "rate", 1.0, 1e-6, "rad/s"),
 )
 
@@ -264,7 +303,9 @@ def pairs() -> Iterator[Pair]:
 
 
 def _fits(first: Axis, second: Axis) -> bool:
-    """A mechanism without gravity stays without."""
+    """A mechanism without gravity stays without, and units are no difficulty beside another: they stand alone."""
+    if UNITS in first.fields | second.fields:
+        return False
     return not any("gravity" in a.fields and b.base.gravity == 0 for a, b in ((first, second), (second, first)))
 
 

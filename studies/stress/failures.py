@@ -23,6 +23,8 @@ Failure = Literal[
     "silent reset",
     "energy runs away",
     "joints come apart",
+    "phase lost",
+    "quaternions lose their length",
     "exception",
     "hang",
     "crash",
@@ -33,12 +35,17 @@ Failure = Literal[
 NO_DIGITS = 0.01  # an error that no one would call rounding: finite, unannounced, and wrong in the second digit
 
 
-def of_answer(answer: Array, error: float) -> Failure | None:
-    """The failure of accelerations whose typical relative error is ``error``; None where they will do."""
+def of_answer(answer: Array, error: float, over: float | None = None) -> Failure | None:
+    """The failure of accelerations whose typical relative error is ``error``; None where they will do.
+
+    ``over``: the worst residual over what rounding may do to it; None where that is not known.
+    """
     if not np.isfinite(answer).all():
         return "NaN"
     if error >= NO_DIGITS:
         return "wrong numbers that look right"
+    if over is not None and over > 1:
+        return "more than rounding"
     return "half its digits lost" if error > HALF_THE_DIGITS else None
 
 

@@ -24,17 +24,21 @@ from ...engines.workers.pool import Event, Lost, Pool, Said, Worker
 from ...engines.workers.processes import worker_processes
 from ...models import TreeScene
 from ...records.check import Result
-from .accelerations import DOCUMENT, KERNELS, AccelerationCase
+from .accelerations import AccelerationCase
 from .axes import Ladder, Pair
 from .case import Case, CaseJob
 from .chain import chain_runs, listed_cases
 from .condition import condition_cases
 from .failures import Failure
 from .frontier import Frontier, frontier, next_rung
+from .over_bound import DOCUMENT, KERNELS
 from .questions import Questions
 from .stability import CHUNKS, STRESSES, TOP, LongRunCase, StabilityCase, Stress
 from .trees.axes import TreeLadder, tree_ladders
 from .trees.case import TreeCase
+from .trees.motions import known_motions
+from .trees.runs import STEPS, TreeRunCase
+from .trees.runs import TOP as LAST_TIME
 
 TIMEOUT = 30.0  # [s] for one case; those that may take longer say so
 GRACE = 5.0  # [s] that cases under way are given when the time is up
@@ -160,6 +164,27 @@ class StabilitySearch(UpRungs):
 
 
 @dataclass(frozen=True)
+class TreeRunSearch(UpRungs):
+    """How long an engine's integrator keeps to a motion of an open mechanism that is known for ever."""
+
+    engine: str
+    integrator: str
+    motion: str
+    step: float
+
+    family = "tree runs"
+
+    @property
+    def top(self) -> int:
+        """The last rung."""
+        return LAST_TIME
+
+    def case(self, rung: int) -> TreeRunCase:
+        """The case of a rung."""
+        return TreeRunCase(self.engine, self.integrator, self.motion, self.step, rung)
+
+
+@dataclass(frozen=True)
 class LongRun:
     """A long run of one integrator, a hundredth at a time."""
 
@@ -206,6 +231,7 @@ WEIGHTS = {
     "condition": 1.0,
     "chain": 2.0,
     "trees": 2.0,
+    "tree runs": 2.0,
     "pairs": 2.0,
     "long runs": 1.0,
 }
@@ -240,6 +266,11 @@ def make_searches(
                 for value in values
             ]
             found.append(LongRun(info.name, integrator.name, long_steps))
+    for info in engines:
+        for integrator in info.integrators if info.tree and "trajectory" not in info.tree.missing else ():
+            found += [
+                TreeRunSearch(info.name, integrator.name, motion, step) for motion in known_motions() for step in STEPS
+            ]
     if own:
         found.append(Listed("condition", condition_cases(seed)))
         found.append(Listed("chain", tuple(listed_cases())))

@@ -19,15 +19,20 @@ from ...records.stress import (
     StableStep,
     StepRun,
     StressSummary,
+    TreeRun,
+    TreeRunPoint,
 )
 from ...reference.chain import order
-from .accelerations import KERNELS, PROMISED
+from .accelerations import PROMISED
 from .chain_summary import chain_summary
 from .condition import condition_cases
 from .frontier import frontier
-from .searches import AccelerationSearch, LongRun, Results, Search, StabilitySearch, TreeSearch, key
+from .over_bound import KERNELS
+from .searches import AccelerationSearch, LongRun, Results, Search, StabilitySearch, TreeRunSearch, TreeSearch, key
 from .stability import STRESSES, TOP, classify, problem, step
 from .trees.axes import TreeLadder
+from .trees.motions import known_motions
+from .trees.runs import TIMES, TreeRunCase
 
 COORDINATES = ("absolute", "relative")
 DRIFT_SAMPLES = 200  # about so many of a long run's energies are kept for its plot
@@ -49,6 +54,7 @@ def summary(searches: Sequence[Search], results: Results, *, seed: int) -> Stres
         long_runs=[_energy_drift(s, results) for s in searches if isinstance(s, LongRun)],
         failures=failure_counts(results),
         chain=chain_summary(searches, results),
+        tree_runs=[_tree_run(s, results) for s in searches if isinstance(s, TreeRunSearch)],
     )
 
 
@@ -156,6 +162,36 @@ def _stable_step(search: StabilitySearch, results: Results) -> StableStep:
         failure=failing.details.get("failure") if failing else None,
         reason=failing.reason if failing else "",
         runs=[StepRun(rung=rung, step=step(rung, duration), failure=r.details.get("failure")) for rung, r in runs],
+    )
+
+
+def _tree_run(search: TreeRunSearch, results: Results) -> TreeRun:
+    answers = search.answers(results)
+    found = search.frontier(results)
+    failing = results.get(key(search.case(found.fails))) if found.fails is not None else None
+    return TreeRun(
+        engine=search.engine,
+        integrator=search.integrator,
+        motion=search.motion,
+        says=known_motions()[search.motion].says,
+        step=search.step,
+        closed=found.closed,
+        holds_at=TIMES[found.holds] if found.holds >= 0 else None,
+        fails_at=None if found.fails is None else TIMES[found.fails],
+        failure=failing.details.get("failure") or "exception" if failing else None,
+        reason=failing.reason if failing else "",
+        runs=[_tree_run_point(search.case(rung), results) for rung in sorted(answers)],
+    )
+
+
+def _tree_run_point(case: TreeRunCase, results: Results) -> TreeRunPoint:
+    details = results[key(case)].details
+    return TreeRunPoint(
+        time=case.time,
+        phase_error=details.get("phase error"),
+        energy_drift=details.get("energy drift"),
+        length_drift=details.get("length drift"),
+        failure=details.get("failure"),
     )
 
 

@@ -91,7 +91,7 @@ def test_a_failing_engine_is_status_3(tmp_path):
 def test_json_is_one_document_and_nothing_else(tmp_path):
     done = run("check", "rods-1", "--profile", "smoke", "--json", cwd=tmp_path)
     document = json.loads(done.stdout)
-    assert set(document) == {"header", "results", "footer", "diagnoses", "known", "alone"}
+    assert set(document) == {"header", "results", "footer", "diagnoses", "known", "alone", "advisable"}
     assert document["footer"]["agrees"] == len(document["results"])
     for command in ("scenes", "engines", "cache"):
         assert json.loads(run(command, "--json", cwd=tmp_path).stdout)

@@ -74,7 +74,7 @@ ROOMS = {
         {"models", "records", "reference", "engines", "diagnosis", "checks"},
         [
             (".",),
-            ("stress.axes", "stress.accelerations", "stress.case", "stress.failures"),
+            ("stress.axes", "stress.accelerations", "stress.case", "stress.failures", "stress.over_bound"),
             ("stress.trees",),
             ("bench", "maps", "stress", "sweep", "versions"),
         ],

@@ -18,6 +18,16 @@ A freedom is eliminated with u = (A s, Bᵀ s) for a hinge, (B s, M s) for a sli
 forces. R. Featherstone, Rigid Body Dynamics Algorithms (2008), chapter 7, has the algorithm.
 
 Several freedoms of one joint, of a ball or a free body, are eliminated one after another at one point.
+
+So are three hinges of one body at one point, s₁ the outermost, on links without weight and without armature. Where s₁
+is nearly in line with s₃ (gimbal lock, by an angle φ), s₁·A s₁ is φ² of what A was, and with rounding of A of size ε
+all its digits are gone at φ = √ε. But s₂ and s₃ have been eliminated: A s₂ = A s₃ = 0, Bᵀ s₂ = Bᵀ s₃ = 0, and what is
+left of the forces along them is what acts in their joints, s₂·n₀ = τ₂, s₃·n₀ = τ₃. With c = s₂ × s₃ therefore
+
+    s₁ = p + c₂ s₂ + c₃ s₃,   p = c (c·s₁)/c²,   c₂ = s₁·(s₃ × c)/c²,   c₃ = s₁·(c × s₂)/c²
+    A s₁ = A p,   Bᵀ s₁ = Bᵀ p,   s₁·n₀ = p·n₀ + c₂ τ₂ + c₃ τ₃
+
+hold exactly, and p is known to ε of 1, as the axes are: to ε/φ of itself.
 """
 
 from __future__ import annotations
@@ -272,6 +282,21 @@ def turned_out(memory: Any, numbers: Any, before: tuple[Any, ...], places: tuple
     return before, u, eliminated(memory, numbers, places, k, u, dot(axis, u[0]), dot(axis, n))
 
 
+def turned_out_of_three(memory: Any, numbers: Any, before: tuple[Any, ...], places: tuple[Any, ...]) -> Any:
+    """The same of the outermost of three hinges at one point, whose others have the next two rows."""
+    A, B, _, n, _ = before
+    outer, second, third = (memory.read(places[0], k * ROW + AXIS, 3) for k in range(3))
+    forces = [memory.read(places[0], k * ROW + FORCE, 1)[0] for k in (1, 2)]
+    normal = cross(second, third)
+    inverse = 1.0 / dot(normal, normal)
+    across = scaled(dot(normal, outer) * inverse, normal)
+    of_second = dot(outer, cross(third, normal)) * inverse
+    of_third = dot(outer, cross(normal, second)) * inverse
+    u = times(full(A), across), times(transposed(B), across)
+    bias = dot(across, n) + of_second * forces[0] + of_third * forces[1]
+    return before, u, eliminated(memory, numbers, places, 0, u, dot(across, u[0]), bias)
+
+
 def slid_out(memory: Any, numbers: Any, before: tuple[Any, ...], places: tuple[Any, ...]) -> Any:
     """The same of a freedom to slide."""
     _, B, M, _, f = before
@@ -369,6 +394,12 @@ def hinge_next(memory: Any, numbers: Any, inertia: Any, own: Any, constants: Any
 def turn_within(memory: Any, numbers: Any, inertia: Any, own: Any, constants: Any, signs: Any) -> None:
     """Eliminate a freedom to turn; the inertia stays at its point."""
     left = reduced(*turned_out(memory, numbers, parts(memory, inertia), (own, constants, signs)))
+    memory.write(inertia, 0, [number for part in left for number in part])
+
+
+def outer_within(memory: Any, numbers: Any, inertia: Any, own: Any, constants: Any, signs: Any) -> None:
+    """Eliminate the outermost of three hinges at one point; the inertia stays there."""
+    left = reduced(*turned_out_of_three(memory, numbers, parts(memory, inertia), (own, constants, signs)))
     memory.write(inertia, 0, [number for part in left for number in part])
 
 

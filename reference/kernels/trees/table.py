@@ -22,6 +22,7 @@ from .formulas import INERTIA, NUMBERS, ROW, SIGNS
 
 Array = NDArray[np.float64]
 Long = NDArray[np.longdouble]
+MOST_IN_LINE = 0.866  # cosine of the angle of two axes: 30 degrees
 WIDTH = 10  # numbers of an instruction: which piece, and its places
 PIECES: tuple[Callable[..., None], ...] = (
     formulas.place_hinge,
@@ -42,6 +43,7 @@ PIECES: tuple[Callable[..., None], ...] = (
     formulas.hand_first,
     formulas.hand_next,
     formulas.free_last,
+    formulas.outer_within,
 )
 NUMBER = {piece.__name__: number for number, piece in enumerate(PIECES)}
 
@@ -62,6 +64,11 @@ class Node:
     tensor: Long = field(default_factory=lambda: np.zeros((3, 3), np.longdouble))
     children: list[Node] = field(default_factory=list)
     row: int = -1
+
+    @property
+    def weightless(self) -> bool:
+        """Whether nothing of its own moves with it, but for what hangs on it."""
+        return not (self.mass or self.moment.any() or self.tensor.any())
 
     @property
     def last(self) -> int:
@@ -161,16 +168,19 @@ class Program:
         at = [(inertia, (node.row + k) * ROW, (node.row + k) * NUMBERS, self.signs) for k in range(len(kinds))]
         for k in reversed(range(1, len(kinds))):
             self.emit(f"{kinds[k]}_within", *at[k])
-        parent = node.parent
-        if parent is None:
+        parent, outer = node.parent, outermost_of_three(node)
+        hinge = node.placed.joint.kind == "hinge" and not outer
+        if outer:
+            self.emit("outer_within", *at[0])
+        elif parent is None:
             self.emit(f"{kinds[0]}_last", *at[0])
+        elif not hinge:
+            self.emit(f"{kinds[0]}_within", *at[0])
+        if parent is None:
             self._free.append(inertia)
             return
         first = parent.row not in self._of
         target = self._of.setdefault(parent.row, inertia)
-        hinge = node.placed.joint.kind == "hinge"
-        if not hinge:
-            self.emit(f"{kinds[0]}_within", *at[0])
         own = at[0] if hinge else at[0][:2]
         to = (target, parent.last * ROW, parent.last * NUMBERS) if first else (target,)
         self.emit(f"{'hinge' if hinge else 'hand'}_{'first' if first else 'next'}", *own, *to)
@@ -190,6 +200,21 @@ class Program:
             self._free.append(self.inertias + self.most * INERTIA)
             self.most += 1
         return self._free.pop()
+
+
+def outermost_of_three(node: Node) -> bool:
+    """Whether a hinge is the first of three at one point that turn one body, the axes of the other two far from
+    parallel, as :mod:`.formulas` eliminates them. The angle of neighbouring axes is the same in all states."""
+    three = [node]
+    while len(three) < 3 and len(three[-1].children) == 1:
+        three += three[-1].children
+    if len(three) < 3 or any(one.placed.joint.kind != "hinge" for one in three):
+        return False
+    if not (node.weightless and three[1].weightless):
+        return False
+    if any(one.place.any() or one.placed.joint.armature for one in three[1:]):
+        return False
+    return bool(abs(three[2].rotation[2, 2]) < MOST_IN_LINE)  # the cosine: the second's own axis is the third
 
 
 def freedoms(joint: Joint) -> list[str]:

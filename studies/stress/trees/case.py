@@ -28,9 +28,10 @@ from ....reference.rounding.bounds import EPSILON
 from ....reference.rounding.spatial import Magnitudes
 from ....reference.truth.enclosures import Enclosure
 from ....reference.truth.spatial import spatial_truth
-from ..accelerations import KERNELS, digits, finite, relative_error
+from ..accelerations import digits, finite, relative_error
 from ..case import RungCase
 from ..failures import NO_DIGITS, Failure
+from ..over_bound import KERNELS
 from .axes import ladder_of
 from .posed import Posed
 

@@ -196,3 +196,21 @@ def test_states_of_any_shape_and_what_is_no_state():
         load_tree_engine("pinocchio-aba", scene.system).trajectory(scene.q, scene.v, "RK4", 0.1, 1)
     with pytest.raises(InvalidInput, match="none called 'RK5'"):
         loaded.trajectory(scene.q, scene.v, "RK5", 0.1, 1)
+
+
+def test_a_mass_matrix_that_is_singular_to_rounding_is_refused_in_words():
+    """Yaw, pitch and roll on one link, the pitch a part in 1e8 from a right angle: yaw and roll turn about one line.
+
+    What they turn against each other weighs sin² of the angle: 1e-16 of what they turn together, less than rounding.
+    """
+    hinges = ("yaw", (0.0, 0.0, 1.0)), ("pitch", (0.0, 1.0, 0.0)), ("roll", (1.0, 0.0, 0.0))
+    joints = tuple(TreeJoint(name, axis=axis) for name, axis in hinges)
+    link = TreeLink("arm", -1, mass=2.0, centre=(0.0, 0.0, -0.2), inertia=(0.02, 0.02, 0.004, 0, 0, 0), joints=joints)
+    loaded = load_tree_engine("pinocchio-crba", TreeSystem((link,)))
+    sound, locked = [0.3, 0.2, 0.1], [0.3, np.pi / 2, 0.1]
+    with pytest.raises(
+        InvalidInput, match=r"in state 2 of 2 .* not positive definite: what joint 'roll' moves"
+    ) as said:
+        loaded.accelerations([sound, locked], np.ones((2, 3)))
+    assert "Use pinocchio-aba" in str(said.value)
+    assert np.isfinite(loaded.accelerations([sound], np.ones((1, 3)))).all()

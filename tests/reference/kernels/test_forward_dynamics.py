@@ -396,3 +396,35 @@ def test_a_single_state_may_have_any_stride(system):
     theta, omega = states[:, 4], states[::-1, 7]
     expected = kernels.accelerations(system, theta.copy(), omega.copy())
     np.testing.assert_array_equal(kernels.accelerations(system, theta, omega), expected)
+
+
+UNIT = 2.0**-160  # of masses and lengths, 7e-49: the smallest that a system may have are 1e-50
+
+
+@pytest.mark.parametrize("slower", [1.0, 2.0**-200, 2.0**-380, 2.0**-420])
+@pytest.mark.parametrize("form", ["plain", "single", "batch"])
+def test_units_in_which_torques_are_subnormal_lose_no_digit(form, slower):
+    """By dimensions: with masses, lengths and times in other units, accelerations are the same times a power of two.
+
+    Powers of two round nothing, and no acceleration here is below the normal range: not a bit may change, though
+    m l² ω², a torque, is 1e-397 in the smallest unit.
+    """
+    draw = np.random.default_rng(7)
+    lengths, masses = draw.uniform(0.5, 2, 4), draw.uniform(0.5, 2, 4)
+    theta, omega = draw.uniform(-3, 3, (3, 4)), draw.uniform(-5, 5, (3, 4))
+    small, slow = UNIT * lengths, slower**2 * UNIT * 9.81
+    pairs = [
+        (RodChain(tuple(lengths)), RodChain(tuple(small), gravity=slow)),
+        (NLegPendulum(tuple(lengths), tuple(masses)), NLegPendulum(tuple(small), tuple(UNIT * masses), slow)),
+    ]
+    for usual, other in pairs:
+        before = answered(form, usual, theta, omega)
+        after = answered(form, other, theta, slower * omega)
+        assert (after == before * slower**2).all()
+
+
+def answered(form, system, theta, omega):
+    if form == "plain":
+        return kernels.plain_accelerations(system, theta, omega)
+    kernel = kernels.kernel_of(system)
+    return kernel.batch(theta, omega) if form == "batch" else np.array(list(map(kernel, theta, omega)))

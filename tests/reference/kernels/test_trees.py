@@ -12,12 +12,14 @@ from furiko.models import InvalidInput, NLegPendulum, RodChain, find_scene
 from furiko.models.coordinates import to_absolute, to_relative
 from furiko.models.spatial import Inertial, from_quaternion
 from furiko.models.spatial_mechanism import Joint, RigidBody, SpatialMechanism
+from furiko.models.trees.system import TreeJoint, TreeLink, TreeSystem
 from furiko.reference.kernels.trees import dynamics, plain
 from furiko.reference.kernels.trees.machine import machine
 from furiko.reference.kernels.trees.springs import sprung
-from furiko.reference.kernels.trees.table import table
+from furiko.reference.kernels.trees.table import PIECES, table
 from furiko.reference.rounding.spatial import Magnitudes
 from furiko.reference.truth.spatial import spatial_truth
+from furiko.studies.stress.trees.mechanisms import gimbal
 
 EPSILON = 2.0**-52
 # Backward error: of each row of M a + bias - passive - torque, in balls, over the sum of its terms' magnitudes, over
@@ -294,3 +296,65 @@ def test_without_llvmlite_numpy_answers(monkeypatch):
     mechanism = spatial_trees.chain(rng, 5)
     states = drawn(rng, mechanism, 9)
     np.testing.assert_array_equal(furiko.accelerations(mechanism, *states), accelerations("plain", mechanism, *states))
+
+
+def shoulders(armature=0.0, apart=0.0):
+    """A trunk that floats, with two arms on three hinges at right angles at one point each."""
+    hinges = ("yaw", (0.0, 0.0, 1.0)), ("pitch", (0.0, 1.0, 0.0)), ("roll", (1.0, 0.0, 0.0))
+    trunk = TreeLink("trunk", -1, mass=10.0, inertia=(0.4, 0.5, 0.3, 0, 0, 0), joints=(TreeJoint("float", "free"),))
+    arms = [
+        TreeLink(
+            f"arm {k}",
+            0,
+            position=(0.2, 0.1, side * 0.3),
+            quaternion=(0.8, 0.1 * side, 0.5, 0.3),
+            mass=2.0,
+            centre=(0.02, 0.01, -0.15),
+            inertia=(0.02, 0.018, 0.004, 0.001, 0, -0.001),
+            joints=tuple(
+                TreeJoint(
+                    f"{name} {k}",
+                    axis=axis,
+                    anchor=(0.0, 0.0, apart if name == "roll" else 0.0),
+                    armature=armature,
+                    damping=0.1,
+                    stiffness=0.5,
+                )
+                for name, axis in hinges
+            ),
+        )
+        for k, side in ((1, 1), (2, -1))
+    ]
+    return TreeSystem((trunk, *arms)).mechanism()
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("angle", [0.1, 1e-3, 1e-5, 1e-7])
+def test_near_gimbal_lock_digits_are_lost_by_the_angle_not_by_its_square(form, angle):
+    """Where axes are in line but for φ, they are known to ε of 1, the sine of φ to ε/φ: some dozens of these are
+    allowed, and at 1e-5 rad ε/φ², what a plain elimination leaves, is a thousand times as much."""
+    mechanism = shoulders()
+    lock = math.pi / 2
+    q = np.array([[0.1, -0.2, 0.3, 0.7, 0.1, -0.5, 0.4, 0.4, lock - angle, 0.2, -0.9, -lock + angle, 1.1]])
+    v, torque = np.linspace(-1.0, 1.5, 12)[None], np.linspace(-0.5, 0.5, 12)[None]
+    found = accelerations(form, mechanism, q, v, torque)
+    backward, forward = errors(mechanism, q[0], v[0], torque[0], found[0])
+    assert forward < 50 * EPSILON / angle
+    assert backward <= ALLOWED
+
+
+def test_three_hinges_at_one_point_without_armature_alone_are_eliminated_so():
+    def pieces(mechanism):
+        return {PIECES[number].__name__ for number in table(mechanism).program[:, 0]}
+
+    assert "outer_within" in pieces(shoulders())
+    assert "outer_within" in pieces(gimbal().mechanism())
+    for other in (shoulders(armature=0.01), shoulders(apart=0.05), find_scene("arm-7").system.mechanism()):
+        assert "outer_within" not in pieces(other)
+
+
+def test_a_shoulder_on_the_world_is_eliminated_so_too():
+    mechanism = gimbal().mechanism()
+    q, v = np.array([[0.3, math.pi / 2 - 1e-5, 0.1, 0.4]]), np.array([[1.0, -0.5, 0.25, 2.0]])
+    for form in FORMS:
+        assert errors(mechanism, q[0], v[0], np.zeros(4), accelerations(form, mechanism, q, v)[0])[1] < 1e-9

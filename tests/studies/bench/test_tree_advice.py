@@ -13,7 +13,9 @@ from furiko.cli.main import run
 from furiko.engines import engine_info
 from furiko.models import InvalidInput, find_scene
 from furiko.studies.bench.tree_methods import tree_methods, tree_reference
+from furiko.studies.stress.tree_long_runs import Advisable, long_runs
 from furiko.studies.stress.tree_trust import trust
+from furiko.studies.stress.trees.runs import TIMES, TreeRunCase
 
 
 def file(tmp_path, text):
@@ -117,3 +119,81 @@ def test_engines_that_take_no_open_mechanism_are_refused_or_left_out(tmp_path):
         advise(still, engines=["exudyn-redundant"], budget=5)
     found = advise(still, engines=["exudyn-redundant", "mujoco"], budget=5)
     assert "exudyn-redundant takes the documents' mechanisms alone" in found.left_out[0]
+
+
+SWINGING = """
+[system]
+kind = "tree"
+
+[[system.links]]
+name = "bob"
+mass = 1.0
+centre = [0.0, 0.0, -0.5]
+inertia = [0.01, 0.01, 0.01]
+joints = [{ name = "hinge", axis = [0.0, 1.0, 0.0] }]
+
+[state]
+q = { hinge = 1.0 }
+v = { hinge = 0.0 }
+duration = 1.0
+"""
+
+
+@pytest.mark.slow
+def test_an_advice_says_what_its_steps_keep_in_the_long_run(tmp_path, capsys):
+    path = file(tmp_path, SWINGING)
+    assert run(["advise", path, "-e", "mujoco", "--budget", "20", "--error", "1e-3", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    steps = {each["scheme"]: each["setting"] for each in found["advised"]}
+    said = {(each["scheme"], each["motion"]): each for each in found["long runs"]}
+    assert {motion for _, motion in said} == {"own", "pendulum"}  # a hinge: no quaternion, no slide
+    for (scheme, _), each in said.items():
+        assert each["step"] == steps[scheme]
+        assert each["time"] >= 10 or each["failure"]
+    assert said["RK4", "own"]["phase error"] is None  # of a user's own scene nothing is known so long
+    assert 0 < said["RK4", "own"]["energy drift"] < 1
+    assert said["RK4", "pendulum"]["phase error"] > 0
+    # What it says of the known motion is what furiko stress says of it.
+    again = TreeRunCase("mujoco", "RK4", "pendulum", steps["RK4"], TIMES.index(said["RK4", "pendulum"]["time"])).run()
+    assert said["RK4", "pendulum"]["phase error"] == again.details["phase error"]
+    assert run(["advise", path, "-e", "mujoco", "--budget", "8", "--error", "1e-3"]) == 0
+    assert "In the long run, with these steps" in " ".join(capsys.readouterr().out.split())
+
+
+def test_energy_that_drifts_is_measured_against_what_moves(tmp_path):
+    """RK4 of a small swing takes (ωh)⁶/72 of its energy a step: |R(iωh)|² = 1 - (ωh)⁶/72 + …, by hand."""
+    scene = find_scene(file(tmp_path, SWINGING.replace("hinge = 1.0", "hinge = 0.01")))
+    rate = math.sqrt(9.81 * 0.5 / (0.25 + 0.01))
+    step = 0.05
+    taken = 1 - math.exp(-((rate * step) ** 6) / 72 * 1000 / step)
+    own = next(each for each in long_runs(scene, [Advisable("mujoco", "RK4", step)], 60.0) if each.motion == "own")
+    assert own.time == 1000
+    # The next term is (ωh)²/8 of that, 0.6 %; the largest kinetic energy is looked at an eighth of a second apart.
+    assert 0.99 * taken < own.energy_drift < taken / math.cos(rate / 16) ** 2
+
+
+def test_what_a_damper_takes_is_no_drift_and_an_engine_that_raises_is_told(tmp_path, monkeypatch):
+    from fake_tree_engines import Right
+
+    scene = find_scene(file(tmp_path, BLOCK))
+    (own,) = [each for each in long_runs(scene, [Advisable("mujoco", "RK4", 0.01)], 5.0) if each.motion == scene.name]
+    assert (own.energy_drift, own.failure) == (None, None)
+    monkeypatch.setattr(Right, "trajectory", lambda *_: 1 / 0)
+    found = long_runs(scene, [Advisable("fake_tree_engines:Right", "RK4", 0.01)], 5.0)
+    assert {each.failure for each in found} == {"ZeroDivisionError: division by zero"}
+
+
+def test_an_integrator_whose_energy_runs_away_is_told_at_the_time_it_does(tmp_path, monkeypatch):
+    from fake_tree_engines import Right
+
+    true = Right.trajectory
+
+    def faster(self, q, v, name, step, steps):
+        end, rates = true(self, q, v, name, step, steps)
+        return end, rates + 0.1 * step * steps
+
+    monkeypatch.setattr(Right, "trajectory", faster)
+    scene = find_scene(file(tmp_path, SWINGING))
+    own = next(each for each in long_runs(scene, [Advisable("fake_tree_engines:Right", "RK4", 0.05)], 30.0))
+    assert own.failure == "energy runs away"
+    assert own.time >= 3

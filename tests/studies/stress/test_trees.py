@@ -221,3 +221,10 @@ def test_no_engine_that_is_right_is_beyond_the_bound_anywhere():
 def test_a_name_that_is_none_is_answered_with_the_nearest(name, says):
     with pytest.raises(InvalidInput, match=f"none is called '{name}'.*{says}"):
         chosen_axes([name])
+
+
+def test_a_mass_matrix_without_factors_is_a_finding_in_words_and_no_crash():
+    result = TreeCase("gimbal: gimbal-lock", "pinocchio-crba", 13, 2018).run()
+    assert (result.outcome, result.details["failure"]) == ("skipped", "refused")
+    assert "not positive definite" in result.reason
+    assert "Use pinocchio-aba" in result.reason
