@@ -21,8 +21,8 @@ from .differences import row_differences
 from .forms.hamilton import scale_note
 from .forms.stages import StageJudge
 from .forms.units import units_notes
-from .forms.unnamed import USUAL, is_unnamed, refusal, said_of
-from .forms.usual_bodies import said_of_bodies, usual_bodies
+from .forms.unnamed import is_unnamed, refusal, said_of, says_all, usual
+from .forms.usual.bodies import in_ones, said_of_bodies, usual_bodies
 from .grade_record import Grade, Verdict
 from .hypotheses import Hypothesis, Said, hypotheses, merged
 from .judge import Judgement, judge
@@ -77,18 +77,20 @@ def _reader(data: dict[str, Any], pinned: Pinned | None = None) -> Callable[[int
 
 def _unnamed(data: dict[str, Any]) -> Grade:
     """The grade for the usual mechanism that the derivation is right for. Raises InvalidInput where that is none."""
-    found: list[tuple[Grade, Said]] = []
+    found: list[tuple[int, Grade, Said]] = []
     fitting: list[tuple[str, Submission]] = []
     refused: list[str] = []
-    in_its_letters = ({"system": "mechanism", "bodies": bodies} for bodies in usual_bodies(data))
     started = time.process_time()
-    for about in chain(USUAL, in_its_letters):
+    counts, in_its_letters = usual_bodies(data)
+    first_of_all, later = usual(counts)
+    own = ({"system": "mechanism", "bodies": bodies} for bodies in in_its_letters)
+    for about in chain(first_of_all, own, later):
         if time.process_time() - started > MOST_SECONDS:
             break
         read = _reader({**data, **about})
         try:
             first = read(0)
-            right = _if_right(read, first, pinned=False)
+            right = _if_right(read, first, pinned=False) if says_all(first, data) else None
         except InvalidInput as error:
             refused.append(str(error))
             continue
@@ -96,11 +98,12 @@ def _unnamed(data: dict[str, Any]) -> Grade:
             fitting.append((about["system"], first))
         elif right is not None and right[0].verdict == "correct":
             said = said_of_bodies(about["bodies"]) if "bodies" in about else said_of(right[0])
-            found.append((right[0], said))
-            if not right[0].assumes:
+            conditions = len(right[0].assumes) + in_ones(about)
+            found.append((conditions, right[0], said))
+            if not conditions:
                 break
     if found:
-        best, (said_en, said_ja) = min(found, key=lambda one: len(one[0].assumes))
+        _, best, (said_en, said_ja) = min(found, key=lambda one: one[0])
         return replace(best, assumes=(said_en, *best.assumes), assumes_ja=(said_ja, *best.assumes_ja))
     whole = [(name, s) for name, s in fitting if s.stages is not None or s.lagrangian or len(s.rows) == s.space.n]
     wrongs = [(name, _wrong(s, pinned=False)) for name, s in whole[:MOST_NEAR]]
