@@ -157,10 +157,22 @@ def read_fields(data: dict[str, Any], reader: Reader) -> Submission:
     if has_equations == has_lagrangian:
         raise InvalidInput('give either [equations], one row each, or lagrangian = "…"')
     rows = reader.rows(data["equations"]) if has_equations else ()
+    if reader.variable is None:
+        _require_motion(reader.evaluation.space, rows)
     lagrangian = reader.lagrangian(data["lagrangian"]) if has_lagrangian else None
     if lagrangian is not None and "moved" in data:
         return reader.submission(rows_of_lagrangian(reader, lagrangian, data["moved"]), None)
     return reader.submission(rows, lagrangian)
+
+
+def _require_motion(space: Space, rows: Sequence[tuple[str, Formula]]) -> None:
+    """Raises InvalidInput for m = 0.2, which is no equation of motion, wrong or right."""
+    for label, row in rows:
+        if row and not space.by_time(row) and not any(space.accelerations(key[0]) for key in row.terms):
+            raise InvalidInput(
+                f"equations.{label:.40}: nothing that moves is in it: no coordinate, rate or acceleration. Say what a "
+                "letter is in [define], and give the equations of motion; give those that stand in comments alone"
+            )
 
 
 def opened(data: dict[str, Any], slashes: int = 0, constants: Sequence[str] = (), *, has_signs: bool = False,

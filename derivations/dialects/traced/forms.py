@@ -9,6 +9,7 @@ from typing import Any
 from .arrays import product
 from .follow import Follower
 from .known import Known
+from .lost_steps import is_a_part
 from .meaning import ADVICE, Meaning, Path, path_of
 from .names import MARK, Scope
 from .values import Array, Broken, Doubtful, Formula, NotFollowed, Outside, Several, Value, formula
@@ -411,6 +412,10 @@ class Forms:
                 if k in found and found[k] != formula(value):
                     return None
                 found[k] = formula(value)
+            if self.known.is_of_any(bare) and is_a_part(bare, self.follower.statements, self.known):
+                raise NotFollowed(
+                    f"{bare}: an acceleration, or a part of other quantities? {ADVICE[0].upper()}{ADVICE[1:]}"
+                )
         if len(found) != self.count:
             return None
         meaning = self._meaning(parameters, found.values(), scope)
