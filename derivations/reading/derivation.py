@@ -30,6 +30,7 @@ from ..dialects.letters.time_names import with_one_time
 from ..dialects.markup.asciimath import without_ticks
 from ..dialects.markup.environments import plain_environments
 from ..dialects.markup.macros import plain_macros
+from ..dialects.markup.named_apart import named_apart
 from ..dialects.markup.pages import from_pages
 from ..dialects.markup.printed import plainly_printed
 from ..dialects.markup.prose import FormulasInWords
@@ -66,7 +67,7 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     known_fields(data)
     data = with_one_time(_of_one_text(data))
     data = with_said_motions(
-        plain_macros(plainly_printed(plain_environments(without_ticks(unwrapped(without_pointers(data))))))
+        named_apart(plain_macros(plainly_printed(plain_environments(without_ticks(unwrapped(without_pointers(data)))))))
     )
     require_no_time(data)
     data = with_phases(data)

@@ -32,6 +32,7 @@ from .momenta import Variable, has_momenta, variable, with_variable
 from .motion.convention import convention_of
 from .motion.given_motion import rows_of_lagrangian
 from .motion.joint_forces import bodies_of
+from .motion.moving import require_motion
 from .motion.repeated import stated_once
 from .nodes import Symbol
 from .parser import Slashes, parse_equation, parse_expression
@@ -153,26 +154,15 @@ def known_fields(data: dict[str, Any]) -> None:
 
 def read_fields(data: dict[str, Any], reader: Reader) -> Submission:
     """Equations of motion, or a Lagrangian."""
-    has_equations, has_lagrangian = "equations" in data, "lagrangian" in data
-    if has_equations == has_lagrangian:
+    has_equations = "equations" in data
+    if has_equations == ("lagrangian" in data):
         raise InvalidInput('give either [equations], one row each, or lagrangian = "…"')
     rows = reader.rows(data["equations"]) if has_equations else ()
-    if reader.variable is None:
-        _require_motion(reader.evaluation.space, rows)
-    lagrangian = reader.lagrangian(data["lagrangian"]) if has_lagrangian else None
+    require_motion(reader.evaluation.space, rows if reader.variable is None else ())
+    lagrangian = None if has_equations else reader.lagrangian(data["lagrangian"])
     if lagrangian is not None and "moved" in data:
         return reader.submission(rows_of_lagrangian(reader, lagrangian, data["moved"]), None)
     return reader.submission(rows, lagrangian)
-
-
-def _require_motion(space: Space, rows: Sequence[tuple[str, Formula]]) -> None:
-    """Raises InvalidInput for m = 0.2, which is no equation of motion, wrong or right."""
-    for label, row in rows:
-        if row and not space.by_time(row) and not any(space.accelerations(key[0]) for key in row.terms):
-            raise InvalidInput(
-                f"equations.{label:.40}: nothing that moves is in it: no coordinate, rate or acceleration. Say what a "
-                "letter is in [define], and give the equations of motion; give those that stand in comments alone"
-            )
 
 
 def opened(data: dict[str, Any], slashes: int = 0, constants: Sequence[str] = (), *, has_signs: bool = False,

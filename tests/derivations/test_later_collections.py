@@ -61,8 +61,8 @@ READ_SO_FAR = {
     "seventh_programs": 46,
     "eighth_programs": 33,
     "ninth_programs": 37,
-    "tenth_collection": 59,
-    "tenth_programs": 22,
+    "tenth_collection": 69,
+    "tenth_programs": 23,
 }
 
 

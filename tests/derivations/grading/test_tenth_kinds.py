@@ -98,3 +98,91 @@ def test_a_row_in_which_nothing_moves_is_no_wrong_equation_of_motion(row):
         grade_fields({"system": "simple-pendulum", "equations": {"1": row}})
     with pytest.raises(InvalidInput, match="nothing that moves is in it"):
         grade_fields({"system": "simple-pendulum", "equations": [f"{row};"]})
+
+
+CART = {
+    "system": "mechanism",
+    "bodies": [
+        {"name": "cart", "coordinate": "x", "joint": "slide", "mass": "m_c", "drive": "F"},
+        {"coordinate": "\\theta", "mass": "m_p", "length": "2*l", "centre": "l", "inertia": "m_p*l^2/3"},
+    ],
+}
+TEMP = r"""$$\WORD{temp} = \frac{F + m_p l \dot\theta^2 \sin\theta}{m_c + m_p}$$
+$$\ddot\theta = \frac{g\sin\theta - \cos\theta \,\WORD{temp}}{l (4/3 - m_p\cos^2\theta/(m_c + m_p))}$$
+$$\ddot x = \WORD{temp} - \frac{m_p l \ddot\theta\cos\theta}{m_c + m_p}$$"""
+
+
+@pytest.mark.parametrize("word", ["text", "operatorname", "mathrm", "textit"])
+def test_a_word_that_the_text_says_the_value_of_is_a_name(word):
+    text = TEMP.replace("WORD", word)
+    assert grade_fields({"equations": {"1": text}, **CART}).verdict == "correct"
+    slip = text.replace(rf"- \cos\theta \,\{word}", rf"+ \cos\theta \,\{word}")
+    assert grade_fields({"equations": {"1": slip}, **CART}).verdict == "wrong"
+
+
+PENDULUM = {"system": "mechanism", "bodies": [{"coordinate": "\\theta", "mass": "m", "length": "l"}]}
+
+
+@pytest.mark.parametrize(
+    ("text", "verdict"),
+    [
+        (r"$\frac{\partial\omega}{\partial t} = -\frac{g}{l}\sin\theta$, where $\omega = \dot\theta$.", "correct"),
+        (r"$\frac{\partial\omega}{\partial t} = -\frac{2g}{l}\sin\theta$, where $\omega = \dot\theta$.", "wrong"),
+        ("Równanie:\\\n$l\\ddot\\theta + g \\sin\\theta = 0$\\\n", "correct"),
+        ("Równanie:\\\n$l\\ddot\\theta + g \\cos\\theta = 0$\\\n", "wrong"),
+        ("m l^2 theta'' + m g l sin(theta) = 0  => theta'' = -g/l sin(theta)", "correct"),
+        ("m l^2 theta'' + m g l sin(theta) = 0  => theta'' = -g/(2 l) sin(theta)", "wrong"),
+    ],
+)
+def test_other_ways_to_write_a_row(text, verdict):
+    assert grade_fields({"equations": {"1": text}, "from": "down", **PENDULUM}).verdict == verdict
+
+
+def test_matrices_with_two_marks_between_columns_and_arguments_behind_the_power():
+    bodies = [
+        {"coordinate": "q_1", "mass": "m_1", "length": "l_1"},
+        {"coordinate": "q_2", "mass": "m_2", "length": "l_2"},
+    ]
+    text = r"""$$\mathbf{M}(\mathbf{q}) = \begin{bmatrix} (m_1 + m_2) l_1^2 && m_2 l_1 l_2 \cos(q_1 - q_2) \\
+m_2 l_1 l_2 \cos(q_1 - q_2) && m_2 l_2^2 \end{bmatrix}$$
+$$\mathbf{h} = \begin{bmatrix} m_2 l_1 l_2 \sin(q_1 - q_2) \dot q_2^2 + (m_1 + m_2) g l_1 \sin q_1 \\
+-m_2 l_1 l_2 \sin(q_1 - q_2) \dot q_1^2 + m_2 g l_2 \sin q_2 \end{bmatrix}$$
+$$\begin{bmatrix} \ddot q_1 \\ \ddot q_2 \end{bmatrix} = -\mathbf{M}^{-1}(\mathbf{q}) \mathbf{h}$$"""
+    fields = {"system": "mechanism", "bodies": bodies, "angles": "absolute"}
+    assert grade_fields({"equations": {"1": text}, **fields}).verdict == "correct"
+    assert grade_fields({"equations": {"1": text.replace("-m_2 l_1", "m_2 l_1")}, **fields}).verdict == "wrong"
+
+
+def test_spaces_of_latex_alone_make_no_text_a_program_with_left_divisions():
+    text = {"define": {"G": r"m \, l \, g"}, "equations": {"1": r"m l^2 \ddot\theta + G \sin\theta = 0"}}
+    assert grade_fields({**text, **PENDULUM}).verdict == "correct"
+
+
+UP = r"""$$\ddot\theta = \frac{g}{l}\sin\theta$$"""
+
+
+@pytest.mark.parametrize(
+    ("sentence", "origin"),
+    [
+        (r"$\theta = 0$ is upright.", "up"),
+        (r"In this convention, $\theta=0$ is hanging down, and $l$ is the length.", "down"),
+        (r"$\theta = \pi$ corresponds to the upright rod.", "down"),
+        (r"$\theta = 0$ 表示摆杆竖直向下。", "down"),
+        (r"\(\theta = 0\) bedeutet senkrecht nach oben.", "up"),
+    ],
+)
+def test_a_sentence_says_where_the_angle_is_counted_from_and_is_held_to_it(sentence, origin):
+    fields = {"equations": {"1": f"{sentence}\n\n{UP}\n"}, **PENDULUM}
+    found = grade_fields(fields)
+    assert (found.verdict, found.assumes) == (("correct", ()) if origin == "up" else ("wrong", ()))
+    other = {"up": "down", "down": "up"}[origin]
+    with pytest.raises(InvalidInput, match="is declared, and a sentence says"):
+        grade_fields(fields | {"from": other})
+
+
+@pytest.mark.parametrize(
+    "sentence", [r"For $\theta = 0$ up there it is this:", r"Near $\theta = 0$, upright:", r"If $\theta=0$ is up:"]
+)
+def test_a_case_is_no_such_sentence(sentence):
+    with pytest.raises(InvalidInput):
+        grade_fields({"equations": {"1": f"{sentence}\n\n{UP}\n"}, **PENDULUM})
