@@ -33,6 +33,7 @@ MATRIX = re.compile(rf"(?<![A-Za-z\\{{])(?P<m>[A-Z])(?=\s*{ARGUMENTS})")
 
 SO = re.compile(r"(?<=[\w)\s])[ \t]+=>[ \t]+(?=[^=\n{]{1,40}=[^=>\n]+$)", re.MULTILINE)  # A = B => C = D
 IN_INDEX = re.compile(r"_\s*\{\s*\\(?:text|mathrm|textrm|mathit)\s*\{\s*(?P<x>[A-Za-z0-9]{1,8})\s*\}\s*\}")
+ALONE = re.compile(rf"\$\$\s*{_X}\s*\$\$(?=[ \t,.;]*[^\s$=\\])")  # a letter that a sentence mentions
 BREAK = re.compile(r"(?m)(?:(?<=[$:])|^)[ \t]*(?<!\\)\\[ \t]*$")  # Markdown's end of a line
 FIRST_SIGN = re.compile(r"\A(?P<begin>\s*(?:\$\$|\\\[)\s*)=(?=[^$]*=)")  # what stood in front of it is left out
 IN_MATRIX = re.compile(r"\\begin\s*\{(?P<of>[pbB]?matrix)\}.{1,4000}?\\end\s*\{(?P=of)\}", re.DOTALL)
@@ -50,6 +51,7 @@ def named_apart(data: dict[str, Any]) -> dict[str, Any]:
         if "\\" not in text:
             return text
         text = IN_INDEX.sub(r"_{\g<x>}", hamiltons_signs(text))
+        text = ALONE.sub(r"$\g<x>$", text)
         text = IN_MATRIX.sub(_columns, FIRST_SIGN.sub(r"\g<begin>", BREAK.sub("", text)))
         text = BY_TIME.sub(lambda m: m[0] if m["x"] in ENERGIES else rf"\frac{{d {m['x']}}}{{d t}}", text)
         return _words(_matrices(INVERSE.sub(r"\g<m>\g<of>\g<power>", text), quantities))

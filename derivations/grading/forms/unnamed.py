@@ -47,6 +47,20 @@ def _count(about: Mapping[str, Any]) -> int:
     return len(PRESETS[name]) if name in PRESETS else WORDS[name][1] if name in WORDS else about["links"]
 
 
+def joints_of(about: Mapping[str, Any]) -> list[str] | None:
+    """The joints of a usual mechanism, or of bodies that are declared; None of others."""
+    bodies = PRESETS.get(str(about.get("system"))) or about.get("bodies")
+    if isinstance(bodies, list):
+        return [_joint(body) for body in bodies if isinstance(body, dict)]
+    return None if about.get("system") not in WORDS else ["hinge "] * WORDS[about["system"]][1]
+
+
+def _joint(body: Mapping[str, Any]) -> str:
+    joint = body.get("joint", "hinge")
+    way = body.get("along", "right") if joint == "slide" else ""
+    return f"{joint} {way}{' given' if 'motion' in body else ''}{body.get('on', '')}"
+
+
 def says_all(s: Submission, data: Mapping[str, Any]) -> bool:
     """Whether no row, and no part of an energy, is left aside because a motion is taken as given."""
     given = () if s.mechanism is None else [s.mechanism.coordinates[k] for k in s.mechanism.given]

@@ -244,3 +244,22 @@ def test_a_notebook_is_its_formulas_or_else_its_code(tmp_path):
     for text in ("{}", "[]", '{"cells": 1}', '{"cells": [{}]}', "no JSON", "[" * 100_000):
         with pytest.raises(InvalidInput, match="not a notebook"):
             graded(tmp_path, "bad.ipynb", text)
+
+
+CART_OF_OTHER_LETTERS = """$$(m_c + m_p)\\ddot x + m_p l \\ddot\\theta\\cos\\theta
+ - m_p l \\dot\\theta^2 \\sin\\theta + b \\dot x = F$$
+$$l\\ddot\\theta + \\ddot x\\cos\\theta + g \\sin\\theta = 0$$"""
+
+
+def test_a_mechanism_that_is_named_may_have_other_letters_and_what_else_the_text_has(tmp_path):
+    found = graded(tmp_path, "mine.md", CART_OF_OTHER_LETTERS, system="cart-pole")
+    assert found.verdict == "correct"
+    assert found.assumes == (
+        "it is about a cart (x, to the right) with mass m_c, damping b, drive F; pole (theta) with mass m_p, length l",
+    )
+    with pytest.raises(
+        InvalidInput, match="the index c is not a number"
+    ):  # and no other mechanism than the one that is named
+        graded(tmp_path, "mine.md", CART_OF_OTHER_LETTERS, system="double-pendulum")
+    with pytest.raises(InvalidInput, match="is not known here"):  # nor is a slip called wrong: which letter is which?
+        graded(tmp_path, "mine.md", CART_OF_OTHER_LETTERS.replace("+ g", "- 2 g"), system="cart-pole")

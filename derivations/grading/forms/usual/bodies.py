@@ -27,10 +27,10 @@ Choice = tuple[Sequence[str], Sequence[str]]  # what slides, and what turns
 RATES = re.compile(r"(?:w|v|omega|Omega)[a-zA-Z0-9]{0,3}")  # they have dots as well, where rows are of first order
 
 
-def usual_bodies(data: Mapping[str, Any]) -> tuple[frozenset[int], list[Bodies]]:
+def usual_bodies(data: Mapping[str, Any]) -> tuple[frozenset[int], list[dict[str, Any]]]:
     """How many coordinates these fields of a derivation may have, none where that is not plain; and mechanisms.
 
-    Those with most of the text's letters come first.
+    As fields, system and bodies. Those with most of the text's letters come first.
     """
     letters = letters_of(data)
     choices = _coordinates(letters)
@@ -43,7 +43,7 @@ def usual_bodies(data: Mapping[str, Any]) -> tuple[frozenset[int], list[Bodies]]
         if letters.dotted and not letters.is_code
         else frozenset()
     )
-    return counts, mechanisms[:MOST]
+    return counts, [{"system": "mechanism", "bodies": bodies} for bodies in mechanisms[:MOST]]
 
 
 def _made(letters: Letters, choices: Sequence[Choice]) -> list[tuple[int, Bodies]]:
