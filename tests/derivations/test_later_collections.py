@@ -62,7 +62,7 @@ READ_SO_FAR = {
     "eighth_programs": 33,
     "ninth_programs": 37,
     "tenth_collection": 69,
-    "tenth_programs": 23,
+    "tenth_programs": 29,
 }
 
 

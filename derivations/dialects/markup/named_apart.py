@@ -33,7 +33,9 @@ MATRIX = re.compile(rf"(?<![A-Za-z\\{{])(?P<m>[A-Z])(?=\s*{ARGUMENTS})")
 
 SO = re.compile(r"(?<=[\w)\s])[ \t]+=>[ \t]+(?=[^=\n{]{1,40}=[^=>\n]+$)", re.MULTILINE)  # A = B => C = D
 IN_INDEX = re.compile(r"_\s*\{\s*\\(?:text|mathrm|textrm|mathit)\s*\{\s*(?P<x>[A-Za-z0-9]{1,8})\s*\}\s*\}")
-ALONE = re.compile(rf"\$\$\s*{_X}\s*\$\$(?=[ \t,.;]*[^\s$=\\])")  # a letter that a sentence mentions
+ALONE = re.compile(  # a letter that a sentence mentions
+    r"\$\$\s*(?P<x>(?:\\[A-Za-z]+|[A-Za-z])(?:\s*_\s*(?:\{\s*\w{1,6}\s*\}|\w))?)\s*\$\$(?=[ \t,.;]*[^\s$=\\])"
+)
 BREAK = re.compile(r"(?m)(?:(?<=[$:])|^)[ \t]*(?<!\\)\\[ \t]*$")  # Markdown's end of a line
 FIRST_SIGN = re.compile(r"\A(?P<begin>\s*(?:\$\$|\\\[)\s*)=(?=[^$]*=)")  # what stood in front of it is left out
 IN_MATRIX = re.compile(r"\\begin\s*\{(?P<of>[pbB]?matrix)\}.{1,4000}?\\end\s*\{(?P=of)\}", re.DOTALL)
@@ -51,12 +53,18 @@ def named_apart(data: dict[str, Any]) -> dict[str, Any]:
         if "\\" not in text:
             return text
         text = IN_INDEX.sub(r"_{\g<x>}", hamiltons_signs(text))
-        text = ALONE.sub(r"$\g<x>$", text)
+        text = ALONE.sub(_mentioned, text)
         text = IN_MATRIX.sub(_columns, FIRST_SIGN.sub(r"\g<begin>", BREAK.sub("", text)))
         text = BY_TIME.sub(lambda m: m[0] if m["x"] in ENERGIES else rf"\frac{{d {m['x']}}}{{d t}}", text)
         return _words(_matrices(INVERSE.sub(r"\g<m>\g<of>\g<power>", text), quantities))
 
     return everywhere(data, one)
+
+
+def _mentioned(found: re.Match[str]) -> str:
+    """The letter in one pair of dollars, where the marks are not the end of one display and the beginning of another."""
+    opens = found.string.count("$$", 0, found.start()) % 2 == 0
+    return f"${found['x']}$" if opens else found[0]
 
 
 def _columns(found: re.Match[str]) -> str:

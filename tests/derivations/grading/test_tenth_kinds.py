@@ -186,3 +186,54 @@ def test_a_sentence_says_where_the_angle_is_counted_from_and_is_held_to_it(sente
 def test_a_case_is_no_such_sentence(sentence):
     with pytest.raises(InvalidInput):
         grade_fields({"equations": {"1": f"{sentence}\n\n{UP}\n"}, **PENDULUM})
+
+
+DOUBLE = """
+def rhs(t, y, p):
+    th1, th2, w1, w2 = y
+    m1, m2 = p.m1, p.m2
+    d = th1 - th2
+    den = m1 + m2*np.sin(d)**2
+    if abs(den) < GUARD:
+        den = 1e-9
+    a1 = (-m2*p.L1*w1**2*np.sin(d)*np.cos(d) - m2*p.L2*w2**2*np.sin(d) - (m1 + m2)*p.g*np.sin(th1)
+          + m2*p.g*np.sin(th2)*np.cos(d))/(p.L1*den)
+    a2 = ((m1 + m2)*(p.L1*w1**2*np.sin(d) - p.g*np.sin(th2) + p.g*np.sin(th1)*np.cos(d))
+          + m2*p.L2*w2**2*np.sin(d)*np.cos(d))/(p.L2*den)
+    return [w1, w2, a1, a2]
+"""
+OWNED = {
+    "system": "mechanism",
+    "angles": "absolute",
+    "bodies": [
+        {"coordinate": "th1", "mass": "p.m1", "length": "p.L1"},
+        {"coordinate": "th2", "mass": "p.m2", "length": "p.L2"},
+    ],
+    "define": {"g": "p.g"},
+}
+
+
+def test_bodies_may_have_what_a_program_has_with_dots():
+    text = DOUBLE.replace("GUARD", "1e-12")
+    assert grade_fields({"equations": text, **OWNED}).verdict == "correct"
+    assert grade_fields({"equations": text.replace("+ p.g*", "- p.g*"), **OWNED}).verdict == "wrong"
+
+
+def test_two_owners_of_one_name_are_two_quantities():
+    bodies = [{**body, "mass": f"{owner}.m"} for body, owner in zip(OWNED["bodies"], ("a", "b"), strict=True)]
+    text = DOUBLE.replace("GUARD", "1e-12").replace("m1, m2 = p.m1, p.m2", "m1 = 2*a.m; m2 = 2*b.m")
+    with pytest.raises(InvalidInput, match=r"a\.m and b\.m are two quantities; say in \[define\]"):
+        grade_fields({"equations": text, **OWNED, "bodies": bodies})
+
+
+def test_a_name_among_several_is_the_one_at_its_place():
+    text = DOUBLE.replace("GUARD", "1e-12").replace("m1, m2 = p.m1, p.m2", "m2, m1 = p.m1, p.m2")
+    with pytest.raises(InvalidInput, match="both names are quantities"):  # never taken for the other
+        grade_fields({"equations": text, **OWNED})
+
+
+def test_a_guard_against_a_division_by_zero_says_nothing_and_any_other_choice_is_not_followed():
+    with pytest.raises(InvalidInput):
+        grade_fields({"equations": DOUBLE.replace("GUARD", "0.5"), **OWNED})
+    equal = DOUBLE.replace("abs(den) < GUARD", "den == 0")
+    assert grade_fields({"equations": equal, **OWNED}).verdict == "correct"
