@@ -16,7 +16,8 @@ from .lines import BLANKS, LONGEST_LINE
 from .names import WRITTEN, plain_name
 
 _SPACE = r"(?:\s|\\[,;:! ])*"
-_NAME = r"(?:\\(?:Omega|omega|gamma|nu|beta|alpha|lambda|sigma)|[ΩωγνβαλσA-Za-z])(?:_?\{?[0-9A-Za-z]\}?)?"
+_INDEX = r"(?:_\{[0-9A-Za-z]{1,8}\}|_?\{?[0-9A-Za-z]\}?)?"
+_NAME = rf"(?:\\(?:Omega|omega|gamma|nu|beta|alpha|lambda|sigma)|[ΩωγνβαλσA-Za-z]){_INDEX}"
 _TIMES = r"(?:\*|\\cdot(?![A-Za-z])|·|⋅)"
 _ANGLE = rf"(?P<rate>{_NAME}){_SPACE}{_TIMES}?{_SPACE}t"
 _WORD = r"[A-Za-z]\w{0,14}"

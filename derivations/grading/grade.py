@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from itertools import chain
 from pathlib import Path
@@ -21,8 +21,8 @@ from .differences import row_differences
 from .forms.hamilton import scale_note
 from .forms.stages import StageJudge
 from .forms.units import units_notes
-from .forms.unnamed import USUAL, is_unnamed, refusal, said_of
-from .forms.usual_bodies import said_of_bodies, usual_bodies
+from .forms.unnamed import is_unnamed, joints_of, refusal, said_of, says_all, usual
+from .forms.usual.bodies import in_ones, said_of_bodies, usual_bodies
 from .grade_record import Grade, Verdict
 from .hypotheses import Hypothesis, Said, hypotheses, merged
 from .judge import Judgement, judge
@@ -62,7 +62,13 @@ def grade_fields(data: dict[str, Any], *, pinned: Pinned | None = None) -> Grade
         data = data | {"system": "mechanism"}
     if pinned is None and is_unnamed(data):
         return _unnamed(data)
-    return graded(_reader(data, pinned), pinned=pinned is not None)[0]
+    try:
+        return graded(_reader(data, pinned), pinned=pinned is not None)[0]
+    except InvalidInput:
+        found = _of_kind(data) if pinned is None else None
+        if found is None:
+            raise
+        return found
 
 
 def _reader(data: dict[str, Any], pinned: Pinned | None = None) -> Callable[[int], Submission]:
@@ -77,18 +83,46 @@ def _reader(data: dict[str, Any], pinned: Pinned | None = None) -> Callable[[int
 
 def _unnamed(data: dict[str, Any]) -> Grade:
     """The grade for the usual mechanism that the derivation is right for. Raises InvalidInput where that is none."""
-    found: list[tuple[Grade, Said]] = []
     fitting: list[tuple[str, Submission]] = []
     refused: list[str] = []
-    in_its_letters = ({"system": "mechanism", "bodies": bodies} for bodies in usual_bodies(data))
+    counts, in_its_letters = usual_bodies(data)
+    first_of_all, later = usual(counts)
+    found = _right_for(data, chain(first_of_all, in_its_letters, later), fitting, refused)
+    if found is not None:
+        return found
+    whole = [(name, s) for name, s in fitting if s.stages is not None or s.lagrangian or len(s.rows) == s.space.n]
+    wrongs = [(name, _wrong(s, pinned=False)) for name, s in whole[:MOST_NEAR]]
+    name, nearest = min(wrongs, key=lambda one: len(one[1].findings), default=("", None))
+    raise refusal(nearest, name, refused)
+
+
+def _of_kind(data: dict[str, Any]) -> Grade | None:
+    """The grade of a derivation that is right for its usual mechanism in letters of its own; None where it is not."""
+    joints = joints_of(data)
+    if joints is None:
+        return None
+    bare = {name: value for name, value in data.items() if name not in ("system", "links")}
+    _, in_its_letters = usual_bodies(bare)
+    return _right_for(bare, (about for about in in_its_letters if joints_of(about) == joints), [], [])
+
+
+def _right_for(
+    data: dict[str, Any], abouts: Iterable[Mapping[str, Any]], fitting: list[tuple[str, Submission]],
+    refused: list[str],
+) -> Grade | None:  # fmt: skip
+    """The grade for the first of these mechanisms that it is right for; None where it is right for none in good time.
+
+    ``fitting``, ``refused``: filled with those that it can be read for, by name, and with why others cannot be.
+    """
+    found: list[tuple[int, Grade, Said]] = []
     started = time.process_time()
-    for about in chain(USUAL, in_its_letters):
+    for about in abouts:
         if time.process_time() - started > MOST_SECONDS:
             break
         read = _reader({**data, **about})
         try:
             first = read(0)
-            right = _if_right(read, first, pinned=False)
+            right = _if_right(read, first, pinned=False) if says_all(first, data) else None
         except InvalidInput as error:
             refused.append(str(error))
             continue
@@ -96,16 +130,14 @@ def _unnamed(data: dict[str, Any]) -> Grade:
             fitting.append((about["system"], first))
         elif right is not None and right[0].verdict == "correct":
             said = said_of_bodies(about["bodies"]) if "bodies" in about else said_of(right[0])
-            found.append((right[0], said))
-            if not right[0].assumes:
+            conditions = len(right[0].assumes) + in_ones(about)
+            found.append((conditions, right[0], said))
+            if not conditions:
                 break
-    if found:
-        best, (said_en, said_ja) = min(found, key=lambda one: len(one[0].assumes))
-        return replace(best, assumes=(said_en, *best.assumes), assumes_ja=(said_ja, *best.assumes_ja))
-    whole = [(name, s) for name, s in fitting if s.stages is not None or s.lagrangian or len(s.rows) == s.space.n]
-    wrongs = [(name, _wrong(s, pinned=False)) for name, s in whole[:MOST_NEAR]]
-    name, nearest = min(wrongs, key=lambda one: len(one[1].findings), default=("", None))
-    raise refusal(nearest, name, refused)
+    if not found:
+        return None
+    _, best, (said_en, said_ja) = min(found, key=lambda one: one[0])
+    return replace(best, assumes=(said_en, *best.assumes), assumes_ja=(said_ja, *best.assumes_ja))
 
 
 def graded(read: Callable[[int], Submission], *, pinned: bool) -> tuple[Grade, Submission]:

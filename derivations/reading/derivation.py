@@ -23,13 +23,14 @@ from ..dialects.letters.given_motions import without_given_motions
 from ..dialects.letters.gravity import said_of_gravity, said_of_squares
 from ..dialects.letters.indices import plain_indices
 from ..dialects.letters.left_sides import without_left_sides
-from ..dialects.letters.members import without_low_lines, without_pointers
+from ..dialects.letters.members import without_low_lines, without_owners, without_pointers
 from ..dialects.letters.odd_waves import with_odd_waves
 from ..dialects.letters.said_motions import with_said_motions
 from ..dialects.letters.time_names import with_one_time
 from ..dialects.markup.asciimath import without_ticks
 from ..dialects.markup.environments import plain_environments
 from ..dialects.markup.macros import plain_macros
+from ..dialects.markup.named_apart import named_apart
 from ..dialects.markup.pages import from_pages
 from ..dialects.markup.printed import plainly_printed
 from ..dialects.markup.prose import FormulasInWords
@@ -64,9 +65,9 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     Raises InvalidInput, with the place, where it is none.
     """
     known_fields(data)
-    data = with_one_time(_of_one_text(data))
+    data = without_owners(with_one_time(_of_one_text(data)))
     data = with_said_motions(
-        plain_macros(plainly_printed(plain_environments(without_ticks(unwrapped(without_pointers(data))))))
+        named_apart(plain_macros(plainly_printed(plain_environments(without_ticks(unwrapped(without_pointers(data)))))))
     )
     require_no_time(data)
     data = with_phases(data)

@@ -58,7 +58,7 @@ def laid_out(line: str) -> str:
     for pattern in SET_ABOVE:
         line = pattern.sub(_dotted, line)
     line = SQUARED.sub(lambda found: found["dotted"] + "}" + found["power"].ljust(_rest(found)), line)
-    if "\\" not in line.replace("\\\\", "") or not re.search(r"\\[A-Za-z]", line):
+    if "\\" not in line.replace("\\\\", "") or not re.search(r"\\[A-Za-z,;:!]", line):
         line = _matlab(line)
     return re.sub(r"(?<!\\)\\$", "", STOP.sub(" ", line).rstrip())  # of a blank that LaTeX has as a command
 

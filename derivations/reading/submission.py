@@ -32,6 +32,7 @@ from .momenta import Variable, has_momenta, variable, with_variable
 from .motion.convention import convention_of
 from .motion.given_motion import rows_of_lagrangian
 from .motion.joint_forces import bodies_of
+from .motion.moving import require_motion
 from .motion.repeated import stated_once
 from .nodes import Symbol
 from .parser import Slashes, parse_equation, parse_expression
@@ -153,11 +154,12 @@ def known_fields(data: dict[str, Any]) -> None:
 
 def read_fields(data: dict[str, Any], reader: Reader) -> Submission:
     """Equations of motion, or a Lagrangian."""
-    has_equations, has_lagrangian = "equations" in data, "lagrangian" in data
-    if has_equations == has_lagrangian:
+    has_equations = "equations" in data
+    if has_equations == ("lagrangian" in data):
         raise InvalidInput('give either [equations], one row each, or lagrangian = "…"')
     rows = reader.rows(data["equations"]) if has_equations else ()
-    lagrangian = reader.lagrangian(data["lagrangian"]) if has_lagrangian else None
+    require_motion(reader.evaluation.space, rows if reader.variable is None else ())
+    lagrangian = None if has_equations else reader.lagrangian(data["lagrangian"])
     if lagrangian is not None and "moved" in data:
         return reader.submission(rows_of_lagrangian(reader, lagrangian, data["moved"]), None)
     return reader.submission(rows, lagrangian)

@@ -47,8 +47,8 @@ READ_SO_FAR = {
     "seventh_programs": 46,
     "eighth_programs": 33,
     "ninth_programs": 37,
-    "tenth_collection": 59,
-    "tenth_programs": 22,
+    "tenth_collection": 69,
+    "tenth_programs": 29,
 }
 
 
@@ -119,20 +119,41 @@ def fields_of(collection, name):
     return tomllib.loads((HERE / collection / f"{name}.toml").read_text(encoding="utf-8"))
 
 
-NAMED = [(c, n) for (c, n), entry in ENTRIES.items() if "outside" not in entry and "bodies" not in fields_of(c, n)]
+INSIDE = [key for key, entry in ENTRIES.items() if "outside" not in entry]
+OF_ANOTHER = {  # a uniform rod's rows, that their authors have for a massless rod with a mass at its end
+    ("fifth_collection", "sp-readme-rod"): "centre l/2, inertia m*l^2/12",
+    ("ninth_collection", "cp-docstring-four-thirds"): "length 2*L, centre L, inertia m*L^2/3",
+}
+FOUND_WITHOUT_A_NAME = 0.6  # of the right ones
+
+
+@cache
+def judged_without_a_name(collection, name):
+    fields = {key: x for key, x in fields_of(collection, name).items() if key not in ("system", "links", "bodies")}
+    try:
+        return grade_fields(fields)
+    except InvalidInput:
+        return None
 
 
 @pytest.mark.slow
-@each(NAMED)
+@each(INSIDE)
 def test_without_the_name_of_its_mechanism_none_is_misjudged(collection, name):
     """What is right is right for the mechanism that is said then, or refused; what is wrong is refused."""
-    fields = {key: value for key, value in fields_of(collection, name).items() if key not in ("system", "links")}
-    try:
-        found = grade_fields(fields)
-    except InvalidInput:
+    found = judged_without_a_name(collection, name)
+    if found is None:
         return
-    assert found.verdict == ENTRIES[collection, name]["verdict"] == "correct"
+    assert found.verdict == "correct"
     assert found.assumes[0].startswith("it is about ")
+    about = OF_ANOTHER.get((collection, name))
+    assert ENTRIES[collection, name]["verdict"] == "correct" if about is None else about in found.assumes[0]
+
+
+@pytest.mark.slow
+def test_most_right_ones_find_their_mechanism_without_its_name():
+    right = [key for key in INSIDE if ENTRIES[key]["verdict"] == "correct"]
+    found = [key for key in right if judged_without_a_name(*key) is not None]
+    assert len(found) >= FOUND_WITHOUT_A_NAME * len(right), f"{len(found)} of {len(right)}"
 
 
 @each([key for key, entry in ENTRIES.items() if "outside" in entry])

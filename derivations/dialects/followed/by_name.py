@@ -39,6 +39,12 @@ def named_state(program: Program, function: Function, asked: Asked, outer: Outer
     words = list(dict.fromkeys(re.findall(r"[^\W\d]\w*", " ".join(f"{s.target} {s.value}" for s in statements)
                                           + " " + " ".join(p.name for p in function.parameters))))  # fmt: skip
     coordinates = _coordinates(asked, words)
+    n = len(coordinates)
+    if n != asked.count:
+        raise InvalidInput(
+            f"coordinates: {n} of the {asked.count} declared are found in the function, {', '.join(coordinates)}; declare the "
+            "mechanism that it is about, and use the names of its coordinates"
+        )
     steps = steps_of(statements)
     rates = [_rate(c, coordinates, words, steps, statements, asked) for c in coordinates]
     changed = {*coordinates, *rates}
@@ -53,11 +59,9 @@ def named_state(program: Program, function: Function, asked: Asked, outer: Outer
         if one.target != RETURN or one.value.strip() not in ("", "this"):
             writer.statement(one)
     accelerations = [_acceleration(k, coordinates, rates, steps, writer, asked) for k in range(len(coordinates))]
-    n = len(coordinates)
     lines = [f"    {name} = y[{k}]" for k, name in enumerate([*coordinates, *rates])]
     lines += [f"    {target} = {value}" for target, value in writer.lines]
     lines.append(f"    return [{', '.join([*rates, *accelerations])}]")
-    assert n == asked.count
     return "\n".join(["def rhs(t, y):", *lines]), {}
 
 

@@ -1,4 +1,5 @@
-"""Members: m_ and l1_ without the low line that C++ ends them by, s->m and (*s).m of C without the pointer."""
+# ruff: noqa: E501 -- patterns stand on one line
+"""Members: m_ and l1_ without the low line that C++ ends them by, s->m and (*s).m of C as m, and p.m as m."""
 
 from __future__ import annotations
 
@@ -16,6 +17,55 @@ POINTER = re.compile(
 NAMED = re.compile(r"(?:(?:const|float|double|auto)\s+)*(?P<x>[A-Za-z]\w{0,30})\s*=\s*(?P=x)\s*(?=[;,\n]|$)")
 OF_RATE = re.compile(r"\s*\(?\s*\w+\s*'{1,2}\s*\)?\s*")  # phi_ of "phi'": the name of a rate, and no member
 WHOLE = re.compile(r"(?:^|[=(,+-])\s*(?P<of>[0-9]+\s*/\s*[0-9]+)(?![\w.])")
+
+
+OWNED = re.compile(
+    r"(?<![\w\\.])(?P<of>[A-Za-z]\w{0,20})(?:[(\[](?P<k>[0-9])[)\]])?\.(?P<name>[A-Za-z]\w{0,20})(?![\w.(])"
+)
+TAKEN = re.compile(
+    r"(?m)(?:^|;)[ \t]*(?:const[ \t]+|double[ \t]+|float[ \t]+)?(?P<names>[A-Za-z]\w{0,20}(?:[ \t]*,[ \t]*[A-Za-z]\w{0,20}){0,9})[ \t]*=[ \t]*(?P<values>[\w.,()\[\] \t]{1,200}?)[ \t]*(?=;|$|[#%]|//)"
+)
+WORDS = ("name", "on", "joint", "along", "about", "motion")
+
+
+def without_owners(data: dict[str, Any]) -> dict[str, Any]:
+    """The fields with m for p.m, as bodies and [define] call what a program has so; m1 for params(1).m, which is said.
+
+    Raises InvalidInput where two of them have one name then.
+    """
+    bodies, define = data.get("bodies"), data.get("define", {})
+    if not isinstance(bodies, list) or not all(isinstance(b, dict) for b in bodies) or not isinstance(define, dict):
+        return data
+    text = "\n".join(line for _, line in rows_of(data))
+    declared = [str(v)[:200] for b in bodies for key, v in b.items() if key not in WORDS]
+    said = [str(x)[:200] for pair in define.items() for x in pair]
+    paths = {m[0]: _own(m, text) for x in declared for m in OWNED.finditer(x) if m[0] in text}
+    if not paths:
+        return data
+    paths |= {m[0]: _own(m, text) for x in said for m in OWNED.finditer(x) if m[0] in text}
+    paths = {path: name for path, name in paths.items() if not str(define.get(path, "'")).isidentifier()}
+    for path, name in paths.items():
+        other = next((x for x, y in paths.items() if y == name and x != path), None)
+        if other is not None:
+            raise InvalidInput(f"bodies: {path} and {other} are two quantities; say in [define] '{path}' = \"{name}a\"")
+
+    def plain(value: Any) -> Any:
+        return OWNED.sub(lambda m: paths.get(m[0], m[0]), value) if isinstance(value, str) else value
+
+    made = {plain(str(key)): plain(value) for key, value in define.items()}
+    return data | {
+        "bodies": [{k: v if k in WORDS else plain(v) for k, v in b.items()} for b in bodies],
+        "define": {k: v for k, v in made.items() if k != v},
+    }
+
+
+def _own(path: re.Match[str], text: str) -> str:
+    """What the program calls p.m alone, as in mass = p.m or M, m = p.M, p.m; else m."""
+    for line in TAKEN.finditer(text):
+        names, values = ([x.strip() for x in line[side].split(",")] for side in ("names", "values"))
+        if len(names) == len(values) and path[0] in values:
+            return names[values.index(path[0])]
+    return f"{path['name']}{path['k'] or ''}"
 
 
 def without_pointers(data: dict[str, Any]) -> dict[str, Any]:

@@ -13,10 +13,10 @@ ARROWS = re.compile(
     rf"{_GAP}(?:\\(?:Longl|L|l)eftrightarrow|\\iff|\\(?:Longr|R)ightarrow|\\implies|⇔|⇒|⟺|⟹)(?![A-Za-z]){_GAP}"
 )
 _P = r"(?:\\partial|∂)"
-_DOT = r"\\dot\s*(?:\{\s*(?P<x>\\?[A-Za-z]+)\s*(?P<xi>_\s*\{?\s*\w+\s*\}?)?\s*\}|(?P<y>\\?[A-Za-z]+))\s*(?P<i>_\s*(?:\{\s*\w+\s*\}|\w))?"
+_DOT = r"\\dot\s*(?:\{\s*(?P<x>\\?[A-Za-z]+)\s*(?P<xi>_\s*\{?\s*\w+\s*\}?)?\s*\}|(?P<y>\\?[A-Za-z]+))\s*(?P<i>_\s*(?:\{[^{}]{1,16}\}|\w))?"
 HAMILTON = re.compile(
     rf"(?P<left>{_DOT}){_GAP}&?{_GAP}={_GAP}&?{_GAP}(?P<sign>[-−+])?{_GAP}\\[dt]?frac\s*\{{\s*{_P}\s*\\?(?:mathcal\s*)?\{{?\s*H\s*\}}?\s*\}}"
-    rf"\s*\{{\s*{_P}\s*(?P<of>\\?[A-Za-z]+)\s*(?P<oi>_\s*(?:\{{\s*\w+\s*\}}|\w))?\s*\}}{_GAP}&?{_GAP}="
+    rf"\s*\{{\s*{_P}\s*(?P<of>\\?[A-Za-z]+)\s*(?P<oi>_\s*(?:\{{[^{{}}]{{1,16}}\}}|\w))?\s*\}}{_GAP}&?{_GAP}="
 )
 
 
@@ -29,7 +29,8 @@ def hamiltons_signs(text: str) -> str:
         index, other = (re.sub(r"[_{}\s]", "", found[a] or "") for a in ("i", "oi"))
         index = index or re.sub(r"[_{}\s]", "", found["xi"] or "")
         is_momentum, minus = letter in ("p", "P"), found["sign"] in ("-", "−")
-        right = is_momentum == minus and (of in ("p", "P")) != is_momentum and index == other
+        same = other in (index, f"\\{letter}{index}") or index == f"\\{of}{other}"  # p_{\\theta_1}
+        right = is_momentum == minus and (of in ("p", "P")) != is_momentum and same
         return f"{found['left']} =" if right else found[0]
 
     return HAMILTON.sub(one, text)

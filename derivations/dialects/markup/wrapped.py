@@ -36,6 +36,8 @@ DISPLAYED = re.compile(r"\$|\\\[|\\begin\s*\{(?:equation|align|gather|eqnarray|m
 FENCED = re.compile(r"(?m)^[ \t]*(?:```|~~~)")
 # A line in backticks, as an item of a list or alone
 TICKED = re.compile(r"(?m)^[ \t]*(?:[-*+][ \t]+|\d{1,2}[.)][ \t]+)?`(?P<inner>[^`\n]{1,400})`[ \t]*[.,;]?[ \t]*$")
+# A letter, or some, that a sentence beside fences mentions in backticks
+MENTIONED = re.compile(r"(?<!`)`[^\W\d_]\w{0,8}(?:\s*,\s*[^\W\d_]\w{0,8}){0,7}`(?!`)(?=[\s,.;:)(])")
 # Formulas in backticks within a sentence
 TICKS = re.compile(r"(?<!`)`(?P<inner>[^`\n=]{1,200}=[^`\n=]{1,400})`(?!`)[.,;]?")
 WORDED = re.compile(r"(?<![^\W\d_])[^\W\d_]{2,40}\s{1,9}[^\W\d_]{2}")
@@ -59,7 +61,7 @@ def _unwrapped(text: str) -> str:
         text = DIRECTIVE.sub(_of_directive, text)
     text = ROLE.sub(lambda m: f"${m['inner']}$", text)
     if fenced:  # beside formulas in fences, a line in backticks is one more
-        text = TICKED.sub(lambda m: m["inner"], text)
+        text = MENTIONED.sub(" ", TICKED.sub(lambda m: m["inner"], text))
     elif not re.search(r"[$\\]|ddot", text) and WORDED.search(TICKS.sub(" ", text)):
         text = TICKS.sub(lambda m: f"\n{m['inner']}\n", text)
     lines = [line for line in text.split("\n") if line.strip()]

@@ -10,6 +10,7 @@ from typing import Any
 from ....models.errors import InvalidInput
 from ..letters.every_text import is_fit, lines_of, rows_of
 from ..letters.indices import plain_indices
+from ..letters.origins import with_origin
 from ..lines import FULL_WIDTH
 from ..markup.prose import is_whole
 from ..names import plain_name
@@ -59,6 +60,7 @@ def as_note(data: dict[str, Any], usual: list[dict[str, str]] | None = None) -> 
     names = names_of({**made, "bodies": usual} if usual else made)
     if not names.coordinates or any(is_program(text) or "Symbol(" in text for _, text in rows_of(made)):
         return made if made != data else None
+    made = with_origin(made, names.coordinates)
     new: dict[str, str] = {}
     steps: dict[str, str] = {}
     for kind in ENERGIES:

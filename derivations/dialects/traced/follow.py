@@ -185,7 +185,7 @@ class Follower:
         if isinstance(statement, nodes.Repeat):
             return self._repeat(statement, scope)
         if isinstance(statement, nodes.Choice):
-            return self._choice(statement, scope)
+            return None if nodes.is_guard(statement) else self._choice(statement, scope)
         self._statement(statement, scope)
         return None
 

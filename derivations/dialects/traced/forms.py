@@ -9,6 +9,7 @@ from typing import Any
 from .arrays import product
 from .follow import Follower
 from .known import Known
+from .lost_steps import is_a_part
 from .meaning import ADVICE, Meaning, Path, path_of
 from .names import MARK, Scope
 from .values import Array, Broken, Doubtful, Formula, NotFollowed, Outside, Several, Value, formula
@@ -411,6 +412,8 @@ class Forms:
                 if k in found and found[k] != formula(value):
                     return None
                 found[k] = formula(value)
+            if self.known.is_of_any(bare) and is_a_part(bare, self.follower.statements, self.known):
+                raise NotFollowed(f"{bare}: an acceleration, or a part of others? {ADVICE[0].upper()}{ADVICE[1:]}")
         if len(found) != self.count:
             return None
         meaning = self._meaning(parameters, found.values(), scope)
@@ -433,8 +436,7 @@ def _loose(value: Value) -> Value:
 
 
 def _all_names(scope: Scope) -> dict[str, Value]:
-    around = _all_names(scope.around) if scope.around is not None else {}
-    return {**around, **scope.names}
+    return {**(_all_names(scope.around) if scope.around is not None else {}), **scope.names}
 
 
 def needed(lines: Mapping[str, str], text: str) -> dict[str, str]:

@@ -108,6 +108,14 @@ class Known:
         found = {k for k in range(len(self.coordinates)) if _is_derivative(name, self, k, order)}
         return found.pop() if len(found) == 1 else None
 
+    def is_of_any(self, name: str) -> bool:
+        """Whether a name says of no coordinate that it is its acceleration: alpha1, acc, that may mean other things."""
+        return (plain_name(name.strip("_")) or name).rstrip("0123456789") in {
+            *TURNING_TWICE,
+            *COUNTED_TWICE,
+            *SLIDING_TWICE,
+        }
+
     def is_vector(self, name: str) -> tuple[int, tuple[int, ...]] | None:
         """The order of derivation (0, 1, 2) of a vector q, dq, ddq, and the coordinates in it; None of others."""
         parts = [base_and_index(c) or ("", "") for c in self.coordinates]

@@ -54,7 +54,7 @@ PRODUCTS = frozenset((
     "dot", "matmul", "mtimes", "mm", "mv", "inner", "vdot", "multi_dot", "matvec",
 ))  # fmt: skip
 INVERSES = frozenset((
-    "inv", "pinv", "inverse", "inverse_ADJ",
+    "inv", "pinv", "pinv2", "pinvh", "inverse", "inverse_ADJ",
 ))  # fmt: skip
 SOLVES = frozenset((
     "solve", "LUsolve", "mldivide", "linsolve", "lstsq", "gauss_jordan_solve", "cho_solve",

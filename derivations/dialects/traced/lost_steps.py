@@ -1,4 +1,7 @@
-"""Whether a program's steps of coordinates and rates all have the step of time, omega += alpha*dt, or none has."""
+"""Whether a program's steps of coordinates and rates all have the step of time, omega += alpha*dt, or none has.
+
+And whether a name may be an acceleration's, as alpha1 there, or is a part of other quantities: alpha1 + 2*beta*cos(q2).
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,7 @@ from dataclasses import fields, is_dataclass
 
 from . import nodes
 from .known import Known
+from .library import JOINED, MADE, SAME
 from .values import NotFollowed
 
 STEP = re.compile(
@@ -47,6 +51,27 @@ def require_steps(statements: Sequence[nodes.Statement], known: Known) -> None:
     for name, words in found.items():
         if steps and not words & steps:
             raise NotFollowed(LOST.format(name, sorted(steps)[0]))
+
+
+def is_a_part(name: str, statements: Sequence[nodes.Statement], known: Known) -> bool:
+    """Whether a quantity that is no step and no acceleration is made of this name."""
+    for one in parts_in(tuple(statements)):
+        if not isinstance(one, nodes.Assign) or isinstance(one.value, nodes.Word) or _added(one)[0] == name:
+            continue
+        made = [x.rpartition(".")[2] for x in nodes.set_by(one.target)]
+        if any(_is_state(x, known) or known.of_rate(x, 2) is not None for x in made) or stepped(one, known):
+            continue
+        terms = (p for p in parts_in(one.value) if isinstance(p, nodes.Binary | nodes.Unary))
+        handed = [a for p in parts_in(one.value) if isinstance(p, nodes.Call) and _computes(p) for a in p.arguments]
+        if any(_name(p) == name for x in (*terms, *handed) for p in parts_in(x) if isinstance(p, nodes.Word)):
+            return True
+    return False
+
+
+def _computes(call: nodes.Call) -> bool:
+    """Whether a function makes something else of its arguments than a list or a thing with parts."""
+    name = (nodes.dotted(call.of) or "").rpartition(".")[2]
+    return name not in MADE | JOINED | SAME and not name[:1].isupper()
 
 
 def _is_step(word: str, known: Known) -> bool:

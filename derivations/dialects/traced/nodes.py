@@ -309,3 +309,27 @@ def all_entries(targets: tuple[Node, ...], size: int) -> str:
              for of, t in ((one.of, one.places[0]),) if isinstance(of, Word) and isinstance(t, Number)}  # fmt: skip
     is_each = all(isinstance(one, At) and len(one.places) == 1 for one in targets)
     return found.pop() if len(found) == 1 and is_each and len(targets) == size else ""
+
+
+SMALLEST = 1e-6  # below which a number is set against a division by zero alone
+
+
+def is_guard(choice: Choice) -> bool:
+    """if abs(den) < 1e-12: den = 1e-12, that says nothing of any other den."""
+    match choice.test:
+        case Binary(sign="<" | "<=", left=Call(of=of, arguments=(Word(name=name),)), right=Number(text=text)):
+            is_small = (dotted(of) or "").rpartition(".")[2] in ("abs", "fabs", "absolute") and _below(text)
+        case Binary(sign="==", left=Word(name=name), right=Number(text=text)):
+            is_small = _below(text)
+        case _:
+            return False
+    inner = [*choice.body, *choice.otherwise]
+    sets = all(isinstance(s, Assign) and isinstance(s.target, Word) and s.target.name == name for s in inner)
+    return is_small and not choice.otherwise and sets
+
+
+def _below(text: str) -> bool:
+    try:
+        return float(text) <= SMALLEST
+    except ValueError:
+        return False

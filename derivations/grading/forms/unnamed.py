@@ -11,13 +11,15 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ....models.errors import InvalidInput
+from ...dialects.names import plain_name
 from ...reading.declaration import PRESETS, WORDS
+from ...reading.submission import Submission
 from ..grade_record import Grade
 from ..hypotheses import Said
 
 # The likeliest first: of those for which a derivation is right without a condition, the first is meant.
-USUAL: tuple[Mapping[str, Any], ...] = (
-    *({"system": name} for name in (*WORDS, *PRESETS)),
+NAMED: tuple[Mapping[str, Any], ...] = tuple({"system": name} for name in (*WORDS, *PRESETS))
+COUNTED: tuple[Mapping[str, Any], ...] = (
     *({"system": "n-leg", "links": n} for n in (3, 4)),
     *({"system": kind, "links": n} for kind in ("rods", "rod-chain", "links", "point-masses") for n in (1, 2, 3, 4)),
 )
@@ -32,6 +34,40 @@ SAY = (
 def is_unnamed(data: Mapping[str, Any]) -> bool:
     """Whether these fields of a derivation do not say which mechanism it is about."""
     return "system" not in data and "links" not in data
+
+
+def usual(counts: frozenset[int]) -> tuple[list[Mapping[str, Any]], list[Mapping[str, Any]]]:
+    """Those that have a name and as many coordinates, if it is known how many; and the others."""
+    first = [x for x in NAMED if not counts or _count(x) in counts]
+    return first, [x for x in (*COUNTED, *NAMED) if x not in first]
+
+
+def _count(about: Mapping[str, Any]) -> int:
+    name = about["system"]
+    return len(PRESETS[name]) if name in PRESETS else WORDS[name][1] if name in WORDS else about["links"]
+
+
+def joints_of(about: Mapping[str, Any]) -> list[str] | None:
+    """The joints of a usual mechanism, or of bodies that are declared; None of others."""
+    bodies = PRESETS.get(str(about.get("system"))) or about.get("bodies")
+    if isinstance(bodies, list):
+        return [_joint(body) for body in bodies if isinstance(body, dict)]
+    return None if about.get("system") not in WORDS else ["hinge "] * WORDS[about["system"]][1]
+
+
+def _joint(body: Mapping[str, Any]) -> str:
+    joint = body.get("joint", "hinge")
+    way = body.get("along", "right") if joint == "slide" else ""
+    return f"{joint} {way}{' given' if 'motion' in body else ''}{body.get('on', '')}"
+
+
+def says_all(s: Submission, data: Mapping[str, Any]) -> bool:
+    """Whether no row, and no part of an energy, is left aside because a motion is taken as given."""
+    given = () if s.mechanism is None else [s.mechanism.coordinates[k] for k in s.mechanism.given]
+    if not given:
+        return True
+    said = {plain_name(str(name)) for name in data.get("define", {})}
+    return said.issuperset(given) or (s.lagrangian is None and len(s.rows) == s.space.n - len(given))
 
 
 def said_of(right: Grade) -> Said:

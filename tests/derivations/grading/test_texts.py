@@ -55,9 +55,9 @@ def graded(folder, name, text, **says):
         (
             "driven.md",
             DRIVEN,
-            "a cart (x) with mass M, damping b, drive F; pole (theta) with mass m, length l, inertia I about",
+            "a cart (x, to the right) with mass M, damping b, drive F; pole (theta) with mass m, length l, inertia I",
         ),
-        ("named.txt", NAMED, "a cart (x) with mass m_c, drive f; pole (theta) with mass m_p, length l"),
+        ("named.txt", NAMED, "a cart (x, to the right) with mass m_c, drive f; pole (theta) with mass m_p, length l"),
         (
             "lagrangian.tex",
             r"\[ L = \frac12 m \ell^2 \dot\phi^2 + m g \ell \cos\phi \]",
@@ -71,6 +71,64 @@ def test_a_text_is_right_for_the_mechanism_that_is_said(tmp_path, name, text, ab
     assert found.assumes[0].startswith(f"it is about {about}")
     assert found.text().splitlines()[0].startswith("Read: ")
     assert f"Right if it is about {about}" in found.text()
+
+
+USUAL = {  # from the textbooks' formulas, in letters of many kinds
+    "a link 1 (q_1) with mass m_1, length l_1, centre l_{c1}, inertia I_1 about the centre, drive tau_1": r"""
+$$\tau_1 = (m_1 l_{c1}^2 + m_2(l_1^2 + l_{c2}^2 + 2 l_1 l_{c2} \cos q_2) + I_1 + I_2)\ddot q_1
+ + (m_2(l_{c2}^2 + l_1 l_{c2} \cos q_2) + I_2)\ddot q_2 - m_2 l_1 l_{c2} \sin q_2 (2 \dot q_1 \dot q_2 + \dot q_2^2)
+ + (m_1 l_{c1} + m_2 l_1) g \cos q_1 + m_2 l_{c2} g \cos(q_1 + q_2)$$
+$$\tau_2 = (m_2(l_{c2}^2 + l_1 l_{c2} \cos q_2) + I_2)\ddot q_1 + (m_2 l_{c2}^2 + I_2)\ddot q_2
+ + m_2 l_1 l_{c2} \sin q_2 \dot q_1^2 + m_2 l_{c2} g \cos(q_1 + q_2)$$""",
+    "a cart (x, to the right) with mass M, spring k; pole (theta) with mass m, length l": r"""
+$$(M + m)\ddot x + m l \ddot\theta\cos\theta - m l \dot\theta^2 \sin\theta + k x = 0$$
+$$l\ddot\theta + \ddot x \cos\theta + g \sin\theta = 0$$""",
+    "a spring (theta) with mass 0; bob (r, along the one before) with mass M, spring K, rest a": r"""
+$$ M \ddot r = M r \dot\theta^2 + M g \cos\theta - K (r - a) $$
+$$ r \ddot\theta + 2 \dot r \dot\theta + g \sin\theta = 0 $$""",
+    "a support 1 (y_s, upwards) with mass 0, motion given; pendulum (phi) with mass 1, length L": r"""
+$$ L \ddot\phi + (g + \ddot y_s) \sin\phi = 0 $$""",
+    "a cart (x, to the right) with mass m_0, drive F; pole 1 (theta_1) with mass m_1, length l_1; pole 2 (theta_2": r"""
+$$(m_0+m_1+m_2)\ddot x + (m_1+m_2)l_1(\ddot\theta_1\cos\theta_1 - \dot\theta_1^2\sin\theta_1)
+ + m_2 l_2(\ddot\theta_2\cos\theta_2 - \dot\theta_2^2\sin\theta_2) = F$$
+$$(m_1+m_2)\ddot x\cos\theta_1 + (m_1+m_2)l_1\ddot\theta_1 + m_2 l_2(\ddot\theta_2\cos(\theta_1-\theta_2)
+ + \dot\theta_2^2\sin(\theta_1-\theta_2)) + (m_1+m_2) g \sin\theta_1 = 0$$
+$$\ddot x\cos\theta_2 + l_1(\ddot\theta_1\cos(\theta_1-\theta_2) - \dot\theta_1^2\sin(\theta_1-\theta_2))
+ + l_2\ddot\theta_2 + g\sin\theta_2 = 0$$""",
+    "a link 1 (phi1) with mass mA, length len1; link 2 (phi2) with mass mB, length len2": """
+def rhs(t, y):
+    phi1, w1, phi2, w2 = y
+    mA, mB, len1, len2, g = 1.0, 2.0, 0.5, 0.7, 9.81
+    d = phi1 - phi2
+    den = 2*mA + mB - mB*cos(2*phi1 - 2*phi2)
+    a1 = (-g*(2*mA + mB)*sin(phi1) - mB*g*sin(phi1 - 2*phi2) - 2*sin(d)*mB*(w2**2*len2 + w1**2*len1*cos(d)))/(len1*den)
+    a2 = 2*sin(d)*(w1**2*len1*(mA + mB) + g*(mA + mB)*cos(phi1) + w2**2*len2*mB*cos(d))/(len2*den)
+    return [w1, a1, w2, a2]
+""",
+}
+
+
+@pytest.mark.parametrize("about", USUAL)
+def test_usual_mechanisms_are_tried_in_the_letters_of_the_text(about):
+    assert grade_text({"equations": USUAL[about]}).assumes[0].startswith(f"it is about {about}")
+
+
+@pytest.mark.parametrize(
+    ("right", "slip"),
+    [
+        ("- K (r - a)", "+ K (r - a)"),
+        ("+ 2 \\dot r \\dot\\theta", "+ \\dot r \\dot\\theta"),
+        ("(g + \\ddot y_s)", "(g - \\ddot y_s)"),
+        ("+ k x = 0", "- k x = 0"),
+        ("(2 \\dot q_1", "(\\dot q_1"),
+        ("(m_1+m_2)l_1(", "m_1 l_1("),
+        ("g*(2*mA + mB)", "g*(mA + mB)"),
+    ],
+)
+def test_a_slip_in_the_letters_of_the_text_makes_it_right_for_none(right, slip):
+    (text,) = (x for x in USUAL.values() if right in x)
+    with pytest.raises(InvalidInput, match="which mechanism it is about is not said"):
+        grade_text({"equations": text.replace(right, slip)})
 
 
 def test_what_is_right_for_no_usual_mechanism_is_not_judged_but_told_the_nearest(tmp_path):
@@ -186,3 +244,22 @@ def test_a_notebook_is_its_formulas_or_else_its_code(tmp_path):
     for text in ("{}", "[]", '{"cells": 1}', '{"cells": [{}]}', "no JSON", "[" * 100_000):
         with pytest.raises(InvalidInput, match="not a notebook"):
             graded(tmp_path, "bad.ipynb", text)
+
+
+CART_OF_OTHER_LETTERS = """$$(m_c + m_p)\\ddot x + m_p l \\ddot\\theta\\cos\\theta
+ - m_p l \\dot\\theta^2 \\sin\\theta + b \\dot x = F$$
+$$l\\ddot\\theta + \\ddot x\\cos\\theta + g \\sin\\theta = 0$$"""
+
+
+def test_a_mechanism_that_is_named_may_have_other_letters_and_what_else_the_text_has(tmp_path):
+    found = graded(tmp_path, "mine.md", CART_OF_OTHER_LETTERS, system="cart-pole")
+    assert found.verdict == "correct"
+    assert found.assumes == (
+        "it is about a cart (x, to the right) with mass m_c, damping b, drive F; pole (theta) with mass m_p, length l",
+    )
+    with pytest.raises(
+        InvalidInput, match="the index c is not a number"
+    ):  # and no other mechanism than the one that is named
+        graded(tmp_path, "mine.md", CART_OF_OTHER_LETTERS, system="double-pendulum")
+    with pytest.raises(InvalidInput, match="is not known here"):  # nor is a slip called wrong: which letter is which?
+        graded(tmp_path, "mine.md", CART_OF_OTHER_LETTERS.replace("+ g", "- 2 g"), system="cart-pole")
