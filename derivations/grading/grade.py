@@ -23,6 +23,7 @@ from .forms.stages import StageJudge
 from .forms.units import units_notes
 from .forms.unnamed import USUAL, is_unnamed, refusal, said_of
 from .forms.usual_bodies import said_of_bodies, usual_bodies
+from .forms.values import require_motion
 from .grade_record import Grade, Verdict
 from .hypotheses import Hypothesis, Said, hypotheses, merged
 from .judge import Judgement, judge
@@ -103,7 +104,12 @@ def _unnamed(data: dict[str, Any]) -> Grade:
         best, (said_en, said_ja) = min(found, key=lambda one: len(one[0].assumes))
         return replace(best, assumes=(said_en, *best.assumes), assumes_ja=(said_ja, *best.assumes_ja))
     whole = [(name, s) for name, s in fitting if s.stages is not None or s.lagrangian or len(s.rows) == s.space.n]
-    wrongs = [(name, _wrong(s, pinned=False)) for name, s in whole[:MOST_NEAR]]
+    wrongs: list[tuple[str, Grade]] = []
+    for name, s in whole[:MOST_NEAR]:
+        try:
+            wrongs.append((name, _wrong(s, pinned=False)))
+        except InvalidInput as error:
+            refused.append(str(error))
     name, nearest = min(wrongs, key=lambda one: len(one[1].findings), default=("", None))
     raise refusal(nearest, name, refused)
 
@@ -149,6 +155,7 @@ def _if_stages_right(
 
 def _wrong(s: Submission, *, pinned: bool) -> Grade:
     """What is wrong, in the declared meaning: of stages the first, else terms and mistakes."""
+    require_motion(s)
     if s.stages is None:
         return wrong(s, pinned=pinned)
     h = next(hypotheses(s, pinned=True))

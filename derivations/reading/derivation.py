@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from contextlib import suppress
+from dataclasses import replace
 from typing import Any
 from unicodedata import normalize
 
@@ -64,6 +65,11 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     Raises InvalidInput, with the place, where it is none.
     """
     known_fields(data)
+    return replace(_read(data, slashes), cut=isinstance(data.get("equations"), str))
+
+
+def _read(data: dict[str, Any], slashes: int) -> Submission:
+    """Read a derivation whose fields are known."""
     data = with_one_time(_of_one_text(data))
     data = with_said_motions(
         plain_macros(plainly_printed(plain_environments(without_ticks(unwrapped(without_pointers(data))))))

@@ -77,6 +77,7 @@ class Submission:
     first_order: FirstOrder | None = None  # a Hamiltonian, or equations with momenta, as they were written
     stages: Stages | None = None  # a derivation stated stage by stage; then there is nothing else
     weight: Formula | None = None  # what g is said to be: 0 where it lies flat, a number, ω_0²
+    cut: bool = False  # whether its rows were cut out of one text
 
     @property
     def relative(self) -> bool:

@@ -186,3 +186,53 @@ def test_a_notebook_is_its_formulas_or_else_its_code(tmp_path):
     for text in ("{}", "[]", '{"cells": 1}', '{"cells": [{}]}', "no JSON", "[" * 100_000):
         with pytest.raises(InvalidInput, match="not a notebook"):
             graded(tmp_path, "bad.ipynb", text)
+
+
+CELL = r"""%% Inverted pendulum
+% $$ (M+m)\ddot{x} + m l\ddot\theta\cos\theta - m l\dot\theta^2\sin\theta = 0 $$
+%
+% $$ l\ddot\theta + \ddot x\cos\theta + g\sin\theta = 0 $$
+M = 0.5;
+m = 0.2;
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "system"),
+    [
+        ("cell.m", CELL, "cart-pole"),
+        ("remark.py", "# theta_ddot = -g/l*sin(theta)\nm = 0.2\n", "simple-pendulum"),
+        ("docstring.py", '"""theta_ddot = -g/l*sin(theta)"""\nm = 0.2\nl = 1.0\n', "simple-pendulum"),
+        ("remark.jl", "# θ̈ = -g/l*sin(θ)\nm = 0.2\n", "simple-pendulum"),
+        ("remark.c", "// theta_ddot = -g/l*sin(theta)\ndouble m = 0.2;\n", "simple-pendulum"),
+    ],
+)
+def test_equations_in_the_remarks_of_a_program_without_any_are_what_it_states(tmp_path, name, text, system):
+    assert graded(tmp_path, name, text, system=system).verdict == "correct"
+    wrong = text.replace("-g/l", "g/(2*l)").replace("- m l", "+ m l")
+    assert graded(tmp_path, name, wrong, system=system).verdict == "wrong"
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "system"),
+    [
+        ("only.m", "% the pendulum\nm = 0.2;\n", "cart-pole"),
+        ("only.py", "m1 = 1.0\nm2 = 1.0\n", "double-pendulum"),
+        ("only.txt", "m = 0.2", "simple-pendulum"),
+        ("only.md", "$$m = 0.2$$\n\n$$M = 1$$", "cart-pole"),
+        ("only.txt", "x = 0.1\ntheta = 0.2", "cart-pole"),
+        ("only.py", "theta_ddot = 0\n", "simple-pendulum"),
+        ("hidden.tex", "% l\\ddot\\theta + g\\sin\\theta = 0\n$m = 0.2$", "simple-pendulum"),
+        ("beside.txt", "l1 t1'' + g sin t1 = 0\nm1 = 0.2", "double-pendulum"),
+    ],
+)
+def test_what_a_quantity_is_set_to_is_no_row_and_no_derivation_is_wrong_for_it(tmp_path, name, text, system):
+    with pytest.raises(InvalidInput, match="no equation of motion"):
+        graded(tmp_path, name, text, system=system)
+    with pytest.raises(InvalidInput, match="which mechanism it is about is not said"):
+        graded(tmp_path, name, text)
+
+
+def test_a_row_of_constants_alone_is_none_in_a_file_with_fields_either():
+    with pytest.raises(InvalidInput, match="'m = 1/5' is a value"):
+        grade_text({"system": "simple-pendulum", "equations": {"1": "m = 0.2"}})
