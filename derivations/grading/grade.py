@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -31,6 +32,7 @@ from .readback import readback
 from .wrong import if_as_declared, named_in_stages, wrong
 
 MOST_SECONDS = 1.0  # of the processor, in which usual mechanisms are tried, and then no more
+MOST_PASSED = 4  # of what is passed over, as many are said
 MOST_NEAR = 2  # usual mechanisms that mistakes are looked for in, where a derivation does not say which it is about
 
 
@@ -90,6 +92,7 @@ def _unnamed(data: dict[str, Any]) -> Grade:
         try:
             first = read(0)
             right = _if_right(read, first, pinned=False)
+            right = (_with_passed(*right), right[1]) if right is not None else None
         except InvalidInput as error:
             refused.append(str(error))
             continue
@@ -121,7 +124,21 @@ def graded(read: Callable[[int], Submission], *, pinned: bool) -> tuple[Grade, S
     """
     first = read(0)
     found = _if_right(read, first, pinned=pinned)
-    return found if found is not None else (_wrong(first, pinned=pinned), first)
+    made, s = found if found is not None else (_wrong(first, pinned=pinned), first)
+    return _with_passed(made, s), s
+
+
+def _with_passed(made: Grade, s: Submission) -> Grade:
+    """The grade with what was said besides, and is no part of it."""
+    if not s.passed:
+        return made
+    said = "; ".join(re.sub(r"\s+", " ", one)[:60] for one in s.passed[:MOST_PASSED])
+    more = len(s.passed) - MOST_PASSED
+    rest, rest_ja = (f"; and {more} more", f" ほか{more}件") if more > 0 else ("", "")
+    return replace(
+        made, notes=(*made.notes, f"Passed over, as no equation of motion needs it: {said}{rest}"),
+        notes_ja=(*made.notes_ja, f"運動方程式に使われないため読み飛ばしたもの：{said}{rest_ja}"),
+    )  # fmt: skip
 
 
 def _if_right(read: Callable[[int], Submission], first: Submission, *, pinned: bool) -> tuple[Grade, Submission] | None:
@@ -137,6 +154,11 @@ def _if_right(read: Callable[[int], Submission], first: Submission, *, pinned: b
     if not right:
         return None
     s, judgement = min(right, key=lambda pair: len(pair[1].assumes))
+    if s.hanging and judgement.hypothesis is not None and judgement.hypothesis.convention.origin != "down":
+        raise InvalidInput(
+            f"the equations are right if {judgement.hypothesis.convention.words}, and a height that is said besides is "
+            'lowest where the angle is zero: which is meant? Say from = "up" or "down", or leave the height out'
+        )
     return _right(s, judgement, slashes=s is not first, pinned=pinned), s
 
 

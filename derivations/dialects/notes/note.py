@@ -43,6 +43,10 @@ WORDED = re.compile(
 INITIAL = re.compile(  # θ(0) = θ_0
     r"^\s*(?:\\dot\s*)?\{?\s*\\?[^\W\d_]+[\u0307]?\s*(?:_\s*(?:\{\w{1,4}\}|\w)|[₀-₉]|[0-9])?\s*\}?(?:_\w|_\{\w\})?['′]{0,2}\s*(?:\\left\s*)?\(\s*(?:t\s*=\s*)?0\s*(?:\\right\s*)?\)\s*$"
 )
+# A height that is lowest at the angle's zero, y_p = -l cos θ, of a body that the reader does not know by that name
+HANGING = re.compile(
+    r"^\s*[yY]\s*(?:_\s*(?:\{\s*\w{1,6}\s*\}|\w)|[0-9])?\s*=(?:\s*[-−][^=+−-]*\bcos(?![a-z])[^=+−-]*)+$"
+)
 JOINED = re.compile(r"(?<!\\)\\\\(?=[A-Za-z])")  # a row's end at once before a letter
 DIFFERENCE = re.compile(
     r"(?:\\Delta|Δ|∆)\s*(?P<x>\\(?:var)?(?:theta|phi)(?![A-Za-z])|\\psi(?![A-Za-z])|[θϑφϕψ])(?:\s*_\s*(?:\{\s*(?P<i>\w{1,4})\s*\}|(?P<j>\w)))?"
@@ -61,11 +65,12 @@ def as_note(data: dict[str, Any], usual: list[dict[str, str]] | None = None) -> 
         return made if made != data else None
     new: dict[str, str] = {}
     steps: dict[str, str] = {}
+    passed: list[str] = []
     for kind in ENERGIES:
         if is_fit(made.get(kind)):
             made = _with_energy(made, kind, names, new, steps)
     if is_fit_table(made):
-        made = _with_equations(made, names, new, steps)
+        made = _with_equations(made, names, new, steps, passed)
     if not new and not steps and made == data:
         return None
     define = made.get("define", {})
@@ -78,7 +83,11 @@ def as_note(data: dict[str, Any], usual: list[dict[str, str]] | None = None) -> 
                 "the names that are said need each other in a circle; write the equations with these put in"
             )
         made = made | {"define": {**define, **ordered}}
-    return made | ({"steps": steps} if steps else {})
+    return (
+        made
+        | ({"steps": steps} if steps else {})
+        | ({"passed": [*data.get("passed", ()), *dict.fromkeys(passed)]} if passed else {})
+    )
 
 
 def is_worded(data: Mapping[str, Any]) -> bool:
@@ -110,8 +119,14 @@ def _statements(text: str, names: Names) -> list[Statement]:
     found: list[Statement] = []
     for formula in formulas_of(with_bold_apart(with_accents(text), names)):
         said = statements_of(formula.text)
+        said = [sides for sides in said if not _is_mention(sides)]
         found += [s for s in said if not formula.inline or _is_said(s, names)]
     return [sides for sides in found if not (len(sides) == 2 and INITIAL.match(sides[0]))]
+
+
+def _is_mention(sides: Statement) -> bool:
+    """Whether it is a letter alone, which a sentence is about."""
+    return len(sides) == 1 and alone(sides[0]) is not None
 
 
 def _with_differences(text: str, names: Names) -> str:
@@ -170,7 +185,9 @@ def _with_energy(
     return made
 
 
-def _with_equations(data: dict[str, Any], names: Names, new: dict[str, str], steps: dict[str, str]) -> dict[str, Any]:
+def _with_equations(
+    data: dict[str, Any], names: Names, new: dict[str, str], steps: dict[str, str], passed: list[str]
+) -> dict[str, Any]:
     rows = rows_of(data)
     statements: list[Statement] = []
     for label, text in rows:
@@ -198,6 +215,8 @@ def _with_equations(data: dict[str, Any], names: Names, new: dict[str, str], ste
             f"equations: {len(found.rows)} equations of motion are found among the words; give them alone"
         )
     new |= found.defined
+    passed += found.passed
+    hanging = any(HANGING.match(one[:400]) for one in found.passed)
     if any(ACCELERATION.search(row) for row in found.rows):
         pass
     elif re.search(r"\\omega|ω", " ".join(found.rows)):
@@ -212,4 +231,5 @@ def _with_equations(data: dict[str, Any], names: Names, new: dict[str, str], ste
     clash = next((stage for stage in found.stages if stage in data), None)
     if clash:
         raise InvalidInput(f"{clash}: it is said in [equations] as well; leave one of the two out")
-    return {**data, **found.stages, "equations": dict(zip(labels, found.rows, strict=True))}
+    made = {**data, **found.stages, "equations": dict(zip(labels, found.rows, strict=True))}
+    return made | ({"hanging": True} if hanging else {})

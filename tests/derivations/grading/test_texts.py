@@ -229,10 +229,83 @@ def test_equations_in_the_remarks_of_a_program_without_any_are_what_it_states(tm
 def test_what_a_quantity_is_set_to_is_no_row_and_no_derivation_is_wrong_for_it(tmp_path, name, text, system):
     with pytest.raises(InvalidInput, match="no equation of motion"):
         graded(tmp_path, name, text, system=system)
-    with pytest.raises(InvalidInput, match="which mechanism it is about is not said"):
-        graded(tmp_path, name, text)
+    if name != "beside.txt":
+        with pytest.raises(InvalidInput, match="which mechanism it is about is not said"):
+            graded(tmp_path, name, text)
+
+
+def test_a_value_beside_a_row_is_passed_over_where_the_mechanism_is_not_named(tmp_path):
+    found = graded(tmp_path, "beside.txt", "l1 t1'' + g sin t1 = 0\nm1 = 0.2")
+    assert found.verdict == "correct"
+    assert any("m1 = 0.2" in note for note in found.notes)
 
 
 def test_a_row_of_constants_alone_is_none_in_a_file_with_fields_either():
     with pytest.raises(InvalidInput, match="'m = 1/5' is a value"):
         grade_text({"system": "simple-pendulum", "equations": {"1": "m = 0.2"}})
+
+
+ZERO = r"""
+{}
+
+$$(M+m)\ddot{{x}} + m l\ddot\theta\cos\theta - m l\dot\theta^2\sin\theta = 0$$
+
+$$l\ddot\theta + \ddot x\cos\theta {} g\sin\theta = 0$$
+"""  # Lagrange's equations with x_m = x + l sin θ: +, where θ is from below, and -, from above
+
+
+@pytest.mark.parametrize(
+    ("sentence", "sign"),
+    [
+        (r"$\theta = 0$ is upright.", "-"),
+        (r"In this convention, $\theta=0$ corresponds to hanging down.", "+"),
+        (r"where \(\theta = 0\) is the vertical upright position, clockwise positive", "-"),
+        ("`θ = 0` means the pole points straight down.", "+"),
+        (r"$\theta = \pi$ is upright", "+"),
+        (r"$\theta = 0$ 表示摆杆竖直向下。", "+"),
+        (r"The upright position ($\theta = 0$) is unstable.", "-"),
+    ],
+)
+def test_a_sentence_says_where_an_angle_is_zero(tmp_path, sentence, sign):
+    """And then nothing else is taken to be meant."""
+    right = graded(tmp_path, "cart.md", ZERO.format(sentence, sign), system="cart-pole")
+    assert right.verdict == "correct"
+    assert not any("vertical" in said and "clockwise" not in said for said in right.assumes)
+    other = {"+": "-", "-": "+"}[sign]
+    assert graded(tmp_path, "cart.md", ZERO.format(sentence, other), system="cart-pole").verdict == "wrong"
+
+
+@pytest.mark.parametrize(
+    "sentence",
+    [
+        r"The equilibrium is $\theta = 0$.",
+        r"$\theta = 0$ is where it falls down from upright.",
+        r"$\theta = 0$ is the reference.",
+        r"$\theta = 0$ is not upright.",
+    ],
+)
+def test_a_sentence_that_does_not_say_it_plainly_decides_nothing(tmp_path, sentence):
+    for sign in "+-":
+        text = ZERO.format(sentence, sign)
+        if "not" in sentence:  # a sentence that denies something is asked about
+            with pytest.raises(InvalidInput, match="not"):
+                graded(tmp_path, "cart.md", text, system="cart-pole")
+            continue
+        found = graded(tmp_path, "cart.md", text, system="cart-pole")
+        assert found.verdict == "correct"
+        assert any("theta = 0" in note for note in found.notes)
+
+
+@pytest.mark.parametrize("sentence", [r"For $\theta = 0$ upright:", r"If $\theta = 0$ is upright, then"])
+def test_what_may_be_a_condition_is_asked_about(tmp_path, sentence):
+    with pytest.raises(InvalidInput, match="what a coordinate is"):
+        graded(tmp_path, "cart.md", ZERO.format(sentence, "+"), system="cart-pole")
+
+
+def test_a_height_that_is_said_besides_is_not_contradicted_by_what_is_assumed(tmp_path):
+    said = "$$y_p = -l\\cos\\theta$$"
+    assert graded(tmp_path, "cart.md", ZERO.format(said, "+"), system="cart-pole").verdict == "correct"
+    with pytest.raises(InvalidInput, match="which is meant"):
+        graded(tmp_path, "cart.md", ZERO.format(said, "-"), system="cart-pole")
+    said = "$$y_p = l\\cos\\theta$$"
+    assert graded(tmp_path, "cart.md", ZERO.format(said, "-"), system="cart-pole").verdict == "correct"
