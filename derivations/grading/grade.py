@@ -20,10 +20,11 @@ from ..reading.submission import LARGEST_FILE, Submission, fields_of, is_toml, t
 from ..steps.families import family
 from .differences import row_differences
 from .forms.hamilton import scale_note
+from .forms.named import bodies_of_name, is_own, is_told_apart, may_have_letters
 from .forms.stages import StageJudge
 from .forms.units import units_notes
 from .forms.unnamed import USUAL, is_unnamed, refusal, said_of
-from .forms.usual_bodies import said_of_bodies, usual_bodies
+from .forms.usual_bodies import Bodies, said_of_bodies, usual_bodies
 from .forms.values import require_motion
 from .grade_record import Grade, Verdict
 from .hypotheses import Hypothesis, Said, hypotheses, merged
@@ -32,6 +33,7 @@ from .readback import readback
 from .wrong import if_as_declared, named_in_stages, wrong
 
 MOST_SECONDS = 1.0  # of the processor, in which usual mechanisms are tried, and then no more
+MOST_ROLES = 6  # of a text's letters, all of which it has to be wrong for
 MOST_PASSED = 4  # of what is passed over, as many are said
 MOST_NEAR = 2  # usual mechanisms that mistakes are looked for in, where a derivation does not say which it is about
 
@@ -65,6 +67,8 @@ def grade_fields(data: dict[str, Any], *, pinned: Pinned | None = None) -> Grade
         data = data | {"system": "mechanism"}
     if pinned is None and is_unnamed(data):
         return _unnamed(data)
+    if pinned is None and may_have_letters(data):
+        return _named(data)
     return graded(_reader(data, pinned), pinned=pinned is not None)[0]
 
 
@@ -76,6 +80,47 @@ def _reader(data: dict[str, Any], pinned: Pinned | None = None) -> Callable[[int
         return s
 
     return read
+
+
+def _named(data: dict[str, Any]) -> Grade:
+    """The grade of a text for the mechanism that is named, or for that with what its other letters stand for.
+
+    Raises InvalidInput with what the plain mechanism lacks where the text is right for none of these.
+    """
+    try:
+        return graded(_reader(data), pinned=False)[0]
+    except InvalidInput as error:
+        refused = error
+    bare = {key: value for key, value in data.items() if key != "system"}
+    near: list[tuple[Bodies, Submission]] = []
+    started = time.process_time()
+    for bodies in bodies_of_name(data):
+        if time.process_time() - started > MOST_SECONDS:
+            raise refused
+        read = _reader({**bare, "system": "mechanism", "bodies": bodies})
+        try:
+            first = read(0)
+            right = _if_right(read, first, pinned=False)
+        except InvalidInput as error:
+            refused = error if "which is meant" in str(error) else refused
+            continue
+        if right is not None and right[0].verdict == "correct":
+            return _about(_with_passed(*right), bodies)
+        near += [(bodies, first)] if is_own(bodies) else []
+    whole = [(bodies, s) for bodies, s in near if s.stages is not None or s.lagrangian or len(s.rows) == s.space.n]
+    if not whole or len(whole) < len(near) or len(whole) > MOST_ROLES:
+        raise refused
+    wrongs = [_with_passed(_wrong(s, pinned=False), s) for _, s in whole]
+    if not is_told_apart(wrongs, [bodies for bodies, _ in whole]):
+        raise refused
+    best = min(range(len(wrongs)), key=lambda k: len(wrongs[k].findings))
+    return _about(wrongs[best], whole[best][0])
+
+
+def _about(made: Grade, bodies: Bodies) -> Grade:
+    """The grade with the mechanism that it is about, as what it rests on."""
+    said_en, said_ja = said_of_bodies(bodies)
+    return replace(made, assumes=(said_en, *made.assumes), assumes_ja=(said_ja, *made.assumes_ja))
 
 
 def _unnamed(data: dict[str, Any]) -> Grade:

@@ -309,3 +309,42 @@ def test_a_height_that_is_said_besides_is_not_contradicted_by_what_is_assumed(tm
         graded(tmp_path, "cart.md", ZERO.format(said, "-"), system="cart-pole")
     said = "$$y_p = l\\cos\\theta$$"
     assert graded(tmp_path, "cart.md", ZERO.format(said, "-"), system="cart-pole").verdict == "correct"
+
+
+@pytest.mark.parametrize(
+    ("text", "system", "about"),
+    [
+        (DRIVEN, "cart-pole", "a cart (x) with mass M, damping b, drive F; pole (theta) with mass m, length l, inertia I"),
+        (NAMED, "cart-pole", "a cart (x) with mass m_c, drive f; pole (theta) with mass m_p, length l"),
+        (DAMPED, "simple-pendulum", "a pendulum (theta) with mass m, length l, damping b"),
+    ],
+)
+def test_a_named_mechanism_may_have_the_letters_of_a_force_a_loss_and_an_inertia(tmp_path, text, system, about):
+    """It is right for that, and every letter is said; what the plain mechanism is right for is as before."""
+    found = graded(tmp_path, "mine.md", text, system=system)
+    assert found.verdict == "correct"
+    assert found.assumes[0].startswith(f"it is about {about}")
+
+
+def test_it_is_wrong_where_a_term_without_these_letters_is_wrong_whatever_they_stand_for(tmp_path):
+    found = graded(tmp_path, "mine.md", NAMED.replace("- m_p l theta'^2", "+ m_p l theta'^2"), system="cart-pole")
+    assert found.verdict == "wrong"
+    assert found.assumes[0].startswith("it is about a cart (x) with mass m_c, drive f")
+    (only,) = found.findings
+    assert only.cause == "sign"
+
+
+@pytest.mark.parametrize(
+    ("text", "system"),
+    [
+        (DRIVEN.replace("+b", "-b"), "cart-pole"),
+        (DRIVEN.replace("=F", "=-2F"), "cart-pole"),
+        (DRIVEN.replace("(I+ml^2)", "(I-ml^2)"), "cart-pole"),
+        (DAMPED.replace("l^2", "l"), "simple-pendulum"),
+        (NAMED, "simple-pendulum"),  # another mechanism's name
+        (DRIVEN.replace("F", "F + K"), "cart-pole"),
+    ],
+)
+def test_what_may_be_another_mechanism_than_its_letters_say_is_not_called_wrong(tmp_path, text, system):
+    with pytest.raises(InvalidInput, match="not known here|the index c"):
+        graded(tmp_path, "mine.md", text, system=system)

@@ -1,0 +1,61 @@
+"""A usual mechanism by its name, and a text that has other letters, or more: of a force, a loss, a moment of inertia.
+
+A cart-pole whose rows have F, b and I is the named one with a force, a loss and an inertia, where it is right for that;
+what it is right for is said then, with every letter. It is wrong only where it is wrong for all that its letters may
+stand for, and in terms that have none of them in it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from ...dialects.names import plain_name
+from ..grade_record import Grade
+from .usual_bodies import Bodies, usual_bodies
+
+SHAPES = {  # what each name has: slides, hinges, and a slide along a link
+    "cart-pole": "sh", "cart-rod": "sh", "cart-double-pole": "shh", "elastic-pendulum": "hl", "simple-pendulum": "h",
+    "physical-pendulum": "h", "double-pendulum": "hh", "acrobot": "hh", "double-rod-pendulum": "hh",
+    "triple-pendulum": "hhh",
+}  # fmt: skip
+ADDED = ("inertia", "damping", "drive", "spring")
+NAME = re.compile(r"[A-Za-z]\w*")
+
+
+def may_have_letters(data: Mapping[str, Any]) -> bool:
+    """Whether these fields are a text about a mechanism that has one of these names."""
+    system = data.get("system")
+    is_text = isinstance(data.get("equations"), str) or isinstance(data.get("lagrangian"), str)
+    return isinstance(system, str) and system in SHAPES and is_text and not {"bodies", "links"} & data.keys()
+
+
+def bodies_of_name(data: Mapping[str, Any]) -> list[Bodies]:
+    """The mechanisms in a text's own letters that the name may mean, the plainest first."""
+    shape = SHAPES[data["system"]]
+    return [bodies for bodies in usual_bodies(data) if _shape(bodies) == shape and not _is_other(bodies)]
+
+
+def is_own(bodies: Bodies) -> bool:
+    """Whether it is the named mechanism and no kin: point masses, but where the text has a letter of an inertia."""
+    quantities = [body[name] for body in bodies for name in ("mass", "length", "centre", "inertia") if name in body]
+    return all(plain_name(value) is not None or value == "0" for value in quantities)
+
+
+def is_told_apart(grades: Sequence[Grade], mechanisms: Sequence[Bodies]) -> bool:
+    """Whether all say the same mistakes, in terms that have none of the letters whose role is tried."""
+    causes = {tuple(sorted({f.cause for f in found.findings})) for found in grades}
+    added = {plain_name(body[name]) for bodies in mechanisms for body in bodies for name in ADDED if name in body}
+    terms = [f"{f.term} {f.found} {f.expected}" for found in grades for f in found.findings]
+    used = {plain_name(word) for term in terms for word in NAME.findall(term)}
+    return bool(terms) and len(causes) == 1 and not used & added
+
+
+def _shape(bodies: Bodies) -> str:
+    return "".join("h" if b.get("joint") != "slide" else "l" if b.get("along") == "link" else "s" for b in bodies)
+
+
+def _is_other(bodies: Bodies) -> bool:
+    """Whether a motion is given, or a body is not on the one before it."""
+    return any("motion" in body or "on" in body or body.get("along") in ("up", "down") for body in bodies)
