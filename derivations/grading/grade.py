@@ -33,7 +33,7 @@ from .readback import readback
 from .wrong import if_as_declared, named_in_stages, wrong
 
 MOST_SECONDS = 1.0  # of the processor, in which usual mechanisms are tried, and then no more
-MOST_ROLES = 6  # of a text's letters, all of which it has to be wrong for
+MOST_ROLES = 6  # of a text's letters, in which its mistakes are looked for
 MOST_PASSED = 4  # of what is passed over, as many are said
 MOST_NEAR = 2  # usual mechanisms that mistakes are looked for in, where a derivation does not say which it is about
 
@@ -108,13 +108,14 @@ def _named(data: dict[str, Any]) -> Grade:
             return _about(_with_passed(*right), bodies)
         near += [(bodies, first)] if is_own(bodies) else []
     whole = [(bodies, s) for bodies, s in near if s.stages is not None or s.lagrangian or len(s.rows) == s.space.n]
-    if not whole or len(whole) < len(near) or len(whole) > MOST_ROLES:
+    if not whole:
         raise refused
-    wrongs = [_with_passed(_wrong(s, pinned=False), s) for _, s in whole]
-    if not is_told_apart(wrongs, [bodies for bodies, _ in whole]):
+    wrongs = [(_with_passed(_wrong(s, pinned=False), s), bodies) for bodies, s in whole[:MOST_ROLES]]
+    fewest = min(len(made.findings) for made, _ in wrongs)
+    nearest = [(made, bodies) for made, bodies in wrongs if len(made.findings) == fewest]
+    if not is_told_apart(nearest):
         raise refused
-    best = min(range(len(wrongs)), key=lambda k: len(wrongs[k].findings))
-    return _about(wrongs[best], whole[best][0])
+    return _about(*nearest[0])
 
 
 def _about(made: Grade, bodies: Bodies) -> Grade:

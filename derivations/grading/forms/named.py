@@ -40,14 +40,14 @@ def bodies_of_name(data: Mapping[str, Any]) -> list[Bodies]:
 def is_own(bodies: Bodies) -> bool:
     """Whether it is the named mechanism and no kin: point masses, but where the text has a letter of an inertia."""
     quantities = [body[name] for body in bodies for name in ("mass", "length", "centre", "inertia") if name in body]
-    return all(plain_name(value) is not None or value == "0" for value in quantities)
+    return all(plain_name(value) is not None for value in quantities)
 
 
-def is_told_apart(grades: Sequence[Grade], mechanisms: Sequence[Bodies]) -> bool:
-    """Whether all say the same mistakes, in terms that have none of the letters whose role is tried."""
-    causes = {tuple(sorted({f.cause for f in found.findings})) for found in grades}
-    added = {plain_name(body[name]) for bodies in mechanisms for body in bodies for name in ADDED if name in body}
-    terms = [f"{f.term} {f.found} {f.expected}" for found in grades for f in found.findings]
+def is_told_apart(nearest: Sequence[tuple[Grade, Bodies]]) -> bool:
+    """Whether all of these grades say the same mistakes, in terms with none of the letters whose role is tried."""
+    causes = {tuple(sorted({f.cause for f in made.findings})) for made, _ in nearest}
+    added = {plain_name(body[name]) for _, bodies in nearest for body in bodies for name in ADDED if name in body}
+    terms = [f"{f.term} {f.found} {f.expected}" for made, _ in nearest for f in made.findings]
     used = {plain_name(word) for term in terms for word in NAME.findall(term)}
     return bool(terms) and len(causes) == 1 and not used & added
 
