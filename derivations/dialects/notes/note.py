@@ -25,7 +25,7 @@ from .entries import with_columns_apart, with_entries, with_points, without_argu
 from .letters import Names, alone, names_of, with_accents, with_bold_apart
 from .momentum_rates import with_momentum_rates
 from .partial import rows_of_partial
-from .points import of_squared_speeds, of_unknown_points
+from .points import of_squared_speeds, of_unknown_points, with_evident_accelerations
 from .products import apart, index_first, with_transposes
 from .sorting import ACCELERATION, Sorted, is_abstract, sorted_statements
 from .states import with_states
@@ -47,6 +47,7 @@ INITIAL = re.compile(  # θ(0) = θ_0
 HANGING = re.compile(
     r"^\s*[yY]\s*(?:_\s*(?:\{\s*\w{1,6}\s*\}|\w)|[0-9])?\s*=(?:\s*[-−][^=+−-]*\bcos(?![a-z])[^=+−-]*)+$"
 )
+STEP = re.compile(r"(?:\\Delta|[Δ∆])\s*\{?\s*t(?![A-Za-z])")  # of a numerical method, in which time goes on by Δt
 JOINED = re.compile(r"(?<!\\)\\\\(?=[A-Za-z])")  # a row's end at once before a letter
 DIFFERENCE = re.compile(
     r"(?:\\Delta|Δ|∆)\s*(?P<x>\\(?:var)?(?:theta|phi)(?![A-Za-z])|\\psi(?![A-Za-z])|[θϑφϕψ])(?:\s*_\s*(?:\{\s*(?P<i>\w{1,4})\s*\}|(?P<j>\w)))?"
@@ -68,7 +69,7 @@ def as_note(data: dict[str, Any], usual: list[dict[str, str]] | None = None) -> 
     passed: list[str] = []
     for kind in ENERGIES:
         if is_fit(made.get(kind)):
-            made = _with_energy(made, kind, names, new, steps)
+            made = _with_energy(made, kind, names, new, steps, passed)
     if is_fit_table(made):
         made = _with_equations(made, names, new, steps, passed)
     if not new and not steps and made == data:
@@ -113,13 +114,15 @@ def is_fit_table(data: Mapping[str, Any]) -> bool:
     return bool(rows_of(data))
 
 
-def _statements(text: str, names: Names) -> list[Statement]:
+def _statements(text: str, names: Names, passed: list[str]) -> list[Statement]:
+    """The equations of a text. ``passed``: to it, steps of a numerical method are added."""
     text = JOINED.sub(lambda m: f"{m[0]} ", _with_differences(text.translate(FULL_WIDTH), names))
     text = apart(index_first(plain_derivatives(text)), names)
     found: list[Statement] = []
     for formula in formulas_of(with_bold_apart(with_accents(text), names)):
         said = statements_of(formula.text)
-        said = [sides for sides in said if not _is_mention(sides)]
+        passed += [" = ".join(sides).strip() for sides in said if STEP.search(" ".join(sides))]
+        said = [sides for sides in said if not _is_mention(sides) and not STEP.search(" ".join(sides))]
         found += [s for s in said if not formula.inline or _is_said(s, names)]
     return [sides for sides in found if not (len(sides) == 2 and INITIAL.match(sides[0]))]
 
@@ -156,7 +159,7 @@ def _is_said(sides: Statement, names: Names) -> bool:
 
 
 def _with_energy(
-    data: dict[str, Any], kind: str, names: Names, new: dict[str, str], steps: dict[str, str]
+    data: dict[str, Any], kind: str, names: Names, new: dict[str, str], steps: dict[str, str], passed: list[str]
 ) -> dict[str, Any]:
     text = data[kind]
     try:
@@ -166,7 +169,7 @@ def _with_energy(
             text = IN_FONT.sub("ℒ ", text)
             if "ℒ" not in text and len(SAID_L.findall(text)) == 1:  # or in no font, where it is said with rates
                 text = SAID_L.sub("ℒ", text)
-        said = of_squared_speeds(with_points(by_rule(_statements(text, names)), names), names)
+        said = of_squared_speeds(with_points(by_rule(_statements(text, names, passed)), names), names)
         found: Energy = energy(kind, of_unknown_points(said, names), names)
     except InvalidInput as error:
         raise InvalidInput(f"{kind}: {error}") from None
@@ -192,10 +195,11 @@ def _with_equations(
     statements: list[Statement] = []
     for label, text in rows:
         try:
-            statements += _statements(text, names)
+            statements += _statements(text, names, passed)
         except InvalidInput as error:
             raise InvalidInput(f"equations.{label:.40}: {error}") from None
     try:
+        statements = with_evident_accelerations(statements, names)
         statements = with_transposes(with_columns_apart(dotted_columns(by_rule(statements), names), names), names)
         statements = with_momentum_rates(with_points(statements, names), names)
         statements = with_states(without_arguments(statements, names), names, _texts(data.get("define")))

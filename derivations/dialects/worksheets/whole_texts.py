@@ -7,6 +7,7 @@ import re
 from typing import Any
 
 from ....models.errors import InvalidInput
+from .marked_up import from_code, without_underlines
 
 ACCELERATION = re.compile(r"\\ddot|''|″|[¨\u0308]|dd|def |return")
 LAGRANGIAN = re.compile(r"(?<![A-Za-z])(?:L|\\math(?:cal|scr)\s*\{?\s*L\}?)\s*&?=")
@@ -29,6 +30,7 @@ def fields_of_text(text: str, suffix: str) -> dict[str, Any]:
     It is equations of motion, unless it has a Lagrangian and no acceleration.
     """
     text = text_of_notebook(text) if suffix.lower() == ".ipynb" else text_of_remarks(text, suffix.lower())
+    text = text if suffix.lower() in (*REMARK, ".tex") else from_code(without_underlines(text))
     alone = LAGRANGIAN.search(text) and not ACCELERATION.search(text)
     return {"lagrangian" if alone else "equations": text}
 

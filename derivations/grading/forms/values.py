@@ -36,5 +36,6 @@ def _is_none(space: Space, f: Formula, *, cut: bool) -> bool:
     if not moving and not turns:
         return True
     accelerations = {p for p in places if p < n}
-    is_value = not turns and len(places) == 1 and len(moving) == 1  # of one coordinate, its rate or its acceleration
+    # of one acceleration, made of lengths and masses: a name that looks like it, as \alpha of an inertia
+    is_value = not turns and len(moving) == 1 and 4 * n not in places
     return cut and (not accelerations or is_value)

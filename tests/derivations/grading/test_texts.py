@@ -1,6 +1,7 @@
 """Derivations as they are written, in no TOML file: LaTeX, plain text, programs; and such as name no mechanism."""
 
 import json
+import re
 
 import pytest
 
@@ -314,7 +315,7 @@ def test_a_height_that_is_said_besides_is_not_contradicted_by_what_is_assumed(tm
 @pytest.mark.parametrize(
     ("text", "system", "about"),
     [
-        (DRIVEN, "cart-pole", "a cart (x) with mass M, damping b, drive F; pole (theta) with mass m, length l, inertia"),
+        (DRIVEN, "cart-pole", "a cart (x) with mass M, damping b, drive F; pole (theta) with mass m, length l"),
         (NAMED, "cart-pole", "a cart (x) with mass m_c, drive f; pole (theta) with mass m_p, length l"),
         (DAMPED, "simple-pendulum", "a pendulum (theta) with mass m, length l, damping b"),
     ],
@@ -348,3 +349,42 @@ def test_it_is_wrong_where_a_term_without_these_letters_is_wrong_whatever_they_s
 def test_what_may_be_another_mechanism_than_its_letters_say_is_not_called_wrong(tmp_path, text, system):
     with pytest.raises(InvalidInput, match=r"not known here|the index c"):
         graded(tmp_path, "mine.md", text, system=system)
+
+
+# Shiki (1.10), (1.11) with what stands for θ₁ - θ₂, as pages write it.
+ROWS = """θ1'' = [ {}m2 g sinθ2 cosδ - m2 sinδ (L1 ω1² cosδ + L2 ω2²) - (m1+m2) g sinθ1 ] / [ L1 (m1 + m2 sin²δ) ]
+θ2'' = [ (m1+m2)( L1 ω1² sinδ + g sinθ1 cosδ - g sinθ2 ) + m2 L2 ω2² sinδ cosδ ] / [ L2 (m1 + m2 sin²δ) ]"""
+ALPHA = r"""
+\[ \alpha_1 = \frac{SIGN m_2 g \sin\theta_2\cos\delta - m_2\sin\delta (L_1\omega_1^2\cos\delta + L_2\omega_2^2) - (m_1+m_2) g\sin\theta_1}{L_1 (m_1+m_2\sin^2\delta)} \]
+\[ \alpha_2 = \frac{(m_1+m_2)(L_1\omega_1^2\sin\delta + g\sin\theta_1\cos\delta - g\sin\theta_2) + m_2 L_2\omega_2^2\sin\delta\cos\delta}{L_2 (m_1+m_2\sin^2\delta)} \]
+"""  # noqa: E501 -- as it stands
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "# The physics\n\nState `θ1, ω1, θ2, ω2`, angles from the vertical, `δ = θ1 - θ2`:\n\n```\nROWS\n```\n",
+        "Double pendulum. State: θ₁, ω₁ = θ̇₁, θ₂, ω₂ = θ̇₂\n\nδ = θ1 - θ2\n\nROWS\n",
+        "- `θ1, θ2` angles (from the vertical)\n- `ω1, ω2` the angular velocities\n\nwith $\\delta = "
+        "\\theta_1 - \\theta_2$\nALPHA"
+        "\n```text\nω_i^{t+Δt} = ω_i^t + α_i^t Δt\n```\n",
+        "Double pendulum\n===============\n\nWith :math:`\\delta = \\theta_1 - \\theta_2`:\nRST",
+        "$\\theta_1$ and $\\theta_2$ are the angles, $$m_1$$ and $$m_2$$ the masses, $\\delta = "
+        "\\theta_1 - \\theta_2$.\nDDOT",
+    ],
+    ids=["fence", "unicode", "alpha", "rst", "letters"],
+)  # fmt: skip
+def test_letters_and_lists_among_words_are_no_rows(tmp_path, text):
+    for sign, verdict in (("", "correct"), ("-", "wrong")):
+        alpha = ALPHA.replace("SIGN", sign)
+        ddot = alpha.replace(r"\alpha", r"\ddot\theta").replace(r"\omega", r"\dot\theta")
+        rst = re.sub(r"\\\[ (.*) \\\]", r"\n.. math::\n    \1\n", ddot)
+        whole = text.replace("ROWS", ROWS.format(sign)).replace("ALPHA", alpha)
+        whole = whole.replace("DDOT", ddot).replace("RST", rst)
+        assert graded(tmp_path, "mine.md", whole, system="double-pendulum").verdict == verdict
+
+
+def test_names_in_greek_are_accelerations_only_where_nothing_else_is(tmp_path):
+    inertias = r"$$\alpha_1 = (m_1+m_2) l_1^2$$ and $$\alpha_2 = m_2 l_2^2$$"
+    with pytest.raises(InvalidInput, match="no equation of motion"):
+        graded(tmp_path, "mine.md", inertias, system="double-pendulum")
