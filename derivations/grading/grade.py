@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
+import re
 import time
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -19,10 +20,12 @@ from ..reading.submission import LARGEST_FILE, Submission, fields_of, is_toml, t
 from ..steps.families import family
 from .differences import row_differences
 from .forms.hamilton import scale_note
+from .forms.named import is_own, is_text, is_told_apart
 from .forms.stages import StageJudge
 from .forms.units import units_notes
 from .forms.unnamed import is_unnamed, joints_of, refusal, said_of, says_all, usual
 from .forms.usual.bodies import in_ones, said_of_bodies, usual_bodies
+from .forms.values import require_motion
 from .grade_record import Grade, Verdict
 from .hypotheses import Hypothesis, Said, hypotheses, merged
 from .judge import Judgement, judge
@@ -30,6 +33,8 @@ from .readback import readback
 from .wrong import if_as_declared, named_in_stages, wrong
 
 MOST_SECONDS = 1.0  # of the processor, in which usual mechanisms are tried, and then no more
+MOST_ROLES = 6  # of a text's letters, in which its mistakes are looked for
+MOST_PASSED = 4  # of what is passed over, as many are said
 MOST_NEAR = 2  # usual mechanisms that mistakes are looked for in, where a derivation does not say which it is about
 
 
@@ -64,11 +69,10 @@ def grade_fields(data: dict[str, Any], *, pinned: Pinned | None = None) -> Grade
         return _unnamed(data)
     try:
         return graded(_reader(data, pinned), pinned=pinned is not None)[0]
-    except InvalidInput:
-        found = _of_kind(data) if pinned is None else None
-        if found is None:
+    except InvalidInput as error:
+        if pinned is not None or joints_of(data) is None:
             raise
-        return found
+        return _named(data, error)
 
 
 def _reader(data: dict[str, Any], pinned: Pinned | None = None) -> Callable[[int], Submission]:
@@ -81,63 +85,97 @@ def _reader(data: dict[str, Any], pinned: Pinned | None = None) -> Callable[[int
     return read
 
 
+def _named(data: dict[str, Any], refused: InvalidInput) -> Grade:
+    """The grade for the mechanism that is named, with what a derivation's other letters stand for.
+
+    Raises ``refused``, what the plain mechanism lacks, where it is right for none of these. A text is wrong where it is
+    so for all of them alike.
+    """
+    joints = joints_of(data)
+    bare = {key: value for key, value in data.items() if key not in ("system", "links")}
+    tried = _tried(bare, (about for about in usual_bodies(bare)[1] if joints_of(about) == joints))
+    if tried.right is not None:
+        return tried.right
+    meant = next((why for why in tried.refused if "which is meant" in why), None)
+    if meant is not None:
+        raise InvalidInput(meant)
+    own = [(about, s) for about, s in tried.near if is_own(about["bodies"]) and _is_whole(s)]
+    if not own or not tried.all or not is_text(data):
+        raise refused
+    wrongs = [(_with_passed(_wrong(s, pinned=False), s), about["bodies"]) for about, s in own[:MOST_ROLES]]
+    fewest = min(len(made.findings) for made, _ in wrongs)
+    nearest = [(made, bodies) for made, bodies in wrongs if len(made.findings) == fewest]
+    if not is_told_apart(nearest):
+        raise refused
+    made, bodies = nearest[0]
+    return _about(made, said_of_bodies(bodies))
+
+
+def _about(made: Grade, said: Said) -> Grade:
+    """The grade with the mechanism that it is about, as what it rests on."""
+    return replace(made, assumes=(said[0], *made.assumes), assumes_ja=(said[1], *made.assumes_ja))
+
+
 def _unnamed(data: dict[str, Any]) -> Grade:
     """The grade for the usual mechanism that the derivation is right for. Raises InvalidInput where that is none."""
-    fitting: list[tuple[str, Submission]] = []
-    refused: list[str] = []
     counts, in_its_letters = usual_bodies(data)
     first_of_all, later = usual(counts)
-    found = _right_for(data, chain(first_of_all, in_its_letters, later), fitting, refused)
-    if found is not None:
-        return found
-    whole = [(name, s) for name, s in fitting if s.stages is not None or s.lagrangian or len(s.rows) == s.space.n]
-    wrongs = [(name, _wrong(s, pinned=False)) for name, s in whole[:MOST_NEAR]]
+    tried = _tried(data, chain(first_of_all, in_its_letters, later))
+    if tried.right is not None:
+        return tried.right
+    refused = tried.refused
+    wrongs: list[tuple[str, Grade]] = []
+    for about, s in [(about, s) for about, s in tried.near if "bodies" not in about and _is_whole(s)][:MOST_NEAR]:
+        try:
+            wrongs.append((about["system"], _wrong(s, pinned=False)))
+        except InvalidInput as error:
+            refused.append(str(error))
     name, nearest = min(wrongs, key=lambda one: len(one[1].findings), default=("", None))
     raise refusal(nearest, name, refused)
 
 
-def _of_kind(data: dict[str, Any]) -> Grade | None:
-    """The grade of a derivation that is right for its usual mechanism in letters of its own; None where it is not."""
-    joints = joints_of(data)
-    if joints is None:
-        return None
-    bare = {name: value for name, value in data.items() if name not in ("system", "links")}
-    _, in_its_letters = usual_bodies(bare)
-    return _right_for(bare, (about for about in in_its_letters if joints_of(about) == joints), [], [])
+@dataclass
+class _Tried:
+    """Mechanisms that a derivation may be about: the grade for the one that it is right for, those that it can be read
+    for and is not right, why it cannot be read for others, and whether all were tried in good time."""
+
+    right: Grade | None = None
+    near: list[tuple[Mapping[str, Any], Submission]] = field(default_factory=list)
+    refused: list[str] = field(default_factory=list)
+    all: bool = True
 
 
-def _right_for(
-    data: dict[str, Any], abouts: Iterable[Mapping[str, Any]], fitting: list[tuple[str, Submission]],
-    refused: list[str],
-) -> Grade | None:  # fmt: skip
-    """The grade for the first of these mechanisms that it is right for; None where it is right for none in good time.
-
-    ``fitting``, ``refused``: filled with those that it can be read for, by name, and with why others cannot be.
-    """
-    found: list[tuple[int, Grade, Said]] = []
+def _tried(data: dict[str, Any], abouts: Iterable[Mapping[str, Any]]) -> _Tried:
+    """Try them, one after the other, to the first for which the derivation is right without a condition."""
+    tried = _Tried()
+    found: list[tuple[int, Grade]] = []
     started = time.process_time()
     for about in abouts:
         if time.process_time() - started > MOST_SECONDS:
+            tried.all = False
             break
         read = _reader({**data, **about})
         try:
             first = read(0)
             right = _if_right(read, first, pinned=False) if says_all(first, data) else None
         except InvalidInput as error:
-            refused.append(str(error))
+            tried.refused.append(str(error))
             continue
-        if right is None and "bodies" not in about:
-            fitting.append((about["system"], first))
-        elif right is not None and right[0].verdict == "correct":
-            said = said_of_bodies(about["bodies"]) if "bodies" in about else said_of(right[0])
-            conditions = len(right[0].assumes) + in_ones(about)
-            found.append((conditions, right[0], said))
+        if right is None:
+            tried.near.append((about, first))
+        elif right[0].verdict == "correct":
+            made = _with_passed(*right)
+            said = said_of_bodies(about["bodies"]) if "bodies" in about else said_of(made)
+            conditions = len(made.assumes) + in_ones(about)
+            found.append((conditions, _about(made, said)))
             if not conditions:
                 break
-    if not found:
-        return None
-    _, best, (said_en, said_ja) = min(found, key=lambda one: one[0])
-    return replace(best, assumes=(said_en, *best.assumes), assumes_ja=(said_ja, *best.assumes_ja))
+    tried.right = min(found, key=lambda one: one[0])[1] if found else None
+    return tried
+
+
+def _is_whole(s: Submission) -> bool:
+    return s.stages is not None or s.lagrangian is not None or len(s.rows) == s.space.n
 
 
 def graded(read: Callable[[int], Submission], *, pinned: bool) -> tuple[Grade, Submission]:
@@ -147,7 +185,21 @@ def graded(read: Callable[[int], Submission], *, pinned: bool) -> tuple[Grade, S
     """
     first = read(0)
     found = _if_right(read, first, pinned=pinned)
-    return found if found is not None else (_wrong(first, pinned=pinned), first)
+    made, s = found if found is not None else (_wrong(first, pinned=pinned), first)
+    return _with_passed(made, s), s
+
+
+def _with_passed(made: Grade, s: Submission) -> Grade:
+    """The grade with what was said besides, and is no part of it."""
+    if not s.passed:
+        return made
+    said = "; ".join(re.sub(r"\s+", " ", one)[:60] for one in s.passed[:MOST_PASSED])
+    more = len(s.passed) - MOST_PASSED
+    rest, rest_ja = (f"; and {more} more", f" ほか{more}件") if more > 0 else ("", "")
+    return replace(
+        made, notes=(*made.notes, f"Passed over, as no equation of motion needs it: {said}{rest}"),
+        notes_ja=(*made.notes_ja, f"運動方程式に使われないため読み飛ばしたもの：{said}{rest_ja}"),
+    )  # fmt: skip
 
 
 def _if_right(read: Callable[[int], Submission], first: Submission, *, pinned: bool) -> tuple[Grade, Submission] | None:
@@ -163,6 +215,11 @@ def _if_right(read: Callable[[int], Submission], first: Submission, *, pinned: b
     if not right:
         return None
     s, judgement = min(right, key=lambda pair: len(pair[1].assumes))
+    if s.hanging and judgement.hypothesis is not None and judgement.hypothesis.convention.origin != "down":
+        raise InvalidInput(
+            f"the equations are right if {judgement.hypothesis.convention.words}, and a height that is said besides is "
+            'lowest where the angle is zero: which is meant? Say from = "up" or "down", or leave the height out'
+        )
     return _right(s, judgement, slashes=s is not first, pinned=pinned), s
 
 
@@ -181,6 +238,7 @@ def _if_stages_right(
 
 def _wrong(s: Submission, *, pinned: bool) -> Grade:
     """What is wrong, in the declared meaning: of stages the first, else terms and mistakes."""
+    require_motion(s)
     if s.stages is None:
         return wrong(s, pinned=pinned)
     h = next(hypotheses(s, pinned=True))

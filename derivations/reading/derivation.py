@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from contextlib import suppress
+from dataclasses import replace
 from typing import Any
 from unicodedata import normalize
 
@@ -26,6 +27,7 @@ from ..dialects.letters.left_sides import without_left_sides
 from ..dialects.letters.members import without_low_lines, without_owners, without_pointers
 from ..dialects.letters.odd_waves import with_odd_waves
 from ..dialects.letters.said_motions import with_said_motions
+from ..dialects.letters.said_zeros import with_said_zeros
 from ..dialects.letters.time_names import with_one_time
 from ..dialects.markup.asciimath import without_ticks
 from ..dialects.markup.environments import plain_environments
@@ -49,7 +51,7 @@ from .declaration import PRESETS, WORDS
 from .forces import constraint_forces
 from .forms.hamilton import read_hamilton
 from .forms.stages import is_staged, read_stages
-from .submission import Submission, known_fields, opened, read_fields
+from .submission import Reader, Submission, known_fields, opened, read_fields
 
 MOST_POSITIONS, MOST_NAMED = 16, 8
 SUM_BELOW = "a sum in a denominator"
@@ -65,7 +67,12 @@ def read_derivation(data: dict[str, Any], slashes: int = 0) -> Submission:
     Raises InvalidInput, with the place, where it is none.
     """
     known_fields(data)
-    data = without_owners(with_one_time(_of_one_text(data)))
+    return replace(_read(data, slashes), cut=isinstance(data.get("equations"), str))
+
+
+def _read(data: dict[str, Any], slashes: int) -> Submission:
+    """Read a derivation whose fields are known."""
+    data = with_said_zeros(without_owners(with_one_time(_of_one_text(data))))
     data = with_said_motions(
         named_apart(plain_macros(plainly_printed(plain_environments(without_ticks(unwrapped(without_pointers(data)))))))
     )
@@ -204,6 +211,11 @@ def _meant(data: dict[str, Any], constants: list[str], count: int, slashes: int)
     forces = constraint_forces(data, count)
     reader = opened(data, slashes, [*constants, *forces], forces=forces)
     reader.hold(data.get("steps", {}))
+    return replace(_read_form(data, reader), passed=tuple(data.get("passed", ())), hanging=bool(data.get("hanging")))
+
+
+def _read_form(data: dict[str, Any], reader: Reader) -> Submission:
+    """Stages, a Hamiltonian, equations or a Lagrangian."""
     if is_staged(data, reader.evaluation.space.n):
         return read_stages(data, reader)
     if "hamiltonian" in data or (reader.variable is not None and reader.variable.kind == "momentum"):

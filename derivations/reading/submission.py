@@ -32,7 +32,6 @@ from .momenta import Variable, has_momenta, variable, with_variable
 from .motion.convention import convention_of
 from .motion.given_motion import rows_of_lagrangian
 from .motion.joint_forces import bodies_of
-from .motion.moving import require_motion
 from .motion.repeated import stated_once
 from .nodes import Symbol
 from .parser import Slashes, parse_equation, parse_expression
@@ -78,6 +77,9 @@ class Submission:
     first_order: FirstOrder | None = None  # a Hamiltonian, or equations with momenta, as they were written
     stages: Stages | None = None  # a derivation stated stage by stage; then there is nothing else
     weight: Formula | None = None  # what g is said to be: 0 where it lies flat, a number, ω_0²
+    cut: bool = False  # whether its rows were cut out of one text
+    hanging: bool = False  # whether a height that is passed over is lowest where the angle is zero
+    passed: tuple[str, ...] = ()  # what a note says besides, of which the verdict takes no notice
 
     @property
     def relative(self) -> bool:
@@ -158,7 +160,6 @@ def read_fields(data: dict[str, Any], reader: Reader) -> Submission:
     if has_equations == ("lagrangian" in data):
         raise InvalidInput('give either [equations], one row each, or lagrangian = "…"')
     rows = reader.rows(data["equations"]) if has_equations else ()
-    require_motion(reader.evaluation.space, rows if reader.variable is None else ())
     lagrangian = None if has_equations else reader.lagrangian(data["lagrangian"])
     if lagrangian is not None and "moved" in data:
         return reader.submission(rows_of_lagrangian(reader, lagrangian, data["moved"]), None)

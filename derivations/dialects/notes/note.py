@@ -10,7 +10,6 @@ from typing import Any
 from ....models.errors import InvalidInput
 from ..letters.every_text import is_fit, lines_of, rows_of
 from ..letters.indices import plain_indices
-from ..letters.origins import with_origin
 from ..lines import FULL_WIDTH
 from ..markup.prose import is_whole
 from ..names import plain_name
@@ -26,7 +25,7 @@ from .entries import with_columns_apart, with_entries, with_points, without_argu
 from .letters import Names, alone, names_of, with_accents, with_bold_apart
 from .momentum_rates import with_momentum_rates
 from .partial import rows_of_partial
-from .points import of_squared_speeds, of_unknown_points
+from .points import of_squared_speeds, of_unknown_points, with_evident_accelerations
 from .products import apart, index_first, with_transposes
 from .sorting import ACCELERATION, Sorted, is_abstract, sorted_statements
 from .states import with_states
@@ -44,6 +43,11 @@ WORDED = re.compile(
 INITIAL = re.compile(  # θ(0) = θ_0
     r"^\s*(?:\\dot\s*)?\{?\s*\\?[^\W\d_]+[\u0307]?\s*(?:_\s*(?:\{\w{1,4}\}|\w)|[₀-₉]|[0-9])?\s*\}?(?:_\w|_\{\w\})?['′]{0,2}\s*(?:\\left\s*)?\(\s*(?:t\s*=\s*)?0\s*(?:\\right\s*)?\)\s*$"
 )
+# A height that is lowest at the angle's zero, y_p = -l cos θ, of a body that the reader does not know by that name
+HANGING = re.compile(
+    r"^\s*[yY]\s*(?:_\s*(?:\{\s*\w{1,6}\s*\}|\w)|[0-9])?\s*=(?:\s*[-−][^=+−-]*\bcos(?![a-z])[^=+−-]*)+$"
+)
+STEP = re.compile(r"(?:\\Delta|[Δ∆])\s*\{?\s*t(?![A-Za-z])")  # of a numerical method, in which time goes on by Δt
 JOINED = re.compile(r"(?<!\\)\\\\(?=[A-Za-z])")  # a row's end at once before a letter
 DIFFERENCE = re.compile(
     r"(?:\\Delta|Δ|∆)\s*(?P<x>\\(?:var)?(?:theta|phi)(?![A-Za-z])|\\psi(?![A-Za-z])|[θϑφϕψ])(?:\s*_\s*(?:\{\s*(?P<i>\w{1,4})\s*\}|(?P<j>\w)))?"
@@ -60,14 +64,14 @@ def as_note(data: dict[str, Any], usual: list[dict[str, str]] | None = None) -> 
     names = names_of({**made, "bodies": usual} if usual else made)
     if not names.coordinates or any(is_program(text) or "Symbol(" in text for _, text in rows_of(made)):
         return made if made != data else None
-    made = with_origin(made, names.coordinates)
     new: dict[str, str] = {}
     steps: dict[str, str] = {}
+    passed: list[str] = []
     for kind in ENERGIES:
         if is_fit(made.get(kind)):
-            made = _with_energy(made, kind, names, new, steps)
+            made = _with_energy(made, kind, names, new, steps, passed)
     if is_fit_table(made):
-        made = _with_equations(made, names, new, steps)
+        made = _with_equations(made, names, new, steps, passed)
     if not new and not steps and made == data:
         return None
     define = made.get("define", {})
@@ -80,7 +84,11 @@ def as_note(data: dict[str, Any], usual: list[dict[str, str]] | None = None) -> 
                 "the names that are said need each other in a circle; write the equations with these put in"
             )
         made = made | {"define": {**define, **ordered}}
-    return made | ({"steps": steps} if steps else {})
+    return (
+        made
+        | ({"steps": steps} if steps else {})
+        | ({"passed": [*data.get("passed", ()), *dict.fromkeys(passed)]} if passed else {})
+    )
 
 
 def is_worded(data: Mapping[str, Any]) -> bool:
@@ -106,14 +114,22 @@ def is_fit_table(data: Mapping[str, Any]) -> bool:
     return bool(rows_of(data))
 
 
-def _statements(text: str, names: Names) -> list[Statement]:
+def _statements(text: str, names: Names, passed: list[str]) -> list[Statement]:
+    """The equations of a text. ``passed``: to it, steps of a numerical method are added."""
     text = JOINED.sub(lambda m: f"{m[0]} ", _with_differences(text.translate(FULL_WIDTH), names))
     text = apart(index_first(plain_derivatives(text)), names)
     found: list[Statement] = []
     for formula in formulas_of(with_bold_apart(with_accents(text), names)):
         said = statements_of(formula.text)
+        passed += [" = ".join(sides).strip() for sides in said if STEP.search(" ".join(sides))]
+        said = [sides for sides in said if not _is_mention(sides) and not STEP.search(" ".join(sides))]
         found += [s for s in said if not formula.inline or _is_said(s, names)]
     return [sides for sides in found if not (len(sides) == 2 and INITIAL.match(sides[0]))]
+
+
+def _is_mention(sides: Statement) -> bool:
+    """Whether it is a letter alone, which a sentence is about."""
+    return len(sides) == 1 and alone(sides[0]) is not None
 
 
 def _with_differences(text: str, names: Names) -> str:
@@ -143,7 +159,7 @@ def _is_said(sides: Statement, names: Names) -> bool:
 
 
 def _with_energy(
-    data: dict[str, Any], kind: str, names: Names, new: dict[str, str], steps: dict[str, str]
+    data: dict[str, Any], kind: str, names: Names, new: dict[str, str], steps: dict[str, str], passed: list[str]
 ) -> dict[str, Any]:
     text = data[kind]
     try:
@@ -153,7 +169,7 @@ def _with_energy(
             text = IN_FONT.sub("ℒ ", text)
             if "ℒ" not in text and len(SAID_L.findall(text)) == 1:  # or in no font, where it is said with rates
                 text = SAID_L.sub("ℒ", text)
-        said = of_squared_speeds(with_points(by_rule(_statements(text, names)), names), names)
+        said = of_squared_speeds(with_points(by_rule(_statements(text, names, passed)), names), names)
         found: Energy = energy(kind, of_unknown_points(said, names), names)
     except InvalidInput as error:
         raise InvalidInput(f"{kind}: {error}") from None
@@ -172,15 +188,18 @@ def _with_energy(
     return made
 
 
-def _with_equations(data: dict[str, Any], names: Names, new: dict[str, str], steps: dict[str, str]) -> dict[str, Any]:
+def _with_equations(
+    data: dict[str, Any], names: Names, new: dict[str, str], steps: dict[str, str], passed: list[str]
+) -> dict[str, Any]:
     rows = rows_of(data)
     statements: list[Statement] = []
     for label, text in rows:
         try:
-            statements += _statements(text, names)
+            statements += _statements(text, names, passed)
         except InvalidInput as error:
             raise InvalidInput(f"equations.{label:.40}: {error}") from None
     try:
+        statements = with_evident_accelerations(statements, names)
         statements = with_transposes(with_columns_apart(dotted_columns(by_rule(statements), names), names), names)
         statements = with_momentum_rates(with_points(statements, names), names)
         statements = with_states(without_arguments(statements, names), names, _texts(data.get("define")))
@@ -200,6 +219,8 @@ def _with_equations(data: dict[str, Any], names: Names, new: dict[str, str], ste
             f"equations: {len(found.rows)} equations of motion are found among the words; give them alone"
         )
     new |= found.defined
+    passed += found.passed
+    hanging = any(HANGING.match(one[:400]) for one in found.passed)
     if any(ACCELERATION.search(row) for row in found.rows):
         pass
     elif re.search(r"\\omega|ω", " ".join(found.rows)):
@@ -214,4 +235,5 @@ def _with_equations(data: dict[str, Any], names: Names, new: dict[str, str], ste
     clash = next((stage for stage in found.stages if stage in data), None)
     if clash:
         raise InvalidInput(f"{clash}: it is said in [equations] as well; leave one of the two out")
-    return {**data, **found.stages, "equations": dict(zip(labels, found.rows, strict=True))}
+    made = {**data, **found.stages, "equations": dict(zip(labels, found.rows, strict=True))}
+    return made | ({"hanging": True} if hanging else {})

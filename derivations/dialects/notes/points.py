@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from ....models.errors import InvalidInput
 from ..names import GREEK, plain_name, spelling
 from .displays import Statement
-from .letters import NAME, Names, alone, used, written_alone
+from .letters import NAME, Names, alone, spelled, used, written_alone
 
 _DOT = rf"\\(?P<dots>d?dot)\s*(?:\{{\s*(?P<a>{NAME})\s*\}}|(?P<b>\\[A-Za-z]+|[A-Za-z]))\s*(?P<i>_\s*(?:\{{\s*\w{{1,6}}\s*\}}|\w))?"
 DERIVED = re.compile(rf"^\s*(?:{_DOT}|(?P<c>{NAME})(?P<primes>'{{1,2}}|\u0307|\u0308))\s*(?:[(\[]\s*t\s*[)\]])?\s*$")
@@ -54,6 +54,32 @@ def of_unknown_points(statements: Sequence[Statement], names: Names) -> list[Sta
         taken.add(letter + of[0])
         changes[pattern.pattern] = pattern, f" {letter}_{{{of[0]}}} "
     return [tuple(_replaced(side, changes.values()) for side in sides) for sides in statements]
+
+
+MOVED = re.compile(r"\\ddot|''|″|\u0308|\\dot\s*\{?\s*\\?omega|ω\u0307|\\[dt]?frac\s*\{\s*(?:\\mathrm\s*\{?\s*)?d")
+TURNS = re.compile(r"\\?(?:sin|cos)(?![a-z])")
+
+
+def with_evident_accelerations(statements: Sequence[Statement], names: Names) -> list[Statement]:
+    r"""The statements with \ddot θ_1 for α_1, where each angle's is said and no acceleration is written otherwise."""
+    own = {"alpha" + c.removeprefix(word): c for c in names.coordinates for word in ("theta", "phi", "varphi", "psi")
+           if c.startswith(word)}  # fmt: skip
+    said = {name: " ".join(sides[1:]) for sides in statements if (name := alone(sides[0])) in own}
+    texts = [side for sides in statements for side in sides]
+    if (
+        len(own) < len(names.coordinates) or said.keys() != own.keys() or own.keys() & names.all
+        or names.relative or any(MOVED.search(text) for text in texts)
+        or not all(TURNS.search(value) for value in said.values())
+    ):  # fmt: skip
+        return list(statements)
+    changes = [(re.compile(spelling(name).pattern), f" \\ddot{{{spelled(c)}}} ") for name, c in own.items()]
+    return [tuple(_in_words(side, changes) for side in sides) for sides in statements]
+
+
+def _in_words(text: str, changes: Sequence[tuple[re.Pattern[str], str]]) -> str:
+    for pattern, new in changes:
+        text = pattern.sub(lambda _, new=new: new, text)  # type: ignore[misc]
+    return text
 
 
 _SQUARED = r"[^=()+−*/-]{1,40}(?:\^\s*(?:\{\s*2\s*\}|2)|²)"

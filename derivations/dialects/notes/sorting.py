@@ -35,6 +35,7 @@ class Sorted:
     steps: list[tuple[str, str]] = field(default_factory=list)
     partial: list[Statement] = field(default_factory=list)  # what a derivative of the Lagrangian is
     stages: dict[str, Any] = field(default_factory=dict)  # positions and energies that no row needs
+    passed: list[str] = field(default_factory=list)  # what names are said to be that nothing needs
 
 
 def sorted_statements(statements: Sequence[Statement], names: Names) -> Sorted:
@@ -55,7 +56,18 @@ def sorted_statements(statements: Sequence[Statement], names: Names) -> Sorted:
             sorter.found.steps += pairwise(sides)
         else:
             _sort_row(sides, sorter.found)
+    _require_rows(sorter.found, names)
     return sorter.found
+
+
+def _require_rows(found: Sorted, names: Names) -> None:
+    """Raises InvalidInput where something is passed over and rows are missing: it may be meant as one."""
+    whole = len(found.rows) >= len(names.coordinates) or any(MATRIX.search(row) for row in found.rows)
+    if found.passed and not whole and not found.partial:
+        raise InvalidInput(
+            f"{found.passed[0].partition(' = ')[0][:30]} = … is said, and no equation needs it: leave it out, or give it "
+            "in a field of its own (positions, kinetic, potential, lagrangian)"
+        )
 
 
 class _Sorter:
@@ -111,7 +123,7 @@ class _Sorter:
                 del self.values[name]
 
     def definitions(self) -> None:
-        """What names are, those that equations or stages need. Raises InvalidInput where nothing needs one."""
+        """What names are, those that equations or stages need; others are passed over."""
         # a law of derivatives of L needs no L: what L is said to be is judged as a stage
         texts = [side for sides in self.left for side in sides if not PARTIAL.search(side)]
         needed = _needed(texts, self.values)
@@ -124,10 +136,8 @@ class _Sorter:
                 is_abbreviation(name, side, self.names) or _is_beside(name, side, needed | below, self.names)
                 for side in sides
             ):
-                raise InvalidInput(
-                    f"{written[:30]} = … is said, and no equation needs it: leave it out, or give it in a field of its "
-                    "own (positions, kinetic, potential, lagrangian)"
-                )
+                self.found.passed.append(" = ".join((written, *sides)))
+                continue
             if name in stages:
                 _put_stage(name, sides, self.found)
             known = set(self.values)

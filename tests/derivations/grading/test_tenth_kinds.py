@@ -94,9 +94,9 @@ def rhs(t, y):
 
 @pytest.mark.parametrize("row", ["m = 0.2", "0 = 1", "l^2 = 4 m/g"])
 def test_a_row_in_which_nothing_moves_is_no_wrong_equation_of_motion(row):
-    with pytest.raises(InvalidInput, match=r"equations\.1: nothing that moves is in it"):
+    with pytest.raises(InvalidInput, match="no equation of motion"):
         grade_fields({"system": "simple-pendulum", "equations": {"1": row}})
-    with pytest.raises(InvalidInput, match="nothing that moves is in it"):
+    with pytest.raises(InvalidInput, match="no equation of motion"):
         grade_fields({"system": "simple-pendulum", "equations": [f"{row};"]})
 
 

@@ -1,6 +1,7 @@
 """Derivations as they are written, in no TOML file: LaTeX, plain text, programs; and such as name no mechanism."""
 
 import json
+import re
 
 import pytest
 
@@ -261,5 +262,212 @@ def test_a_mechanism_that_is_named_may_have_other_letters_and_what_else_the_text
         InvalidInput, match="the index c is not a number"
     ):  # and no other mechanism than the one that is named
         graded(tmp_path, "mine.md", CART_OF_OTHER_LETTERS, system="double-pendulum")
-    with pytest.raises(InvalidInput, match="is not known here"):  # nor is a slip called wrong: which letter is which?
-        graded(tmp_path, "mine.md", CART_OF_OTHER_LETTERS.replace("+ g", "- 2 g"), system="cart-pole")
+    slip = CART_OF_OTHER_LETTERS.replace("+ g", "- 2 g")  # in a term that has none of the letters whose role is tried
+    assert graded(tmp_path, "mine.md", slip, system="cart-pole").verdict == "wrong"
+    with pytest.raises(InvalidInput, match="is not known here"):  # in one that has, which letter is which?
+        graded(tmp_path, "mine.md", CART_OF_OTHER_LETTERS.replace("+ b", "- b"), system="cart-pole")
+
+
+CELL = r"""%% Inverted pendulum
+% $$ (M+m)\ddot{x} + m l\ddot\theta\cos\theta - m l\dot\theta^2\sin\theta = 0 $$
+%
+% $$ l\ddot\theta + \ddot x\cos\theta + g\sin\theta = 0 $$
+M = 0.5;
+m = 0.2;
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "system"),
+    [
+        ("cell.m", CELL, "cart-pole"),
+        ("remark.py", "# theta_ddot = -g/l*sin(theta)\nm = 0.2\n", "simple-pendulum"),
+        ("docstring.py", '"""theta_ddot = -g/l*sin(theta)"""\nm = 0.2\nl = 1.0\n', "simple-pendulum"),
+        ("remark.jl", "# θ̈ = -g/l*sin(θ)\nm = 0.2\n", "simple-pendulum"),
+        ("remark.c", "// theta_ddot = -g/l*sin(theta)\ndouble m = 0.2;\n", "simple-pendulum"),
+    ],
+)
+def test_equations_in_the_remarks_of_a_program_without_any_are_what_it_states(tmp_path, name, text, system):
+    assert graded(tmp_path, name, text, system=system).verdict == "correct"
+    wrong = text.replace("-g/l", "g/(2*l)").replace("- m l", "+ m l")
+    assert graded(tmp_path, name, wrong, system=system).verdict == "wrong"
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "system"),
+    [
+        ("only.m", "% the pendulum\nm = 0.2;\n", "cart-pole"),
+        ("only.py", "m1 = 1.0\nm2 = 1.0\n", "double-pendulum"),
+        ("only.txt", "m = 0.2", "simple-pendulum"),
+        ("only.md", "$$m = 0.2$$\n\n$$M = 1$$", "cart-pole"),
+        ("only.txt", "x = 0.1\ntheta = 0.2", "cart-pole"),
+        ("only.py", "theta_ddot = 0\n", "simple-pendulum"),
+        ("hidden.tex", "% l\\ddot\\theta + g\\sin\\theta = 0\n$m = 0.2$", "simple-pendulum"),
+        ("beside.txt", "l1 t1'' + g sin t1 = 0\nm1 = 0.2", "double-pendulum"),
+    ],
+)
+def test_what_a_quantity_is_set_to_is_no_row_and_no_derivation_is_wrong_for_it(tmp_path, name, text, system):
+    with pytest.raises(InvalidInput, match="no equation of motion"):
+        graded(tmp_path, name, text, system=system)
+    if name != "beside.txt":
+        with pytest.raises(InvalidInput, match="which mechanism it is about is not said"):
+            graded(tmp_path, name, text)
+
+
+def test_a_value_beside_a_row_is_passed_over_where_the_mechanism_is_not_named(tmp_path):
+    found = graded(tmp_path, "beside.txt", "l1 t1'' + g sin t1 = 0\nm1 = 0.2")
+    assert found.verdict == "correct"
+    assert any("m1 = 0.2" in note for note in found.notes)
+
+
+def test_a_row_of_constants_alone_is_none_in_a_file_with_fields_either():
+    with pytest.raises(InvalidInput, match="'m = 1/5' is a value"):
+        grade_text({"system": "simple-pendulum", "equations": {"1": "m = 0.2"}})
+
+
+ZERO = r"""
+{}
+
+$$(M+m)\ddot{{x}} + m l\ddot\theta\cos\theta - m l\dot\theta^2\sin\theta = 0$$
+
+$$l\ddot\theta + \ddot x\cos\theta {} g\sin\theta = 0$$
+"""  # Lagrange's equations with x_m = x + l sin θ: +, where θ is from below, and -, from above
+
+
+@pytest.mark.parametrize(
+    ("sentence", "sign"),
+    [
+        (r"$\theta = 0$ is upright.", "-"),
+        (r"In this convention, $\theta=0$ corresponds to hanging down.", "+"),
+        (r"where \(\theta = 0\) is the vertical upright position, clockwise positive", "-"),
+        ("`θ = 0` means the pole points straight down.", "+"),
+        (r"$\theta = \pi$ is upright", "+"),
+        (r"$\theta = 0$ 表示摆杆竖直向下。", "+"),
+        (r"The upright position ($\theta = 0$) is unstable.", "-"),
+    ],
+)
+def test_a_sentence_says_where_an_angle_is_zero(tmp_path, sentence, sign):
+    """And then nothing else is taken to be meant."""
+    right = graded(tmp_path, "cart.md", ZERO.format(sentence, sign), system="cart-pole")
+    assert right.verdict == "correct"
+    assert not any("vertical" in said and "clockwise" not in said for said in right.assumes)
+    other = {"+": "-", "-": "+"}[sign]
+    assert graded(tmp_path, "cart.md", ZERO.format(sentence, other), system="cart-pole").verdict == "wrong"
+
+
+@pytest.mark.parametrize(
+    "sentence",
+    [
+        r"The equilibrium is $\theta = 0$.",
+        r"$\theta = 0$ is where it falls down from upright.",
+        r"$\theta = 0$ is the reference.",
+        r"$\theta = 0$ is not upright.",
+    ],
+)
+def test_a_sentence_that_does_not_say_it_plainly_decides_nothing(tmp_path, sentence):
+    for sign in "+-":
+        text = ZERO.format(sentence, sign)
+        if "not" in sentence:  # a sentence that denies something is asked about
+            with pytest.raises(InvalidInput, match="not"):
+                graded(tmp_path, "cart.md", text, system="cart-pole")
+            continue
+        found = graded(tmp_path, "cart.md", text, system="cart-pole")
+        assert found.verdict == "correct"
+        assert any("theta = 0" in note for note in found.notes)
+
+
+@pytest.mark.parametrize("sentence", [r"For $\theta = 0$ upright:", r"If $\theta = 0$ is upright, then"])
+def test_what_may_be_a_condition_is_asked_about(tmp_path, sentence):
+    with pytest.raises(InvalidInput, match="what a coordinate is"):
+        graded(tmp_path, "cart.md", ZERO.format(sentence, "+"), system="cart-pole")
+
+
+def test_a_height_that_is_said_besides_is_not_contradicted_by_what_is_assumed(tmp_path):
+    said = "$$y_p = -l\\cos\\theta$$"
+    assert graded(tmp_path, "cart.md", ZERO.format(said, "+"), system="cart-pole").verdict == "correct"
+    with pytest.raises(InvalidInput, match="which is meant"):
+        graded(tmp_path, "cart.md", ZERO.format(said, "-"), system="cart-pole")
+    said = "$$y_p = l\\cos\\theta$$"
+    assert graded(tmp_path, "cart.md", ZERO.format(said, "-"), system="cart-pole").verdict == "correct"
+
+
+@pytest.mark.parametrize(
+    ("text", "system", "about"),
+    [
+        (
+            DRIVEN,
+            "cart-pole",
+            "a cart (x, to the right) with mass M, damping b, drive F; pole (theta) with mass m, length l",
+        ),
+        (NAMED, "cart-pole", "a cart (x, to the right) with mass m_c, drive f; pole (theta) with mass m_p, length l"),
+        (DAMPED, "simple-pendulum", "a pendulum (theta) with mass m, length l, damping b"),
+    ],
+)
+def test_a_named_mechanism_may_have_the_letters_of_a_force_a_loss_and_an_inertia(tmp_path, text, system, about):
+    """It is right for that, and every letter is said; what the plain mechanism is right for is as before."""
+    found = graded(tmp_path, "mine.md", text, system=system)
+    assert found.verdict == "correct"
+    assert found.assumes[0].startswith(f"it is about {about}")
+
+
+def test_it_is_wrong_where_a_term_without_these_letters_is_wrong_whatever_they_stand_for(tmp_path):
+    found = graded(tmp_path, "mine.md", NAMED.replace("- m_p l theta'^2", "+ m_p l theta'^2"), system="cart-pole")
+    assert found.verdict == "wrong"
+    assert found.assumes[0].startswith("it is about a cart (x, to the right) with mass m_c, drive f")
+    (only,) = found.findings
+    assert only.cause == "sign"
+
+
+@pytest.mark.parametrize(
+    ("text", "system"),
+    [
+        (DRIVEN.replace("+b", "-b"), "cart-pole"),
+        (DRIVEN.replace("=F", "=-2F"), "cart-pole"),
+        (DRIVEN.replace("(I+ml^2)", "(I-ml^2)"), "cart-pole"),
+        (DAMPED.replace("l^2", "l"), "simple-pendulum"),
+        (NAMED, "simple-pendulum"),  # another mechanism's name
+        (DRIVEN.replace("F", "F + K"), "cart-pole"),
+    ],
+)
+def test_what_may_be_another_mechanism_than_its_letters_say_is_not_called_wrong(tmp_path, text, system):
+    with pytest.raises(InvalidInput, match=r"not known here|the index c"):
+        graded(tmp_path, "mine.md", text, system=system)
+
+
+# Shiki (1.10), (1.11) with what stands for θ₁ - θ₂, as pages write it.
+ROWS = """θ1'' = [ {}m2 g sinθ2 cosδ - m2 sinδ (L1 ω1² cosδ + L2 ω2²) - (m1+m2) g sinθ1 ] / [ L1 (m1 + m2 sin²δ) ]
+θ2'' = [ (m1+m2)( L1 ω1² sinδ + g sinθ1 cosδ - g sinθ2 ) + m2 L2 ω2² sinδ cosδ ] / [ L2 (m1 + m2 sin²δ) ]"""
+ALPHA = r"""
+\[ \alpha_1 = \frac{SIGN m_2 g \sin\theta_2\cos\delta - m_2\sin\delta (L_1\omega_1^2\cos\delta + L_2\omega_2^2) - (m_1+m_2) g\sin\theta_1}{L_1 (m_1+m_2\sin^2\delta)} \]
+\[ \alpha_2 = \frac{(m_1+m_2)(L_1\omega_1^2\sin\delta + g\sin\theta_1\cos\delta - g\sin\theta_2) + m_2 L_2\omega_2^2\sin\delta\cos\delta}{L_2 (m_1+m_2\sin^2\delta)} \]
+"""  # noqa: E501 -- as it stands
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "# The physics\n\nState `θ1, ω1, θ2, ω2`, angles from the vertical, `δ = θ1 - θ2`:\n\n```\nROWS\n```\n",
+        "Double pendulum. State: θ₁, ω₁ = θ̇₁, θ₂, ω₂ = θ̇₂\n\nδ = θ1 - θ2\n\nROWS\n",
+        "- `θ1, θ2` angles (from the vertical)\n- `ω1, ω2` the angular velocities\n\nwith $\\delta = "
+        "\\theta_1 - \\theta_2$\nALPHA"
+        "\n```text\nω_i^{t+Δt} = ω_i^t + α_i^t Δt\n```\n",
+        "Double pendulum\n===============\n\nWith :math:`\\delta = \\theta_1 - \\theta_2`:\nRST",
+        "$\\theta_1$ and $\\theta_2$ are the angles, $$m_1$$ and $$m_2$$ the masses, $\\delta = "
+        "\\theta_1 - \\theta_2$.\nDDOT",
+    ],
+    ids=["fence", "unicode", "alpha", "rst", "letters"],
+)  # fmt: skip
+def test_letters_and_lists_among_words_are_no_rows(tmp_path, text):
+    for sign, verdict in (("", "correct"), ("-", "wrong")):
+        alpha = ALPHA.replace("SIGN", sign)
+        ddot = alpha.replace(r"\alpha", r"\ddot\theta").replace(r"\omega", r"\dot\theta")
+        rst = re.sub(r"\\\[ (.*) \\\]", r"\n.. math::\n    \1\n", ddot)
+        whole = text.replace("ROWS", ROWS.format(sign)).replace("ALPHA", alpha)
+        whole = whole.replace("DDOT", ddot).replace("RST", rst)
+        assert graded(tmp_path, "mine.md", whole, system="double-pendulum").verdict == verdict
+
+
+def test_names_in_greek_are_accelerations_only_where_nothing_else_is(tmp_path):
+    inertias = r"$$\alpha_1 = (m_1+m_2) l_1^2$$ and $$\alpha_2 = m_2 l_2^2$$"
+    with pytest.raises(InvalidInput, match="no equation of motion"):
+        graded(tmp_path, "mine.md", inertias, system="double-pendulum")

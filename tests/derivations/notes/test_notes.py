@@ -204,13 +204,28 @@ def test_a_slip_in_a_note_is_noticed(name):
     assert not accepted
 
 
+PENDULUM = DECLARED["pendulum"] + "\n[equations]\n1 = '''{}'''\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "passed"),
+    [
+        (r"Let $\lambda = m l$. Then $$\ddot\theta = -\frac{g}{l}\sin\theta$$", r"\lambda = m l"),
+        (r"$$\ddot\theta = -\frac{g}{l}\sin\theta$$ where $c_1 = \sin\theta$", r"c_1 = \sin\theta"),
+        (r"The equilibrium is $\theta = 0$. $$\ddot\theta = -\frac{g}{l}\sin\theta$$", "theta = 0"),
+    ],
+)
+def test_what_no_equation_needs_is_passed_over_and_said(text, passed):
+    found = grade_text(PENDULUM.format(text))
+    assert found.verdict == "correct"
+    assert any("Passed over" in note and passed in note for note in found.notes)
+    assert grade_text(PENDULUM.format(text.replace(r"\frac{g}{l}", r"\frac{g}{2l}"))).verdict == "wrong"
+
+
 @pytest.mark.parametrize("name", ["german-mit", "newton-radial", "kinetic-parts", "stage-lagrangian", "circle-rows"])
 def test_the_first_slip_in_a_note_is_noticed(name):
     text, _ = next(slips(name))
     assert outcome(text) in NOTICED
-
-
-PENDULUM = DECLARED["pendulum"] + "\n[equations]\n1 = '''{}'''\n"
 
 
 @pytest.mark.parametrize(
@@ -219,7 +234,8 @@ PENDULUM = DECLARED["pendulum"] + "\n[equations]\n1 = '''{}'''\n"
         (r"Linearised, $\theta'' = -g/l \sin\theta$.", "'Linearised'"),
         (r"This is wrong: $$\ddot\theta = -\frac{g}{l}\sin\theta$$", "'wrong'"),
         (r"With $l = 1$ we get $$\ddot\theta = -g\sin\theta$$", "l is declared already"),
-        (r"Let $\lambda = m l$. Then $$\ddot\theta = -\frac{g}{l}\sin\theta$$", "no equation needs it"),
+        (r"Let $\lambda = m l$. Then $$\dot\theta = \omega$$", "no equation needs it"),
+        (r"For $\theta = 0$ we get $$\ddot\theta = -\frac{g}{l}\sin\theta$$", "what a coordinate is"),
         (r"$$m l^2\ddot\theta = -m g l\sin\theta$$ so $$\ddot\theta = -\frac{g}{2l}\sin\theta$$", "contradicts"),
         (
             r"$$\frac{\partial L}{\partial\dot\theta} = m l^2\dot\theta$$ $$\ddot\theta = -\frac{g}{l}\sin\theta$$",
