@@ -28,6 +28,9 @@ MOST_BODIES = 2_000  # bodies that are fixed to others included
 PARALLEL = 2e-6
 ROUNDING = 2.0**-49
 LARGEST_OFFSET = 8  # sum of the links' offsets along the axes, over their size: beyond it, their rounding counts
+ROUNDINGS_OF_AN_AXIS = (
+    16  # of each component, through some rotations: a matrix of a quaternion has four, its product two
+)
 LARGEST = 1e9  # of any number of a link: engines fail beyond (MuJoCo at rates of 1e10)
 UNREACHED = 1e3  # rad; limits further away than this on both sides are taken for none
 
@@ -82,7 +85,7 @@ def planar_mechanism(mechanism: SpatialMechanism, plane: Plane | None = None) ->
     if abs(across) <= 4e-16 * abs(along):
         across = 0.0
     return Mechanism(
-        tilt=_tilt(found, plane),
+        tilt=max(_tilt(found, plane), _steepness(gravity, plane)),
         links=tuple(links),
         hinges=tuple(hinges),
         gravity=(along, across),
@@ -141,9 +144,14 @@ def find_plane(axis: Array, gravity: Array, links: Sequence[_SpatialLink] = ()) 
 
 
 def _across_axis(vector: Array, axis: Array) -> Array | None:
-    """The part of a vector across a unit ``axis``; None where nothing but rounding is left of it."""
+    """The part of a vector across a unit ``axis``; None where nothing but rounding is left of it.
+
+    What is left along the axis of a small part is taken off once more, so that it is across to rounding.
+    """
     across = np.asarray(vector - (vector @ axis) * axis)
-    return across if np.linalg.norm(across) > 1e-9 * max(float(np.linalg.norm(vector)), 1e-300) else None
+    if not np.linalg.norm(across) > 1e-9 * max(float(np.linalg.norm(vector)), 1e-300):
+        return None
+    return np.asarray(across - (across @ axis) * axis)
 
 
 def _first_sign(values: Sequence[float]) -> float:
@@ -203,6 +211,14 @@ def _tilt(links: Sequence[_SpatialLink], plane: Plane) -> float:
     if largest <= ROUNDING:
         return 2.0**-52 * offsets if offsets > LARGEST_OFFSET else 0.0
     return largest * (1 + offsets)
+
+
+def _steepness(gravity: Array, plane: Plane) -> float:
+    """What rounding does to gravity in the plane, relative to it, where almost all of it is along the hinges' axes."""
+    in_plane, whole = math.hypot(*plane.point(gravity)), float(np.linalg.norm(gravity))
+    if not 1e-9 * whole < in_plane * LARGEST_OFFSET < whole:
+        return 0.0
+    return ROUNDINGS_OF_AN_AXIS * 2.0**-52 * whole / in_plane
 
 
 def _refuse_immense(link: Link, hinge: Hinge, given: _SpatialLink) -> None:

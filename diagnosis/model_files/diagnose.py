@@ -206,7 +206,10 @@ def own_file(file: ModelFile) -> Iterator[Path]:
 def _tilt_notes(mechanism: Mechanism | None) -> list[str]:
     if mechanism is None or mechanism.tilt < REPORTED_TILT:
         return []
-    return [f"the hinges' axes are not quite parallel: the tolerance is {mechanism.tilt:.1g} of each torque"]
+    along = abs(float(np.dot(np.cross(mechanism.down, mechanism.across), mechanism.gravity_vector)))
+    steep = along > float(np.hypot(*mechanism.gravity)) > 0
+    why = "gravity is nearly along the hinges' axes" if steep else "the hinges' axes are not quite parallel"
+    return [f"{why}: the tolerance is {mechanism.tilt:.1g} of each torque"]
 
 
 @dataclass(frozen=True)
@@ -249,7 +252,8 @@ def _with_gravity(file: ModelFile, expected: Mechanism | None) -> ModelFile:
     along = old.gravity[0] * ratio
     if abs(along - strength) <= 1e-12 * strength:
         along = strength
-    if vector[0] == 0 and vector[1] == 0:
+    in_plane = abs(abs(vector[2]) - strength) <= 1e-12 * strength
+    if vector[0] == 0 and vector[1] == 0 and in_plane:
         vector = (0.0, 0.0, -strength)
     changed = replace(old, gravity=(along, 0.0), gravity_vector=vector)
     notes = tuple(note for note in file.notes if "gravity" not in note)

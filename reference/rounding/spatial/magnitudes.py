@@ -42,6 +42,7 @@ from ....models.spatial import unit
 from ....models.spatial_mechanism import WORLD, Array, PlacedJoint, SpatialMechanism
 from ... import spatial_kinematics
 from ..bounds import EPSILON, ROUNDINGS_PER_LINK, SMALLEST
+from .blocks import Blocks
 
 FORCE_ROUNDINGS = 16  # of a spring's: quotient of quaternions, its norm, arc tangent, products
 
@@ -282,61 +283,14 @@ class Magnitudes:
         return Lengths(np.maximum(along, about + np.linalg.norm(places - middle, axis=-1)), far)
 
     def _inverted(self, mass: Array, rows: Array, shares: Array, swings: Array) -> Array:
-        """What inverting the block D of a ball's or a free joint's degrees of freedom adds to the units ``rows``.
-
-        D is M's block with all that hangs on the joint eliminated. Scaled to a diagonal of ones, S D S = E, a stable
-        inverse X leaves |E X − 1| ≤ c ε |E⁻¹|, so that of D a = u the row S⁻¹ |E⁻¹| |S u| is lost. u is made of all
-        that the rows add up, and of what the acceleration before the joint does there. Nothing moves before the first
-        joint: but for gravity, which engines put there, u is D a itself, and S u at most |E| |S⁻¹ a|, with ``swings``
-        |a|. So the rates, whose terms cancel but for D a, are not multiplied by |E⁻¹| in the rows of a free base.
-
-        What is taken off the inertia that the joint hands on, U X Uᵀ, is at most that inertia, but its terms are up to
-        |E⁻¹| times as large: the ``shares`` of the bodies that hang on the joint, in the rows of all joints before it.
-        """
-        found = np.zeros_like(rows)
-        for body, block in self._blocks():
-            own = slice(0, block.stop - block.start)
-            below = self._below(body)
-            hanging = np.flatnonzero(below[self._first_moved] & (np.arange(len(rows)) >= block.start))
-            root = np.sqrt(np.diag(mass)[hanging])
-            if not (root > 0).all():
-                continue
-            try:  # of M scaled to a diagonal of ones: its inverse is in the range of doubles, whatever the units are
-                inverse = np.linalg.inv(mass[np.ix_(hanging, hanging)] / root[:, None] / root)[own, own]
-                scale = np.sqrt(np.abs(np.diag(np.linalg.inv(inverse))))
-            except np.linalg.LinAlgError:
-                continue  # a singular matrix has no accelerations that could be judged
-            scaled = scale[:, None] * inverse * scale
-            grown = float(np.linalg.norm(scaled, 2))
-            scale = scale * root[own]
-            if self._first(body, block):
-                widest = np.repeat(scale.reshape(-1, 3).max(axis=1), 3)  # whichever axes the engine has
-                carried = np.linalg.norm(np.linalg.inv(scaled), 2) * np.linalg.norm(widest * swings[block])
-                meets = carried + np.linalg.norm(self._pull[block] / scale)
-            else:
-                meets = np.linalg.norm(rows[block] / scale)
-            found[block] += scale * grown * meets
-            found[: block.start] += grown * (self._moves[:, body] * shares[:, below].sum(axis=1))[: block.start]
-        return found
-
-    def _first(self, body: int, block: slice) -> bool:
-        """Whether the block is a single joint, and none moves what it hangs on."""
-        one = next(one for one in self.mechanism.joints if one.at_v == block.start)
-        return one.columns_v == block and not self._moves[: block.start, body].any()
+        """What inverting the blocks of balls and free joints adds to the units ``rows``, (nv,)."""
+        blocks = Blocks(self.mechanism, self._moves, self._first_moved, self.together)
+        return blocks.inverted(mass, rows, shares, swings, self._pull)
 
     @cached_property
     def _pull(self) -> Array:
         """Gravity's share of each row, (nv,)."""
         return np.asarray(self._weights.sum(axis=1))
-
-    def _blocks(self) -> list[tuple[int, slice]]:
-        """Each block of M that is inverted as a whole: the body that it moves, and its rows."""
-        found: dict[tuple[int, int], slice] = {}
-        for number, one in enumerate(self.mechanism.joints):
-            key = (one.body, 0 if self.together else number)
-            start = found[key].start if key in found else one.at_v
-            found[key] = slice(start, one.columns_v.stop)
-        return [(body, block) for (body, _), block in found.items() if block.stop - block.start > 1]
 
     @cached_property
     def _underflow(self) -> float:
