@@ -16,22 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..kernels.trees.formulas import (
-    ARM,
-    SHIFT,
-    TURN,
-    add,
-    cross,
-    dot,
-    full,
-    moved,
-    plus_cross,
-    reduced,
-    scaled,
-    times,
-    transposed,
-    upper,
-)
+from ..kernels.trees.formulas import ARM, SHIFT, TURN, moved, reduced
+from ..kernels.trees.vectors import add, cross, dot, full, plus_cross, scaled, times, transposed, upper
 from .joints import Freedoms, Joint, Placed, Run, placed_joints
 
 Array = NDArray[np.float64]

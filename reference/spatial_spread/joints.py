@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...models.spatial_mechanism import SpatialMechanism
-from ..kernels.trees.formulas import add, cross, dot, product, rotation_of, scaled, times, transposed
 from ..kernels.trees.table import Node, depth_first, nodes
+from ..kernels.trees.vectors import add, cross, dot, product, rotation_of, scaled, times, transposed
 from ..rounding.monte_carlo import Noise, Noisy
 from ..rounding.spread import Formulation
 

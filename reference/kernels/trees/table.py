@@ -19,6 +19,7 @@ from ....models.errors import InvalidInput
 from ....models.spatial_mechanism import WORLD, Joint, PlacedJoint, RigidBody, SpatialMechanism
 from . import formulas
 from .formulas import INERTIA, NUMBERS, ROW, SIGNS
+from .vectors import rotation_of
 
 Array = NDArray[np.float64]
 Long = NDArray[np.longdouble]
@@ -314,7 +315,7 @@ def of_quaternion(body: RigidBody) -> Long:
     scale = np.abs(q).max(initial=0.0)
     if not scale > 0:
         raise InvalidInput(f"body {body.name!r}: its quaternion has length zero")
-    return np.array(formulas.rotation_of(q / scale), dtype=np.longdouble).reshape(3, 3)
+    return np.array(rotation_of(q / scale), dtype=np.longdouble).reshape(3, 3)
 
 
 def weigh(node: Node, body: RigidBody, rotation: Long, place: Long) -> None:

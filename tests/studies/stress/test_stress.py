@@ -155,7 +155,7 @@ def test_every_search_can_be_asked_before_anything_is_known():
     names = [key(case) for case in cases]
     assert len(set(names)) == len(names) > 500
     assert {search.family for search in searches} == {
-        "accelerations", "trees", "pairs", "steps", "condition", "chain", "long runs",
+        "accelerations", "trees", "pairs", "steps", "condition", "chain", "long runs", "tree runs",
     }  # fmt: skip
 
 
