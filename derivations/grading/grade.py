@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -21,6 +20,7 @@ from ..steps.families import family
 from .differences import row_differences
 from .forms.hamilton import scale_note
 from .forms.named import bodies_of_name, is_own, is_told_apart, may_have_letters
+from .forms.passed import require_height, with_passed
 from .forms.stages import StageJudge
 from .forms.units import units_notes
 from .forms.unnamed import USUAL, is_unnamed, refusal, said_of
@@ -34,7 +34,6 @@ from .wrong import if_as_declared, named_in_stages, wrong
 
 MOST_SECONDS = 1.0  # of the processor, in which usual mechanisms are tried, and then no more
 MOST_ROLES = 6  # of a text's letters, in which its mistakes are looked for
-MOST_PASSED = 4  # of what is passed over, as many are said
 MOST_NEAR = 2  # usual mechanisms that mistakes are looked for in, where a derivation does not say which it is about
 
 
@@ -105,12 +104,12 @@ def _named(data: dict[str, Any]) -> Grade:
             refused = error if "which is meant" in str(error) else refused
             continue
         if right is not None and right[0].verdict == "correct":
-            return _about(_with_passed(*right), bodies)
+            return _about(with_passed(*right), bodies)
         near += [(bodies, first)] if is_own(bodies) else []
     whole = [(bodies, s) for bodies, s in near if s.stages is not None or s.lagrangian or len(s.rows) == s.space.n]
     if not whole:
         raise refused
-    wrongs = [(_with_passed(_wrong(s, pinned=False), s), bodies) for bodies, s in whole[:MOST_ROLES]]
+    wrongs = [(with_passed(_wrong(s, pinned=False), s), bodies) for bodies, s in whole[:MOST_ROLES]]
     fewest = min(len(made.findings) for made, _ in wrongs)
     nearest = [(made, bodies) for made, bodies in wrongs if len(made.findings) == fewest]
     if not is_told_apart(nearest):
@@ -138,7 +137,7 @@ def _unnamed(data: dict[str, Any]) -> Grade:
         try:
             first = read(0)
             right = _if_right(read, first, pinned=False)
-            right = (_with_passed(*right), right[1]) if right is not None else None
+            right = (with_passed(*right), right[1]) if right is not None else None
         except InvalidInput as error:
             refused.append(str(error))
             continue
@@ -171,20 +170,7 @@ def graded(read: Callable[[int], Submission], *, pinned: bool) -> tuple[Grade, S
     first = read(0)
     found = _if_right(read, first, pinned=pinned)
     made, s = found if found is not None else (_wrong(first, pinned=pinned), first)
-    return _with_passed(made, s), s
-
-
-def _with_passed(made: Grade, s: Submission) -> Grade:
-    """The grade with what was said besides, and is no part of it."""
-    if not s.passed:
-        return made
-    said = "; ".join(re.sub(r"\s+", " ", one)[:60] for one in s.passed[:MOST_PASSED])
-    more = len(s.passed) - MOST_PASSED
-    rest, rest_ja = (f"; and {more} more", f" ほか{more}件") if more > 0 else ("", "")
-    return replace(
-        made, notes=(*made.notes, f"Passed over, as no equation of motion needs it: {said}{rest}"),
-        notes_ja=(*made.notes_ja, f"運動方程式に使われないため読み飛ばしたもの：{said}{rest_ja}"),
-    )  # fmt: skip
+    return with_passed(made, s), s
 
 
 def _if_right(read: Callable[[int], Submission], first: Submission, *, pinned: bool) -> tuple[Grade, Submission] | None:
@@ -200,11 +186,8 @@ def _if_right(read: Callable[[int], Submission], first: Submission, *, pinned: b
     if not right:
         return None
     s, judgement = min(right, key=lambda pair: len(pair[1].assumes))
-    if s.hanging and judgement.hypothesis is not None and judgement.hypothesis.convention.origin != "down":
-        raise InvalidInput(
-            f"the equations are right if {judgement.hypothesis.convention.words}, and a height that is said besides is "
-            'lowest where the angle is zero: which is meant? Say from = "up" or "down", or leave the height out'
-        )
+    if judgement.hypothesis is not None:
+        require_height(s, judgement.hypothesis.convention)
     return _right(s, judgement, slashes=s is not first, pinned=pinned), s
 
 

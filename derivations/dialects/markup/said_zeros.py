@@ -10,9 +10,9 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from ..markup.prose import DENIED
+from ..letters.every_text import is_fit
 from ..statements import is_program
-from .every_text import is_fit
+from .prose import DENIED
 
 TEXTS = ("equations", "lagrangian", "hamiltonian", "kinetic", "potential")
 _NAME = (
