@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 import time
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
@@ -21,6 +20,7 @@ from ..steps.families import family
 from .differences import row_differences
 from .forms.hamilton import scale_note
 from .forms.named import is_own, is_text, is_told_apart
+from .forms.passed import require_height, with_passed
 from .forms.stages import StageJudge
 from .forms.units import units_notes
 from .forms.unnamed import is_unnamed, joints_of, refusal, said_of, says_all, usual
@@ -34,7 +34,6 @@ from .wrong import if_as_declared, named_in_stages, wrong
 
 MOST_SECONDS = 1.0  # of the processor, in which usual mechanisms are tried, and then no more
 MOST_ROLES = 6  # of a text's letters, in which its mistakes are looked for
-MOST_PASSED = 4  # of what is passed over, as many are said
 MOST_NEAR = 2  # usual mechanisms that mistakes are looked for in, where a derivation does not say which it is about
 
 
@@ -102,7 +101,7 @@ def _named(data: dict[str, Any], refused: InvalidInput) -> Grade:
     own = [(about, s) for about, s in tried.near if is_own(about["bodies"]) and _is_whole(s)]
     if not own or not tried.all or not is_text(data):
         raise refused
-    wrongs = [(_with_passed(_wrong(s, pinned=False), s), about["bodies"]) for about, s in own[:MOST_ROLES]]
+    wrongs = [(with_passed(_wrong(s, pinned=False), s), about["bodies"]) for about, s in own[:MOST_ROLES]]
     fewest = min(len(made.findings) for made, _ in wrongs)
     nearest = [(made, bodies) for made, bodies in wrongs if len(made.findings) == fewest]
     if not is_told_apart(nearest):
@@ -164,7 +163,7 @@ def _tried(data: dict[str, Any], abouts: Iterable[Mapping[str, Any]]) -> _Tried:
         if right is None:
             tried.near.append((about, first))
         elif right[0].verdict == "correct":
-            made = _with_passed(*right)
+            made = with_passed(*right)
             said = said_of_bodies(about["bodies"]) if "bodies" in about else said_of(made)
             conditions = len(made.assumes) + in_ones(about)
             found.append((conditions, _about(made, said)))
@@ -186,20 +185,7 @@ def graded(read: Callable[[int], Submission], *, pinned: bool) -> tuple[Grade, S
     first = read(0)
     found = _if_right(read, first, pinned=pinned)
     made, s = found if found is not None else (_wrong(first, pinned=pinned), first)
-    return _with_passed(made, s), s
-
-
-def _with_passed(made: Grade, s: Submission) -> Grade:
-    """The grade with what was said besides, and is no part of it."""
-    if not s.passed:
-        return made
-    said = "; ".join(re.sub(r"\s+", " ", one)[:60] for one in s.passed[:MOST_PASSED])
-    more = len(s.passed) - MOST_PASSED
-    rest, rest_ja = (f"; and {more} more", f" ほか{more}件") if more > 0 else ("", "")
-    return replace(
-        made, notes=(*made.notes, f"Passed over, as no equation of motion needs it: {said}{rest}"),
-        notes_ja=(*made.notes_ja, f"運動方程式に使われないため読み飛ばしたもの：{said}{rest_ja}"),
-    )  # fmt: skip
+    return with_passed(made, s), s
 
 
 def _if_right(read: Callable[[int], Submission], first: Submission, *, pinned: bool) -> tuple[Grade, Submission] | None:
@@ -215,11 +201,8 @@ def _if_right(read: Callable[[int], Submission], first: Submission, *, pinned: b
     if not right:
         return None
     s, judgement = min(right, key=lambda pair: len(pair[1].assumes))
-    if s.hanging and judgement.hypothesis is not None and judgement.hypothesis.convention.origin != "down":
-        raise InvalidInput(
-            f"the equations are right if {judgement.hypothesis.convention.words}, and a height that is said besides is "
-            'lowest where the angle is zero: which is meant? Say from = "up" or "down", or leave the height out'
-        )
+    if judgement.hypothesis is not None:
+        require_height(s, judgement.hypothesis.convention)
     return _right(s, judgement, slashes=s is not first, pinned=pinned), s
 
 

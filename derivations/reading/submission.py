@@ -78,7 +78,6 @@ class Submission:
     stages: Stages | None = None  # a derivation stated stage by stage; then there is nothing else
     weight: Formula | None = None  # what g is said to be: 0 where it lies flat, a number, ω_0²
     cut: bool = False  # whether its rows were cut out of one text
-    hanging: bool = False  # whether a height that is passed over is lowest where the angle is zero
     passed: tuple[str, ...] = ()  # what a note says besides, of which the verdict takes no notice
 
     @property

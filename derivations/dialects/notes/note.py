@@ -43,10 +43,6 @@ WORDED = re.compile(
 INITIAL = re.compile(  # θ(0) = θ_0
     r"^\s*(?:\\dot\s*)?\{?\s*\\?[^\W\d_]+[\u0307]?\s*(?:_\s*(?:\{\w{1,4}\}|\w)|[₀-₉]|[0-9])?\s*\}?(?:_\w|_\{\w\})?['′]{0,2}\s*(?:\\left\s*)?\(\s*(?:t\s*=\s*)?0\s*(?:\\right\s*)?\)\s*$"
 )
-# A height that is lowest at the angle's zero, y_p = -l cos θ, of a body that the reader does not know by that name
-HANGING = re.compile(
-    r"^\s*[yY]\s*(?:_\s*(?:\{\s*\w{1,6}\s*\}|\w)|[0-9])?\s*=(?:\s*[-−][^=+−-]*\bcos(?![a-z])[^=+−-]*)+$"
-)
 STEP = re.compile(r"(?:\\Delta|[Δ∆])\s*\{?\s*t(?![A-Za-z])")  # of a numerical method, in which time goes on by Δt
 JOINED = re.compile(r"(?<!\\)\\\\(?=[A-Za-z])")  # a row's end at once before a letter
 DIFFERENCE = re.compile(
@@ -220,7 +216,6 @@ def _with_equations(
         )
     new |= found.defined
     passed += found.passed
-    hanging = any(HANGING.match(one[:400]) for one in found.passed)
     if any(ACCELERATION.search(row) for row in found.rows):
         pass
     elif re.search(r"\\omega|ω", " ".join(found.rows)):
@@ -235,5 +230,4 @@ def _with_equations(
     clash = next((stage for stage in found.stages if stage in data), None)
     if clash:
         raise InvalidInput(f"{clash}: it is said in [equations] as well; leave one of the two out")
-    made = {**data, **found.stages, "equations": dict(zip(labels, found.rows, strict=True))}
-    return made | ({"hanging": True} if hanging else {})
+    return {**data, **found.stages, "equations": dict(zip(labels, found.rows, strict=True))}

@@ -91,6 +91,9 @@ class _Sorter:
         if name is None or name in self.names.all:
             self.left.append(sides)
             return
+        if name == "L" and "L" not in self.values and uses("L", sides[1:]) and RATE.search(sides[-1]):
+            _put_stage(name, sides, self.found)  # the Lagrangian, of a mechanism with a length L
+            return
         before = self.values[name][1] if name in self.values else ()
         self.values[name] = (written_alone(sides[0]), (*before, *sides[1:]))
 
@@ -128,6 +131,7 @@ class _Sorter:
         texts = [side for sides in self.left for side in sides if not PARTIAL.search(side)]
         needed = _needed(texts, self.values)
         stages = {name for name, (_, sides) in self.values.items() if name not in needed and _stage(name, sides)}
+        stages = {name for name in stages if not self._is_of_names_alone(self.values[name][1])}
         below = _needed([" ".join(self.values[name][1]) for name in stages], self.values)
         for name, (written, sides) in self.values.items():
             if name in needed | below:
@@ -144,6 +148,11 @@ class _Sorter:
             self.found.steps += [(side, sides[-1]) for side in sides[:-1] if _is_step(side, self.names, known)]
         if len(self.found.defined) > MOST_DEFINITIONS:
             raise InvalidInput(f"more than {MOST_DEFINITIONS} names are said; give the equations with these put in")
+
+    def _is_of_names_alone(self, sides: Statement) -> bool:
+        """Whether L = T - V says no more than these names, of which none is said."""
+        found = {name for side in sides for name in used(side)}
+        return bool(found) and not found & (self.names.all | self.values.keys())
 
 
 def _is_product(sides: Statement, values: Values) -> bool:

@@ -471,3 +471,22 @@ def test_names_in_greek_are_accelerations_only_where_nothing_else_is(tmp_path):
     inertias = r"$$\alpha_1 = (m_1+m_2) l_1^2$$ and $$\alpha_2 = m_2 l_2^2$$"
     with pytest.raises(InvalidInput, match="no equation of motion"):
         graded(tmp_path, "mine.md", inertias, system="double-pendulum")
+
+
+LENGTH_L = r"""
+- Lagrangian: $$L = \frac{1}{2} m L^2 \dot\theta^2 - m g L (1 - \cos\theta)$$
+- so $$m L^2 \ddot\theta + m g L \sin\theta = 0$$
+- or $$\ddot\theta + \frac{g}{L}\sin\theta = 0$$
+"""
+
+
+def test_a_letter_is_a_length_and_the_lagrangian(tmp_path):
+    assert graded(tmp_path, "mine.md", LENGTH_L, system="simple-pendulum").verdict == "correct"
+    wrong = graded(tmp_path, "mine.md", LENGTH_L.replace("m g L (1", "2 m g L (1"), system="simple-pendulum")
+    assert [mark.stage for mark in wrong.stages if mark.outcome == "wrong"] == ["lagrangian"]
+
+
+def test_a_lagrangian_of_names_alone_is_passed_over(tmp_path):
+    found = graded(tmp_path, "mine.md", f"$$L = T - V$$\n{CART}", system="cart-pole")
+    assert found.verdict == "correct"
+    assert any("L = T - V" in note for note in found.notes)

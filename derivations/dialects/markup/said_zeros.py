@@ -11,9 +11,9 @@ import re
 from typing import Any
 
 from ....models.errors import InvalidInput
-from ..markup.prose import DENIED
+from ..letters.every_text import is_fit
 from ..statements import is_program
-from .every_text import is_fit
+from .prose import DENIED
 
 TEXTS = ("equations", "lagrangian", "hamiltonian", "kinetic", "potential")
 _NAME = (
