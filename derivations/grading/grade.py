@@ -13,6 +13,7 @@ from typing import Any
 from ...models.errors import InvalidInput
 from ...models.readers.bounded_file import read_text, shown
 from ..algebra.fingerprint import RandomPoint
+from ..dialects.statements import is_program
 from ..reading.derivation import read_derivation
 from ..reading.pinned import Pinned
 from ..reading.submission import LARGEST_FILE, Submission, fields_of, is_toml, table_of
@@ -98,8 +99,8 @@ def _unnamed(data: dict[str, Any]) -> Grade:
 
 def _of_kind(data: dict[str, Any]) -> Grade | None:
     """The grade of a derivation that is right for its usual mechanism in letters of its own; None where it is not."""
-    joints = joints_of(data)
-    if joints is None:
+    joints = joints_of(data) if "bodies" not in data else None
+    if joints is None or is_program(str(data.get("equations"))):
         return None
     bare = {name: value for name, value in data.items() if name not in ("system", "links")}
     _, in_its_letters = usual_bodies(bare)

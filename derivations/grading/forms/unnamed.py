@@ -48,11 +48,11 @@ def _count(about: Mapping[str, Any]) -> int:
 
 
 def joints_of(about: Mapping[str, Any]) -> list[str] | None:
-    """The joints of a usual mechanism, or of bodies that are declared; None of others."""
+    """The joints of a usual mechanism whose letters are fixed, or of bodies that are declared; None of others."""
     bodies = PRESETS.get(str(about.get("system"))) or about.get("bodies")
     if isinstance(bodies, list):
         return [_joint(body) for body in bodies if isinstance(body, dict)]
-    return None if about.get("system") not in WORDS else ["hinge "] * WORDS[about["system"]][1]
+    return None
 
 
 def _joint(body: Mapping[str, Any]) -> str:

@@ -263,3 +263,8 @@ def test_a_mechanism_that_is_named_may_have_other_letters_and_what_else_the_text
         graded(tmp_path, "mine.md", CART_OF_OTHER_LETTERS, system="double-pendulum")
     with pytest.raises(InvalidInput, match="is not known here"):  # nor is a slip called wrong: which letter is which?
         graded(tmp_path, "mine.md", CART_OF_OTHER_LETTERS.replace("+ g", "- 2 g"), system="cart-pole")
+
+
+def test_two_letters_are_not_taken_for_one_angle():
+    with pytest.raises(InvalidInput, match="which mechanism it is about is not said"):
+        grade_text({"equations": ["l θ2'' + g sin θ = 0"]})
