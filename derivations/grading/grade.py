@@ -13,6 +13,8 @@ from typing import Any
 from ...models.errors import InvalidInput
 from ...models.readers.bounded_file import read_text, shown
 from ..algebra.fingerprint import RandomPoint
+from ..dialects.statements import is_program
+from ..reading.declaration import WORDS
 from ..reading.derivation import read_derivation
 from ..reading.pinned import Pinned
 from ..reading.submission import LARGEST_FILE, Submission, fields_of, is_toml, table_of
@@ -69,9 +71,19 @@ def grade_fields(data: dict[str, Any], *, pinned: Pinned | None = None) -> Grade
     try:
         return graded(_reader(data, pinned), pinned=pinned is not None)[0]
     except InvalidInput as error:
-        if pinned is not None or joints_of(data) is None:
+        if pinned is not None or not _may_have_letters(data):
             raise
         return _named(data, error)
+
+
+def _may_have_letters(data: dict[str, Any]) -> bool:
+    """Whether a usual mechanism is named that may be meant with other letters, or more, than its own.
+
+    In rows that are given one by one, those that count their links have the letters of their links alone.
+    """
+    if "bodies" in data or joints_of(data) is None or is_program(str(data.get("equations"))):
+        return False
+    return is_text(data) or data["system"] not in WORDS
 
 
 def _reader(data: dict[str, Any], pinned: Pinned | None = None) -> Callable[[int], Submission]:

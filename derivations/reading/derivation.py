@@ -27,6 +27,7 @@ from ..dialects.letters.left_sides import without_left_sides
 from ..dialects.letters.members import without_low_lines, without_owners, without_pointers
 from ..dialects.letters.odd_waves import with_odd_waves
 from ..dialects.letters.said_motions import with_said_motions
+from ..dialects.letters.said_zeros import with_said_zeros
 from ..dialects.letters.time_names import with_one_time
 from ..dialects.markup.asciimath import without_ticks
 from ..dialects.markup.environments import plain_environments
@@ -35,7 +36,6 @@ from ..dialects.markup.named_apart import named_apart
 from ..dialects.markup.pages import from_pages
 from ..dialects.markup.printed import plainly_printed
 from ..dialects.markup.prose import FormulasInWords
-from ..dialects.markup.said_zeros import with_said_zeros
 from ..dialects.markup.wrapped import unwrapped
 from ..dialects.names import plain_name
 from ..dialects.notes.declarations import without_sums_below

@@ -47,7 +47,7 @@ READ_SO_FAR = {
     "seventh_programs": 46,
     "eighth_programs": 33,
     "ninth_programs": 37,
-    "tenth_collection": 69,
+    "tenth_collection": 70,
     "tenth_programs": 29,
 }
 

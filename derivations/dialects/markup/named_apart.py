@@ -29,6 +29,9 @@ ARGUMENTS = rf"(?:\\left\s*)?\(\s*{_DOTTED}(?:\s*,\s*{_DOTTED})?\s*(?:\\right\s*
 INVERSE = re.compile(
     rf"(?P<m>\\(?:mathbf|boldsymbol|bm|mathrm)\s*\{{\s*[A-Z]\s*\}}|(?<![A-Za-z\\])[A-Z])\s*(?P<power>\^\s*\{{\s*-\s*1\s*\}})\s*(?P<of>{ARGUMENTS})"
 )
+PRODUCT = re.compile(
+    rf"(?<![A-Za-z\\{{])(?P<m>[A-Z])\s*{ARGUMENTS}\s*\\dot\s*\{{?\s*{_Q}\s*\}}?(?P<is>\s*&?\s*:?=\s*\\begin\s*\{{[pbvB]?matrix)?"
+)
 MATRIX = re.compile(rf"(?<![A-Za-z\\{{])(?P<m>[A-Z])(?=\s*{ARGUMENTS})")
 
 SO = re.compile(r"(?<=[\w)\s])[ \t]+=>[ \t]+(?=[^=\n{]{1,40}=[^=>\n]+$)", re.MULTILINE)  # A = B => C = D
@@ -56,7 +59,7 @@ def named_apart(data: dict[str, Any]) -> dict[str, Any]:
         text = ALONE.sub(_mentioned, text)
         text = IN_MATRIX.sub(_columns, FIRST_SIGN.sub(r"\g<begin>", BREAK.sub("", text)))
         text = BY_TIME.sub(lambda m: m[0] if m["x"] in ENERGIES else rf"\frac{{d {m['x']}}}{{d t}}", text)
-        return _words(_matrices(INVERSE.sub(r"\g<m>\g<of>\g<power>", text), quantities))
+        return _words(_products(_matrices(INVERSE.sub(r"\g<m>\g<of>\g<power>", text), quantities)))
 
     return everywhere(data, one)
 
@@ -74,10 +77,16 @@ def _columns(found: re.Match[str]) -> str:
 
 
 def _words(text: str) -> str:
-    if "\\Xi" in text:
+    if re.search(r"\\Xi(?!_\{[A-Z]q\})", text):
         return text
     said = {m["w"] for m in SAID.finditer(text)} - NO_NAMES
     return WORD.sub(lambda m: rf" \Xi_{{{m['w']}}} " if m["w"] in said else m[0], text)
+
+
+def _products(text: str) -> str:
+    r"""A name for C(q, \dot q)\dot q, where the text says what column that is."""
+    said = {m["m"] for m in PRODUCT.finditer(text) if m["is"]} if "\\Xi" not in text else set()
+    return PRODUCT.sub(lambda m: rf" \Xi_{{{m['m']}q}} {m['is'] or ''}" if m["m"] in said else m[0], text)
 
 
 def _matrices(text: str, quantities: Collection[str]) -> str:

@@ -7,6 +7,7 @@ import re
 from collections.abc import Collection
 
 from ....models.errors import InvalidInput
+from ..lines import DENIED
 
 QUOTED = re.compile(r"(?m)^[ \t]*(?:>[ \t]?)+")
 DISPLAY = re.compile(
@@ -22,11 +23,6 @@ ALONE = re.compile(
 )
 # In front of a row, the coordinate whose row it is: \theta : …
 HEAD = re.compile(r"^\s*\\?[A-Za-zθϑφϕψαβ]{1,12}(?:_(?:\w|\{\w{1,4}\}))?\s*:(?!=)\s*(?=[^:]*=)")
-DENIED = re.compile(
-    r"\b(?:wrong|incorrect|mistaken?|erroneous|not|isn't|doesn't|falsch|nicht|kein\w*|faux|fausse|incorrecte?|instead|rather than|should be"
-    r"|neglect\w*|approximat\w*|(?<!non-)(?<!non )(?<!non‐)linear\w*|small)\b|誤|間違|でない|ではない|近似|無視|線形",
-    re.IGNORECASE,
-)
 WORDS = re.compile(r"[^\W\d_]{2,}")
 SIGNS = re.compile(r"[=^_{}\\+*/<>|]")
 ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII")

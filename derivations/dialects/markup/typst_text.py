@@ -6,8 +6,8 @@ from __future__ import annotations
 import re
 
 from ....models.errors import InvalidInput
+from ..lines import DENIED
 from ..pasted import typst_dots
-from .prose import DENIED
 from .typst import BLOCK, LATEX, MARKS, from_typst
 
 # What leaves a formula as it is; what hides or strikes it out is none of these

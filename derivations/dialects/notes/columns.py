@@ -95,7 +95,7 @@ def _order(order: list[str], letter: str, statements: Sequence[Statement], names
 def _diagonal(statements: Sequence[Statement]) -> list[str]:
     """The diagonal of the matrix that is called M, or B, D or H of robotics."""
     for sides in statements:
-        if alone(sides[0]) in ("M", "D", "H", "B", "A"):
+        if (alone(sides[0]) or "").removesuffix("9") in ("M", "D", "H", "B", "A"):
             matrix = re.search(
                 r"\\begin\s*\{[a-zA-Z]*(?:matrix|array)\}(?:\{[clr|]*\})?(.*?)\\end", sides[-1], re.DOTALL
             )

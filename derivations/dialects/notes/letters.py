@@ -32,6 +32,9 @@ OF_WAVE = re.compile(r"^\s*\\?(?P<of>sin|cos)(?![A-Za-z])\s*(?P<inner>[^^]*)$")
 ENVIRONMENT = re.compile(r"\\(?:begin|end)\s*\{\w+\*?\}(?:\{[clr|]*\})?")
 
 
+TWICE = re.compile(r"\s*(?:\\ddot(?![A-Za-z])[^=+*/^()-]{1,30}|[^=+*/^()'-]{1,20}(?:''|\u0308)[₀-₉]?)\s*$")
+
+
 @dataclass(frozen=True)
 class Names:
     """What a file declares, plain: coordinates in order, quantities, names of its own."""
@@ -42,6 +45,7 @@ class Names:
     relative: bool
     slides: tuple[bool, ...]
     driven: bool  # whether anything but weight acts
+    seconds: frozenset[str] = frozenset()  # names that the file has for accelerations
 
     @property
     def all(self) -> frozenset[str]:
@@ -55,9 +59,10 @@ def names_of(data: Mapping[str, Any]) -> Names:
     bodies = data.get("bodies")
     bodies = [b for b in bodies if isinstance(b, dict)] if isinstance(bodies, list) else []
     own = frozenset(p for x in define if (p := plain_name(str(x)))) if isinstance(define, dict) else frozenset()
+    seconds = {plain_name(str(x)) or "" for x, value in define.items() if TWICE.match(str(value)[:60])} if own else ()
     return Names(
         known.coordinates, known.quantities, own, known.relative, tuple(b.get("joint") == "slide" for b in bodies),
-        any(name in b for b in bodies for name in ("drive", "damping", "friction", "motion")),
+        any(name in b for b in bodies for name in ("drive", "damping", "friction", "motion")), frozenset(seconds),
     )  # fmt: skip
 
 

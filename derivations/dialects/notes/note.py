@@ -140,7 +140,12 @@ def _is_said(sides: Statement, names: Names) -> bool:
     if len(sides) < 2 or ("\\sum" in sides[0] and is_abstract(sides, set(), names)):
         return False
     name, value = alone(sides[0]), sides[-1].strip()
-    if name is None or name not in names.all or (name in names.quantities and ACCELERATION.search(value)):
+    if (
+        name is None
+        or name not in names.all
+        or name in names.seconds
+        or (name in names.quantities and ACCELERATION.search(value))
+    ):
         return True
     if name in names.coordinates:
         raise InvalidInput(f"{' = '.join(sides).strip()[:40]}: a sentence says what a coordinate is; is that part of the "

@@ -7,7 +7,8 @@ import re
 from dataclasses import dataclass
 
 from ....models.errors import InvalidInput
-from ..markup.prose import AROUND, DENIED, is_whole
+from ..lines import DENIED
+from ..markup.prose import AROUND, is_whole
 from ..markup.prose import BRACED as DISPLAYSTYLE
 
 _ENVIRONMENTS = (

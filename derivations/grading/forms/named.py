@@ -13,7 +13,6 @@ from typing import Any
 
 from ...dialects.names import plain_name
 from ..grade_record import Grade
-from .usual.roles import Bodies
 
 ADDED = ("inertia", "damping", "drive", "spring")
 NAME = re.compile(r"[A-Za-z]\w*")
@@ -25,13 +24,13 @@ def is_text(data: Mapping[str, Any]) -> bool:
     return in_one and not {"bodies", "links"} & data.keys()
 
 
-def is_own(bodies: Bodies) -> bool:
+def is_own(bodies: Sequence[Mapping[str, Any]]) -> bool:
     """Whether it is the named mechanism and no kin: point masses, but where the text has a letter of an inertia."""
     quantities = [body[name] for body in bodies for name in ("mass", "length", "centre", "inertia") if name in body]
     return all(plain_name(value) is not None for value in quantities)
 
 
-def is_told_apart(nearest: Sequence[tuple[Grade, Bodies]]) -> bool:
+def is_told_apart(nearest: Sequence[tuple[Grade, Sequence[Mapping[str, Any]]]]) -> bool:
     """Whether all of these grades say the same mistakes, in terms with none of the letters whose role is tried."""
     causes = {tuple(sorted({f.cause for f in made.findings})) for made, _ in nearest}
     added = {plain_name(body[name]) for _, bodies in nearest for body in bodies for name in ADDED if name in body}

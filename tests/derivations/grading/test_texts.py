@@ -490,3 +490,8 @@ def test_a_lagrangian_of_names_alone_is_passed_over(tmp_path):
     found = graded(tmp_path, "mine.md", f"$$L = T - V$$\n{CART}", system="cart-pole")
     assert found.verdict == "correct"
     assert any("L = T - V" in note for note in found.notes)
+
+
+def test_two_letters_are_not_taken_for_one_angle():
+    with pytest.raises(InvalidInput, match="which mechanism it is about is not said"):
+        grade_text({"equations": ["l θ2'' + g sin θ = 0"]})

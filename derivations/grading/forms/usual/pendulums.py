@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ....dialects.names import plain_name
 from .letters import Letters
 from .poles import poles
 from .roles import FORCE, INERTIA, LENGTH, LOSS, MASS, REST, SPRING, TORQUE, Bodies, named
@@ -12,7 +13,10 @@ FEW = 3
 
 
 def pendulums(letters: Letters, angle: str) -> Iterator[Bodies]:
-    """A pendulum with this angle."""
+    """A pendulum with this angle; none for theta_2 where theta stands beside it."""
+    plain = plain_name(angle) or ""
+    if plain.rstrip("0123456789") in letters.names.keys() - {plain}:
+        return
     for mass in (*named(letters, MASS, but=[angle])[:FEW], "1"):
         for length in (*named(letters, LENGTH, but=[angle, mass])[:FEW], "1"):
             for pole in _poles(letters, length, mass):

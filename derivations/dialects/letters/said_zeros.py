@@ -11,9 +11,9 @@ import re
 from typing import Any
 
 from ....models.errors import InvalidInput
-from ..letters.every_text import is_fit
+from ..lines import DENIED
 from ..statements import is_program
-from .prose import DENIED
+from .every_text import is_fit
 
 TEXTS = ("equations", "lagrangian", "hamiltonian", "kinetic", "potential")
 _NAME = (
