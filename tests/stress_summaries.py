@@ -62,6 +62,11 @@ def document():
                              "series": [0.0, 1e-3]}],
             "verdict": ["It is physics."],
         },
+        "tree runs": [{
+            "engine": "mujoco", "integrator": "RK4", "motion": "top", "says": "a top without torque", "step": 0.01,
+            "closed": True, "holds at": 1.0, "fails at": 10.0, "failure": "phase", "reason": "the phase is off",
+            "runs": [{"time": 1.0, "phase error": 1e-9, "energy drift": 1e-12, "length drift": None, "failure": None}],
+        }],
     }  # fmt: skip
 
 
