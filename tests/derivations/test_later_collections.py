@@ -137,7 +137,10 @@ def judged_without_a_name(collection, name):
 
 
 @pytest.mark.slow
-@each(INSIDE)
+@pytest.mark.parametrize(
+    ("collection", "name"),
+    [pytest.param(*key, id=key[1], marks=() if k % 8 == 0 else pytest.mark.sweep) for k, key in enumerate(INSIDE)],
+)
 def test_without_the_name_of_its_mechanism_none_is_misjudged(collection, name):
     """What is right is right for the mechanism that is said then, or refused; what is wrong is refused."""
     found = judged_without_a_name(collection, name)
@@ -150,6 +153,7 @@ def test_without_the_name_of_its_mechanism_none_is_misjudged(collection, name):
 
 
 @pytest.mark.slow
+@pytest.mark.sweep
 def test_most_right_ones_find_their_mechanism_without_its_name():
     right = [key for key in INSIDE if ENTRIES[key]["verdict"] == "correct"]
     found = [key for key in right if judged_without_a_name(*key) is not None]

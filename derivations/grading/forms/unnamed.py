@@ -49,10 +49,11 @@ def _count(about: Mapping[str, Any]) -> int:
 
 def joints_of(about: Mapping[str, Any]) -> list[str] | None:
     """The joints of a usual mechanism, or of bodies that are declared; None of others."""
-    bodies = PRESETS.get(str(about.get("system"))) or about.get("bodies")
+    name = str(about.get("system"))
+    bodies = PRESETS.get(name) or about.get("bodies")
     if isinstance(bodies, list):
         return [_joint(body) for body in bodies if isinstance(body, dict)]
-    return None if about.get("system") not in WORDS else ["hinge "] * WORDS[about["system"]][1]
+    return ["hinge "] * WORDS[name][1] if name in WORDS else None
 
 
 def _joint(body: Mapping[str, Any]) -> str:

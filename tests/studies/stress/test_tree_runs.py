@@ -121,6 +121,7 @@ def test_a_run_says_how_long_each_step_keeps_to_it_in_words_and_on_the_page(tmp_
 
 
 @pytest.mark.slow
+@pytest.mark.sweep
 def test_a_thousand_seconds_are_known_of_every_integrator_and_step():
     found = stress(["tree runs"], ["mujoco", "exudyn-tree"], budget=240)
     assert {run.step for run in found.tree_runs} == set(STEPS)

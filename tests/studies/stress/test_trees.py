@@ -200,6 +200,7 @@ def test_frontiers_are_on_the_page_and_in_words(tmp_path, capsys):
 
 
 @pytest.mark.slow
+@pytest.mark.sweep
 def test_no_engine_that_is_right_is_beyond_the_bound_anywhere():
     """The bound of rounding is derived: on no rung of any ladder is a right engine beyond it."""
     found = stress(["trees"], ["kernels", "mujoco", "pin", "exudyn-tree"], budget=600)

@@ -90,6 +90,7 @@ def test_an_engine_that_flushes_subnormals_is_found_on_units_alone(monkeypatch):
 
 
 @pytest.mark.slow
+@pytest.mark.sweep
 def test_no_engine_that_is_right_is_beyond_the_bound_anywhere():
     """The bound of rounding, underflow included, is derived: on no rung of any axis is a right engine beyond it."""
     found = stress(["accelerations"], None, budget=600)
