@@ -13,7 +13,7 @@ from furiko.models.errors import InvalidInput
 
 HERE = Path(__file__).parent
 # As first tried, blind, 10 of 53 printed documents and 5 of 21 programs were read; what is read is not to become less.
-READ_SO_FAR = {"tenth_collection": 21, "tenth_programs": 5}
+READ_SO_FAR = {"tenth_collection": 30, "tenth_programs": 5}
 DOCUMENTS = [(c, n) for c in READ_SO_FAR for n, entry in index_of(HERE / c).items() if "text" in entry]
 
 
